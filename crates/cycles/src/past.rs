@@ -6,7 +6,7 @@ use num_complex::Complex;
 use std::cell::RefCell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
-use stickslip_tip::exponential::exponentials as fill;
+use stickslip_tip::exponential::with_inverses;
 use stickslip_tip::memory::{Fit, Term};
 use stickslip_tip::stop;
 
@@ -36,6 +36,8 @@ thread_local! {
     /// Buffers for reuse on this thread: a new allocation would take longer than writing them.
     static ROOM: RefCell<Vec<Numbers>> = const { RefCell::new(vec![]) };
 }
+/// Number of steps whose exponentials are computed together.
+const TOGETHER: usize = 16;
 /// Number of buffers kept, and their largest number of steps and terms.
 const MOST_KEPT: usize = 2;
 const LARGEST_KEPT: usize = 10_000;
@@ -49,6 +51,7 @@ impl Numbers {
         numbers.zeta.clear();
         numbers.exponentials.reserve(count);
         numbers.inverses.reserve(count);
+        numbers.spent.reserve(count);
         numbers
     }
 }
@@ -88,16 +91,27 @@ impl<'a> Past<'a> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
         let mut numbers = Numbers::with_room_for(count);
-        for (d, carved) in orbit.stages.iter().zip(carved) {
+        let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
+        for (steps, carved) in orbit.stages.chunks(TOGETHER).zip(carved.chunks(TOGETHER)) {
             if stop::is_asked() {
                 return None;
             }
-            let [stays, ..] = carved.at_end();
-            let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
-            let from = inverses.len();
-            fill(terms.iter().map(|term| term.exponent), d, exponentials, inverses);
-            for (term, inverse) in terms.iter().zip(&inverses[from..]) {
-                spent.push(term.weight * spent_in(inverse, &stays) * carved.times);
+            let from = exponentials.len();
+            for d in steps {
+                exponentials.extend(terms.iter().map(|term| d.map(|d| term.exponent * d)));
+            }
+            inverses.extend_from_slice(&exponentials[from..]);
+            with_inverses(
+                exponentials[from..].as_flattened_mut(),
+                inverses[from..].as_flattened_mut(),
+            );
+            for (carved, inverses) in carved.iter().zip(inverses[from..].chunks_exact(terms.len()))
+            {
+                let [stays, ..] = carved.at_end();
+                let of_term = |(term, inverse): (&Term, &[Complex<f64>; STAGES])| {
+                    term.weight * spent_in(inverse, &stays) * carved.times
+                };
+                spent.extend(terms.iter().zip(inverses).map(of_term));
             }
         }
         numbers.zeta.resize(count + terms.len(), Complex::ZERO);
@@ -144,7 +158,12 @@ impl<'a> Past<'a> {
 
 /// `Σ_k b_k e^{-s d_k}`
 fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
-    inverse.iter().zip(b).map(|(e, b)| e * *b).sum()
+    let mut sum = [0.0; 2];
+    for (e, b) in inverse.iter().zip(b) {
+        sum[0] += e.re * b;
+        sum[1] += e.im * b;
+    }
+    Complex::new(sum[0], sum[1])
 }
 
 impl PastOfStep<'_> {
@@ -156,24 +175,26 @@ impl PastOfStep<'_> {
 
     /// Slope of the groove of the history at the stages, divided by α.
     pub(super) fn slope(&self) -> Stages {
-        self.sum(|value, _| value.re)
+        self.sum(|zeta, _| zeta)
     }
 
     /// Curvature of this groove, divided by α.
     pub(super) fn curvature(&self) -> Stages {
-        self.sum(|value, term| (value * term.exponent).re)
+        self.sum(|zeta, term| zeta * term.exponent)
     }
 
     /// Height of this groove: u is -α times this.
     pub(super) fn height(&self) -> Stages {
-        self.sum(|value, term| (value / term.exponent).re)
+        self.sum(|zeta, term| zeta / term.exponent)
     }
 
-    fn sum(&self, part: impl Fn(Complex<f64>, &Term) -> f64) -> Stages {
+    /// `Σ_j Re(w_j e^{s_j d_i})` at the nodes, with a weight w of each ζ.
+    fn sum(&self, weight: impl Fn(Complex<f64>, &Term) -> Complex<f64>) -> Stages {
         let mut sums = [0.0; STAGES];
         for ((e, zeta), term) in self.exponentials.iter().zip(self.zeta).zip(self.terms) {
+            let weight = weight(*zeta, term);
             for (sum, e) in sums.iter_mut().zip(e) {
-                *sum += part(zeta * e, term);
+                *sum += weight.re * e.re - weight.im * e.im;
             }
         }
         std::array::from_fn(|i| sums[i] * self.left[i])

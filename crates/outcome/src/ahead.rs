@@ -4,7 +4,7 @@ use crate::merged::merged;
 use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::TipFunction;
-use stickslip_tip::exponential::exponentials;
+use stickslip_tip::exponential::with_inverses;
 use stickslip_tip::memory::{Fit, Retreat};
 
 /// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f' if an accurate one
@@ -59,23 +59,30 @@ impl<'a> Ahead<'a> {
 impl Sum {
     fn new(fit: Arc<Fit>, visits: &[(f64, f64)]) -> Self {
         let mut states: Vec<_> = fit.terms().iter().map(|_| Complex64::ZERO).collect();
-        let (mut e, mut inverse) = (vec![], vec![]);
+        let mut room = [vec![], vec![]];
         for (x, weight) in visits {
-            e.clear();
-            inverse.clear();
-            exponentials(fit.terms().iter().map(|t| t.exponent), &[*x], &mut e, &mut inverse);
-            states.iter_mut().zip(&e).for_each(|(state, [e])| *state += e * *weight);
+            let e = exponentials(&fit, *x, &mut room);
+            states.iter_mut().zip(e).for_each(|(state, e)| *state += e * *weight);
         }
         states.iter_mut().zip(fit.terms()).for_each(|(state, term)| *state *= term.weight);
         Self { fit, states }
     }
 
     fn at(&self, ahead: f64) -> f64 {
-        let (mut e, mut inverse) = (vec![], vec![]);
-        let exponents = self.fit.terms().iter().map(|term| term.exponent);
-        exponentials(exponents, &[ahead], &mut e, &mut inverse);
-        self.states.iter().zip(&e).map(|(state, [e])| (state * e).re).sum()
+        let mut room = [vec![], vec![]];
+        let e = exponentials(&self.fit, ahead, &mut room);
+        self.states.iter().zip(e).map(|(state, e)| (state * e).re).sum()
     }
+}
+
+/// e^{s x} for each term.
+fn exponentials<'a>(fit: &Fit, x: f64, room: &'a mut [Vec<Complex64>; 2]) -> &'a [Complex64] {
+    let [e, inverse] = room;
+    e.clear();
+    e.extend(fit.terms().iter().map(|term| term.exponent * x));
+    inverse.resize(e.len(), Complex64::ZERO);
+    with_inverses(e, inverse);
+    e
 }
 
 #[cfg(test)]

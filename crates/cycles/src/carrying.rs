@@ -1,6 +1,7 @@
 //! Displacements in a step as a linear function of the force at its stages.
 
-use super::blocks::{Square, Vector};
+use super::blocks::{Square, Vector, inverted};
+use std::sync::LazyLock;
 use stickslip_tip::Wider;
 use stickslip_tip::collocation::{RADAU, STAGES};
 use stickslip_tip::step::{Inertia, healing_rate};
@@ -9,6 +10,8 @@ use stickslip_tip::step::{Inertia, healing_rate};
 /// length.
 pub(super) struct Carrying {
     pub(super) by_force: Square,
+    /// The inverse of `by_force`.
+    pub(super) to_force: Square,
     pub(super) by_force_rate: Square,
     /// With inertia: displacement without a force.
     pub(super) glide: Option<Vector>,
@@ -17,14 +20,28 @@ pub(super) struct Carrying {
     pub(super) by_velocity: Option<Vector>,
 }
 
+/// A and its inverse.
+static BUTCHER: LazyLock<(Square, Square)> = LazyLock::new(|| {
+    let a = Square::from_fn(|i, k| RADAU.a[i][k]);
+    (a, inverted(a).expect("the matrix of Radau IIA is regular"))
+});
+
 impl Carrying {
-    /// The matrices of a step of length h that begins with this velocity.
-    pub(super) fn new(wider: &Wider, h: f64, velocity: f64) -> Self {
-        let a = Square::from_fn(|i, k| RADAU.a[i][k]);
+    /// The matrices of a step of length h that begins with this velocity; `None` if they are singular.
+    pub(super) fn new(wider: &Wider, h: f64, velocity: f64) -> Option<Self> {
+        let (a, inverse) = *BUTCHER;
         let Some(mass) = wider.inertia else {
-            let none = (None, None, None);
-            let (glide, glide_rate, by_velocity) = none;
-            return Self { by_force: a * h, by_force_rate: a, glide, glide_rate, by_velocity };
+            let (by_force, to_force) = (a * h, inverse / h);
+            let (glide, glide_rate, by_velocity) = (None, None, None);
+            let by_force_rate = a;
+            return Some(Self {
+                by_force,
+                to_force,
+                by_force_rate,
+                glide,
+                glide_rate,
+                by_velocity,
+            });
         };
         // A force carries by hA - H, a velocity by H = (1 + hA/M)⁻¹hA: what would fade within M.
         let unit = Inertia::new(mass, h, 1.0);
@@ -33,12 +50,14 @@ impl Carrying {
         let rate = Square::from_fn(|i, k| rate[i][k]);
         let glide = Vector::from(*unit.glide());
         let glide_rate = rate * Vector::from([1.0; STAGES]);
-        Self {
-            by_force: Square::from_fn(|i, k| carried[i][k]),
+        let by_force = Square::from_fn(|i, k| carried[i][k]);
+        Some(Self {
+            by_force,
+            to_force: inverted(by_force)?,
             by_force_rate: a - rate,
             glide: Some(glide * velocity),
             glide_rate: Some(glide_rate * velocity),
             by_velocity: Some(glide),
-        }
+        })
     }
 }

@@ -21,8 +21,8 @@ pub(super) struct Carved {
     bare: Matrix,
     /// h, or 1 if the surface heals.
     pub(super) times: f64,
-    /// ∂`b_ik`/∂h
-    bare_rate: Matrix,
+    /// ∂`b_ik`/∂h if the surface heals; else it is `bare`.
+    bare_rate: Option<Matrix>,
     /// Decay factors of earlier contributions at the nodes.
     pub(super) left: Stages,
     /// Logarithmic derivative of the decay with respect to h.
@@ -38,8 +38,8 @@ impl Carved {
     pub(super) fn new(wider: &Wider, h: f64, heights: Option<&Heights>) -> Self {
         let unit = carving(1.0);
         let (bare, times, bare_rate) = match wider.healing_time {
-            None => (unit, h, unit),
-            Some(time) => (healing(h, time), 1.0, healing_rate(h, time)),
+            None => (unit, h, None),
+            Some(time) => (healing(h, time), 1.0, Some(healing_rate(h, time))),
         };
         let rate = wider.healing_time.map_or(0.0, f64::recip);
         let depth = wider.depth_limit.zip(heights);
@@ -70,12 +70,14 @@ impl Carved {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])
         };
         let by_height = row(&self.bare, &self.by_height).map(|b| b * self.times);
-        [row(&self.bare, &self.weights), row(&self.bare_rate, &self.weights), by_height]
+        let stays = row(&self.bare, &self.weights);
+        let rate = self.bare_rate.as_ref().map_or(stays, |rate| row(rate, &self.weights));
+        [stays, rate, by_height]
     }
 
-    /// ∂`b_ik w_k`/∂h
-    pub(super) fn rate(&self) -> Matrix {
-        by_columns(&self.bare_rate, &self.weights)
+    /// ∂`b_ik w_k`/∂h if the surface heals; else it is [`weighted`](Self::weighted).
+    pub(super) fn rate(&self) -> Option<Matrix> {
+        self.bare_rate.as_ref().map(|rate| by_columns(rate, &self.weights))
     }
 
     /// ∂`b_ik w_k`/∂`η_k`

@@ -45,7 +45,7 @@ impl LinearHeights {
         let alpha = equation.alpha;
         let (mut groove, mut rate) = ([0.0; STAGES], [0.0; STAGES]);
         own_height.add(&weighted, &mut groove);
-        own_height.add(&carved.rate(), &mut rate);
+        own_height.add(carved.rate().as_ref().unwrap_or(&weighted), &mut rate);
         let groove = Vector::from_fn(|i, _| told[i] + groove[i] * times);
         let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading[i] * told[i]);
         let q = Square::from_fn(|i, k| alpha * changing[i][k] * values[i][k]) + Square::identity();

@@ -162,6 +162,7 @@ pub(super) fn along(
         let (carved, heights) = (&carved[n], orbit.heights.get(n));
         let step = Solved { extension, velocity, h, d, heights, carved };
         let step = LinearStep::new(equation, (past.of_step(n), solved.of_step(n)), step);
+        let step = step.ok_or(Singular)?;
         each(n, &step, ends[1] - ends[0]).ok_or(Singular)?;
         extension += equation.r * h - d[STAGES - 1];
         velocity = velocity_at_end(d, h);

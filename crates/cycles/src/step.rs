@@ -72,12 +72,13 @@ pub(super) struct Solved<'a> {
 }
 
 impl<'a> LinearStep<'a> {
-    /// `told` is the history in which the equations are solved, `past` the one in which they are linearised.
+    /// `told` is the history in which the equations are solved, `past` the one in which they are linearised. `None` if
+    /// the equations are singular.
     pub(super) fn new(
         equation: &'a Embedding,
         (past, told): (PastOfStep<'a>, PastOfStep<'_>),
         step: Solved<'a>,
-    ) -> Self {
+    ) -> Option<Self> {
         let Solved { extension, h, d, carved, .. } = step;
         let law = equation.law();
         let between = OwnGroove::new(&equation.tip, d);
@@ -87,8 +88,12 @@ impl<'a> LinearStep<'a> {
         between.add_slope(&weighted, &mut own);
         between.add_derivatives(&weighted, &mut own_slope);
         let (own, pull) = (Vector::from(own), law.pull(extension, h));
-        let mut rate = [0.0; STAGES];
-        between.add_slope(&carved.rate(), &mut rate);
+        // Without healing the weights grow in proportion to h.
+        let mut rate = carved.rate().map_or(<[f64; STAGES]>::from(own), |weights| {
+            let mut rate = [0.0; STAGES];
+            between.add_slope(&weights, &mut rate);
+            rate
+        });
         for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading.iter().zip(&past_slope)) {
             *rate += fading * slope;
         }
@@ -105,7 +110,7 @@ impl<'a> LinearStep<'a> {
         if let Some(heights) = &heights {
             velocity_slope -= heights.stiffness();
         }
-        Self {
+        Some(Self {
             equation,
             past,
             carved,
@@ -115,10 +120,10 @@ impl<'a> LinearStep<'a> {
             velocity_slope,
             groove,
             groove_rate: Vector::from(rate),
-            carrying: Carrying::new(&equation.wider, h, step.velocity),
+            carrying: Carrying::new(&equation.wider, h, step.velocity)?,
             heights,
             missed: law.alpha * carved.times * missed(&equation.tip, d, &between),
-        }
+        })
     }
 
     /// Data for the mesh: the largest stiffness 1 + u_xx within the step, and its quadrature error.
@@ -137,13 +142,12 @@ impl<'a> LinearStep<'a> {
         state: &mut Sensitivity,
         room: &mut Factors,
     ) -> Option<(Sensitivity, Option<Sensitivity>)> {
-        let Carrying { by_force, .. } = &self.carrying;
-        let inverse = inverted(Square::identity() - by_force * self.velocity_slope)?;
-        let gain = inverse * by_force;
+        // With H = by_force and V = ∂v/∂d, δd = (1 - HV)⁻¹ H δv = (H⁻¹ - V)⁻¹ δv.
+        let gain = inverted(self.carrying.to_force - self.velocity_slope)?;
         let told = self.heights_by_state();
-        self.stages_by_state(&told, &inverse, &gain, &mut room.of_stages);
+        self.stages_by_state(&told, &gain, &mut room.of_stages);
         let mut stages = state.contracted(&room.of_stages);
-        let constants = self.constants(free, share, &inverse, &gain);
+        let constants = self.constants(free, share, &gain);
         for i in 0..STAGES {
             for (column, constant) in stages.constants(i).iter_mut().zip(&constants) {
                 *column += constant[i];
@@ -158,14 +162,8 @@ impl<'a> LinearStep<'a> {
     }
 
     /// Changes of the displacements with the period, with the free parameter, and to solve the equations.
-    fn constants(
-        &self,
-        free: Parameter,
-        share: f64,
-        inverse: &Square,
-        gain: &Square,
-    ) -> [Vector; 3] {
-        let Carrying { by_force, by_force_rate, glide, glide_rate, .. } = &self.carrying;
+    fn constants(&self, free: Parameter, share: f64, gain: &Square) -> [Vector; 3] {
+        let Carrying { by_force, to_force, by_force_rate, glide, glide_rate, .. } = &self.carrying;
         let advance = Vector::from_fn(|i, _| self.equation.r * RADAU.c[i]);
         let mut by_length = self.groove_rate * self.equation.alpha + advance;
         let mut by_parameter = match free {
@@ -185,17 +183,12 @@ impl<'a> LinearStep<'a> {
                 by_parameter += heights.force_by_alpha();
             }
         }
-        [(inverse * lengthened + gain * by_length) * share, gain * by_parameter, inverse * missed]
+        let by_length = (to_force * lengthened + by_length) * share;
+        [by_length, by_parameter, to_force * missed].map(|force| gain * force)
     }
 
     /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is the derivative of the heights.
-    fn stages_by_state(
-        &self,
-        told: &[Vector],
-        inverse: &Square,
-        gain: &Square,
-        into: &mut Vec<Stages>,
-    ) {
+    fn stages_by_state(&self, told: &[Vector], gain: &Square, into: &mut Vec<Stages>) {
         let modes = self.past.terms.len();
         into.clear();
         into.resize(1 + 2 * modes, [0.0; STAGES]);
@@ -209,7 +202,8 @@ impl<'a> LinearStep<'a> {
                 *stages = Stages::from(Vector::from(*stages) + gain * heights.force(told));
             }
         }
-        into.extend(self.carrying.by_velocity.map(|glide| Stages::from(inverse * glide)));
+        let Carrying { to_force, by_velocity, .. } = &self.carrying;
+        into.extend(by_velocity.map(|glide| Stages::from(gain * (to_force * glide))));
     }
 
     /// ∂g/∂X of the heights -α g, by component of X; empty without a depth limit.
@@ -354,7 +348,8 @@ mod tests {
             let slope = past.of_step(n).slope();
             let (velocity, carved) = (0.0, &carved[n]);
             let solved = Solved { extension, velocity, h, d, heights: None, carved };
-            let step = LinearStep::new(equation, (past.of_step(n), past.of_step(n)), solved);
+            let step =
+                LinearStep::new(equation, (past.of_step(n), past.of_step(n)), solved).unwrap();
             let (mut told, mut curvature) = (zero, zero);
             memory.groove(d, &mut Groove::new(&mut told, &mut curvature));
             let near = |a: f64, b: f64, allowed: f64, what: &str| {

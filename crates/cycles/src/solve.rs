@@ -60,7 +60,7 @@ const ESTIMATE_FALLS_SHORT: f64 = 0.7;
 /// Residual that can be reached, in units of the residual below which meshes no longer help.
 const MARGIN: f64 = 2.0;
 /// Largest size of the last correction: its error is of the order of its square.
-const ENOUGH: f64 = 1e-9;
+const ENOUGH: f64 = 1e-8;
 /// Size of a correction that is sufficient for the refinement of the mesh.
 const ENOUGH_FOR_A_MESH: f64 = 1e-6;
 /// Corrections below this that no longer decrease are round-off.
@@ -77,7 +77,11 @@ const TOO_FAR: usize = 3;
 const FAR_BEYOND: f64 = 30.0;
 /// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it: the
 /// solution on it begins with the fine sum.
-const NEARLY_MET: f64 = 10.0;
+const NEARLY_MET: f64 = 100.0;
+/// A mesh whose residual is farther off than this many times the allowed one tells roughly what mesh meets it. The next
+/// one aims at a multiple of the allowed residual, and costs half as much.
+const FAR_OFF: f64 = 3000.0;
+const HALFWAY: f64 = 40.0;
 /// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that
 /// amplify deviations amplify its errors.
 const SLOW: f64 = 0.1;
@@ -143,7 +147,9 @@ pub(super) fn close_if(
                 let is_fine = residual <= ESTIMATE_FALLS_SHORT * allowed;
                 let moved = if is_fine { orbit.moved_to(&corners) } else { None };
                 short_of_it += usize::from(!is_fine);
-                let aim = Aim::of_round(short_of_it, allowed, equation.wider.inertia.is_some());
+                let is_far = equation.wider.is_papers() && residual > FAR_OFF * allowed;
+                let wanted = if is_far { HALFWAY * allowed } else { allowed };
+                let aim = Aim::of_round(short_of_it, wanted, equation.wider.inertia.is_some());
                 let mesh = moved
                     .unwrap_or_else(|| adapted(&orbit, equation.band, (&residuals, aim), &corners));
                 if mesh.len() > MOST_STEPS {

@@ -26,6 +26,8 @@ pub struct Host {
 pub enum Supply {
     /// The text of the file.
     Text(String),
+    /// The content of a file that is no text.
+    Bytes(Vec<u8>),
     /// The document in the file.
     Document(Arc<dyn Document>),
 }
@@ -69,7 +71,7 @@ pub(crate) fn give(made: impl FnOnce() -> Made) {
 pub(crate) fn document<D: Any + Clone>(path: &Path) -> Option<D> {
     match current()?.supplies.get(path)? {
         Supply::Document(document) => document.any().downcast_ref::<D>().cloned(),
-        Supply::Text(_) => None,
+        Supply::Text(_) | Supply::Bytes(_) => None,
     }
 }
 
@@ -77,6 +79,7 @@ pub(crate) fn document<D: Any + Clone>(path: &Path) -> Option<D> {
 pub(crate) fn bytes(path: &Path) -> Option<Vec<u8>> {
     match current()?.supplies.get(path)? {
         Supply::Text(text) => Some(text.clone().into_bytes()),
+        Supply::Bytes(bytes) => Some(bytes.clone()),
         Supply::Document(document) => serde_json::to_vec(document.serialized()).ok(),
     }
 }

@@ -20,10 +20,11 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// As a main thread has.
 const STACK: usize = 8 << 20;
 
-/// A file from memory: its text, or the document that it would hold.
+/// A file from memory: its text or bytes, or the document that it would hold.
 #[derive(FromPyObject)]
 pub(crate) enum Given {
     Text(String),
+    Bytes(Vec<u8>),
     Document(Py<Document>),
 }
 
@@ -55,6 +56,7 @@ pub(crate) fn call(
 fn supply(py: Python<'_>, given: Given) -> PyResult<Supply> {
     Ok(match given {
         Given::Text(text) => Supply::Text(text),
+        Given::Bytes(bytes) => Supply::Bytes(bytes),
         Given::Document(document) => {
             let copy = document.get().whole(py, |document| document.copy())?;
             Supply::Document(Arc::from(copy))

@@ -30,6 +30,7 @@ from ._commands import (
     units,
     verify,
 )
+from ._instruments import open  # noqa: A004
 from ._picture import Picture
 from ._records import Record
 from ._results import (
@@ -53,6 +54,7 @@ from ._warning import StickslipWarning
 
 __version__ = "0.1.0"
 
+# Without `open`: a star import leaves that of Python alone.
 __all__ = [
     "BoundaryResult",
     "ContinueResult",

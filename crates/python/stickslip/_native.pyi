@@ -32,7 +32,7 @@ class Document:
 
 def call(
     words: Sequence[str],
-    supplies: Sequence[tuple[str, str | Document]],
+    supplies: Sequence[tuple[str, str | bytes | Document]],
     progress: Callable[[float | None, str], object] | None = None,
 ) -> tuple[Document | None, list[str]]: ...
 def load(path: str) -> Document: ...

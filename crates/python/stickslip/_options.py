@@ -7,10 +7,13 @@ from collections import namedtuple
 from decimal import Decimal
 from numbers import Integral, Real
 
-from . import _native
+from . import _native, _scans
 from ._results import Result
 
 Option = namedtuple("Option", "name is_positional value delimiter is_repeatable help")
+
+# What may be an image.
+IMAGES = {"measured"}
 
 # What is printed is for a shell: here the document itself is had.
 FOR_A_SHELL = {"print", "format"}
@@ -100,8 +103,12 @@ class Asked:
         """The name of a file, or a name for what is none."""
         if isinstance(value, (str, os.PathLike)):
             return os.fspath(value)
-        place = f"<{name}>"
-        self.supplies.append((place, supplied(name, value)))
+        if _scans.is_dataset(value) and name != "area":
+            value = _scans.heights(name, value)
+        is_image = _scans.is_array(value) and value.ndim > 1 and name in IMAGES
+        # The program knows an image by its ending.
+        place = f"<{name}>.gsf" if is_image else f"<{name}>"
+        self.supplies.append((place, _scans.image_file(name, value) if is_image else supplied(name, value)))
         return place
 
 
@@ -153,8 +160,18 @@ def supplied(name, value):
         return value._document
     if isinstance(value, dict) and not is_columns(value):
         return json.dumps(value, default=plain)
-    headings, columns = table(name, value)
+    headings, columns = scanned(name, value) or table(name, value)
     return heading(headings) + _native.csv(columns)
+
+
+def scanned(name, value):
+    """Headings and columns of profiles of an image, or of the lines of an area; None of anything else."""
+    if _scans.is_dataset(value):
+        return _scans.area_columns(name, value)
+    arrays = list(value) if isinstance(value, (tuple, list)) else [value]
+    if arrays and all(_scans.is_array(array) for array in arrays):
+        return _scans.profile_columns(name, arrays)
+    return None
 
 
 def is_columns(value):

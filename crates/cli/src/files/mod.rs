@@ -9,6 +9,7 @@ pub(crate) mod gsf;
 pub(crate) mod heading;
 mod in_model_units;
 pub(crate) mod input;
+mod instrument;
 pub(crate) mod journal;
 pub(crate) mod lines;
 mod lock;

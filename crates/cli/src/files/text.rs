@@ -1,6 +1,7 @@
 //! Text files from users or from a host, with a size limit.
 
 use super::decode::decoded;
+use super::instrument;
 use crate::failure::Failure;
 use crate::host;
 use std::fs::File;
@@ -12,7 +13,9 @@ pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 
 /// The text of a file (`-`: standard input) in any usual encoding; an error if it is larger than `most` bytes.
 pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    decoded(read_bytes(option, path, most)?)
+    let bytes = read_bytes(option, path, most)?;
+    instrument::judge(path, &bytes)
+        .and_then(|()| decoded(bytes))
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 

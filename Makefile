@@ -103,7 +103,7 @@ test-site: ## the page in a Chromium beside the program, and every link of the b
 	.ci/site
 	cd crates/web && node --test test/crew.test.mjs test/site.test.mjs test/page.test.mjs
 
-dist: ## for Linux, in target/dist: an archive with its checksum and a .deb, with man pages and completions (glibc 2.28)
+dist: ## for Linux, in target/dist: archives and .deb for x86-64 and arm64 with man pages, completions and notices; lists of parts; checksums
 	.ci/dist
 
 clean: ## remove what building made

@@ -4,7 +4,7 @@
     tests/outputs/compare.py OLD NEW [COMMANDS [CHANGES]]
 
 Runs every line of commands.txt with both programs, each in a folder of its own, and compares what they print and
-each file that they write. Times (`seconds`) may differ, and pictures are not compared. What differs is taken apart:
+each file that they write. Times (`seconds`) and the commit of a build may differ, and pictures are not compared. What differs is taken apart:
 JSON into its fields, JSON Lines, CSV and NumPy archives into their columns; numbers by how much. changes.txt says
 which change explains which of it, and lets nothing else pass: the exit status is 1 if anything is left.
 """
@@ -25,7 +25,7 @@ import tempfile
 import zipfile
 
 HERE = pathlib.Path(__file__).parent
-TIMES = re.compile(r"(seconds|speedup)$")
+OF_A_BUILD = re.compile(r"(seconds|speedup|software\.(commit|clean))$")
 
 INPUTS = {
     "surface.csv": "x,u\n" + "".join(f"{x},{0.02 * (x % 3) - 0.02}\n" for x in range(20, 60)),
@@ -157,7 +157,7 @@ def differences(line, name, old, new):
         yield Difference(line, name, "bytes", "changed", None)
         return
     for field in dict.fromkeys([*a, *b]):
-        if TIMES.search(field):
+        if OF_A_BUILD.search(field):
             continue
         if field not in a or field not in b:
             yield Difference(line, name, field, "without" if field in a else "with", None)

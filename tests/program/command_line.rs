@@ -3,6 +3,7 @@
 
 use crate::folder::{Folder, said, wait_until_it_listens};
 use serde_json::{Value, json};
+use std::process::Command;
 
 #[test]
 fn a_document_is_json_on_standard_output_unless_a_file_is_named() {
@@ -220,7 +221,52 @@ fn the_help_of_every_command_shows_an_example() {
         assert!(examples.contains(&format!("stickslip {command}")), "{command}:\n{text}");
     }
     assert!(help("run --help").contains("[default: 1e-9]"));
-    assert!(help("--version").starts_with("stickslip "));
+}
+
+#[test]
+fn the_version_is_one_line_and_its_details_another() {
+    let folder = Folder::new("version");
+    let printed = |option: &str| String::from_utf8(folder.prints(option)).unwrap();
+    let (short, long) = (printed("-V"), printed("--version"));
+    assert_eq!(short, format!("stickslip {}\n", env!("CARGO_PKG_VERSION")));
+    let details = long.strip_prefix(&short).unwrap_or_else(|| panic!("{long}"));
+    let software = &folder.prints_json("stability --r 1")["software"];
+    let named = software["commit"].as_str().map(|commit| {
+        let tree = if software["clean"] == true { "clean" } else { "with changes" };
+        format!("commit {commit}, {tree}\n")
+    });
+    assert_eq!(details, named.unwrap_or("commit unknown\n".into()));
+}
+
+/// The script, loaded by bash itself and asked what comes next.
+#[test]
+fn bash_completes_commands_and_options() {
+    let folder = Folder::new("completions");
+    folder.write("stickslip.bash", folder.prints("completions bash"));
+    for (line, wanted) in [
+        ("stickslip sta", "stability"),
+        ("stickslip comple", "completions"),
+        ("stickslip run --alpha-a", "--alpha-above"),
+        ("stickslip sweep raster --pit", "--pitch"),
+        ("stickslip cycle --tip gau", "gaussian"),
+        ("stickslip completions f", "fish"),
+    ] {
+        let words = line.split(' ').count();
+        let script = format!(
+            "source ./stickslip.bash; COMP_WORDS=({line}); COMP_CWORD={}; \
+             _stickslip stickslip \"${{COMP_WORDS[-1]}}\" \"${{COMP_WORDS[-2]}}\"; echo \"${{COMPREPLY[@]}}\"",
+            words - 1
+        );
+        let mut bash = Command::new("bash");
+        let output = bash.args(["-c", &script]).current_dir(folder.path(".")).output().unwrap();
+        let offered = String::from_utf8(output.stdout).unwrap();
+        assert!(offered.split_whitespace().any(|word| word == wanted), "{line}: {offered}");
+    }
+    for shell in ["zsh", "fish"] {
+        let script = String::from_utf8(folder.prints(&format!("completions {shell}"))).unwrap();
+        assert!(script.contains("alpha-above") && script.contains("stability"), "{shell}");
+    }
+    folder.refuses("completions tcsh", &["tcsh", "bash"]);
 }
 
 #[cfg(unix)]

@@ -24,6 +24,7 @@ mod figures;
 mod fit_command;
 mod image_files;
 mod interrupts;
+mod origin;
 mod outcomes;
 mod parameters;
 mod people;

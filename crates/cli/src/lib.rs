@@ -86,6 +86,7 @@ fn done(command: &Command) -> Result<(), Failure> {
         Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
+        Command::Completions(arguments) => commands::completions::completions(arguments),
     }
 }
 

@@ -58,8 +58,9 @@ pub(crate) use verify::VerifyArguments;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use examples::examples;
-use stickslip::SCHEMAS;
+use stickslip::{SCHEMAS, Software};
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
 ///
@@ -67,7 +68,7 @@ use stickslip::SCHEMAS;
 /// it sticks, slips and writes ripples. All quantities are dimensionless: lengths in tip widths σ, times in Γ/k,
 /// forces in kσ, heights in kσ²/a; --units, or --sigma and related options, report results in nm, s and nN.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, after_help = examples(EXAMPLES))]
+#[command(name = "stickslip", version, long_version = Software::BUILD, after_help = examples(EXAMPLES))]
 pub(crate) struct Cli {
     /// Print only errors: no progress, no warnings, no summary.
     #[arg(short, long, global = true)]
@@ -114,6 +115,7 @@ const EXAMPLES: &str = "Examples:
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
   stickslip schema run
+  stickslip completions bash
 
 `stickslip COMMAND --help` explains each command and gives examples.";
 
@@ -137,6 +139,7 @@ pub(crate) enum Command {
     Plot(PlotArguments),
     Figures(FiguresArguments),
     Schema(SchemaArguments),
+    Completions(CompletionsArguments),
 }
 
 /// Print the JSON Schema of a document.
@@ -146,4 +149,15 @@ pub(crate) struct SchemaArguments {
     /// Kind of document.
     #[arg(value_parser = PossibleValuesParser::new(SCHEMAS.map(|(name, _)| name)))]
     pub(crate) name: String,
+}
+
+/// Print the completions of the command line for a shell.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  bash: stickslip completions bash > ~/.local/share/bash-completion/completions/stickslip
+  zsh:  stickslip completions zsh > FOLDER/_stickslip, FOLDER being one of $fpath
+  fish: stickslip completions fish > ~/.config/fish/completions/stickslip.fish")]
+pub(crate) struct CompletionsArguments {
+    /// Shell to complete commands in.
+    pub(crate) shell: Shell,
 }

@@ -3,6 +3,7 @@
 mod ask;
 pub(crate) mod boundary;
 pub(crate) mod compare;
+pub(crate) mod completions;
 pub(crate) mod continuation;
 pub(crate) mod cycle;
 pub(crate) mod figures;

@@ -93,10 +93,10 @@ impl CheckpointHead {
     /// The value of the field `format`.
     pub const FORMAT: &'static str = "stickslip/checkpoint";
 
-    /// Whether this version of the program wrote it: no other version can resume it.
+    /// Whether this build of the program wrote it: no other version or commit can resume it.
     pub fn is_of_this_program(&self) -> bool {
         self.format == Self::FORMAT
             && self.format_version == FORMAT_VERSION
-            && self.software.version == Software::this().version
+            && self.software == Software::this()
     }
 }

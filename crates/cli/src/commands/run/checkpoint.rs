@@ -147,10 +147,9 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     let head: CheckpointHead =
         serde_json::from_slice(&body[..line]).map_err(|error| format!("is damaged: {error}"))?;
     if !head.is_of_this_program() {
-        let Software { name, version } = &head.software;
         return Err(format!(
-            "was made by {name} {version}, {} {}: only that version reproduces every bit; resume it with that version",
-            head.format, head.format_version
+            "was made by {}, {} {}: only that version reproduces every bit; resume it with that version",
+            head.software, head.format, head.format_version
         ));
     }
     let (words, rest) = body[line + 1..].as_chunks::<8>();

@@ -1,27 +1,11 @@
-//! What the program is built from: licences that may be shipped with it, crates from the registry and
-//! nowhere else, no `unsafe` of our own, no feature that nobody asked for. The oracle is Cargo's own
-//! metadata and the lock file.
+//! What the program is built from: no `unsafe` of our own, no feature that nobody asked for, notices of all that is in
+//! it. The oracle is Cargo's own metadata and the lock file. Licences, sources and bans: `.ci/deny`.
 
+use crate::folder::Folder;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// Licences that allow use, change and sale for a notice at most.
-const LICENCES: [&str; 12] = [
-    "0BSD",
-    "Apache-2.0",
-    "Apache-2.0 WITH LLVM-exception",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "BSL-1.0",
-    "MIT",
-    "MIT-0",
-    "Unicode-3.0",
-    "Unlicense",
-    "Zlib",
-    "ISC",
-];
+use std::process::{Command, Stdio};
 
 /// Files that may say `unsafe`, each with a reason at its top. The lint `unsafe_code = "forbid"` has to
 /// be lifted there too.
@@ -57,79 +41,6 @@ fn is_ours(package: &Value) -> bool {
     package["source"].is_null()
 }
 
-/// Whether a licence expression (SPDX, or with / as older crates write OR) can be met.
-fn acceptable(expression: &str) -> bool {
-    let spaced = expression.replace('(', " ( ").replace(')', " ) ").replace('/', " OR ");
-    let words: Vec<&str> = spaced.split_whitespace().collect();
-    any_of(&words).is_some_and(|(accepted, rest)| accepted && rest.is_empty())
-}
-
-/// Whether the expression at the start is met, and the words after it; `None` where there is none.
-type Read<'a> = Option<(bool, &'a [&'a str])>;
-
-/// A OR B OR …
-fn any_of<'a>(words: &'a [&'a str]) -> Read<'a> {
-    let (accepted, rest) = all_of(words)?;
-    match rest.split_first() {
-        Some((&"OR", after)) => any_of(after).map(|(other, rest)| (accepted || other, rest)),
-        _ => Some((accepted, rest)),
-    }
-}
-
-/// A AND B AND …
-fn all_of<'a>(words: &'a [&'a str]) -> Read<'a> {
-    let (accepted, rest) = one(words)?;
-    match rest.split_first() {
-        Some((&"AND", after)) => all_of(after).map(|(other, rest)| (accepted && other, rest)),
-        _ => Some((accepted, rest)),
-    }
-}
-
-/// A licence, perhaps with an exception, or an expression in parentheses.
-fn one<'a>(words: &'a [&'a str]) -> Read<'a> {
-    match words {
-        ["(", inner @ ..] => match any_of(inner)? {
-            (accepted, [")", rest @ ..]) => Some((accepted, rest)),
-            _ => None,
-        },
-        [name, "WITH", exception, rest @ ..] => {
-            Some((LICENCES.contains(&format!("{name} WITH {exception}").as_str()), rest))
-        }
-        [name, rest @ ..] => Some((LICENCES.contains(name), rest)),
-        [] => None,
-    }
-}
-
-#[test]
-fn licence_expressions_are_read_as_they_are_meant() {
-    for good in ["MIT", "MIT/Apache-2.0", "(MIT OR GPL-3.0) AND Unicode-3.0", "GPL-3.0 OR Zlib"] {
-        assert!(acceptable(good), "{good}");
-    }
-    for bad in ["GPL-3.0", "MIT AND GPL-3.0", "(MIT", "MIT OR", "", "MIT WITH something", "MIT GPL"]
-    {
-        assert!(!acceptable(bad), "{bad}");
-    }
-}
-
-#[test]
-fn every_dependency_has_a_licence_that_may_be_shipped() {
-    for package in packages() {
-        let licence = package["license"].as_str().unwrap_or_default();
-        assert!(acceptable(licence), "{}: {licence:?}", package["name"]);
-    }
-}
-
-#[test]
-fn every_dependency_comes_from_the_registry_with_a_checksum() {
-    for package in packages().iter().filter(|package| !is_ours(package)) {
-        let source = package["source"].as_str().unwrap();
-        assert!(source.starts_with("registry+"), "{}: {source}", package["name"]);
-    }
-    let lock = fs::read_to_string(root().join("Cargo.lock")).unwrap();
-    let count = |words: &str| lock.lines().filter(|line| line.starts_with(words)).count();
-    assert_eq!(count("source = "), count("checksum = "));
-}
-
 #[test]
 fn default_features_are_asked_for_only_where_they_are_wanted() {
     let all = packages();
@@ -163,6 +74,79 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             found.push(path);
         }
+    }
+}
+
+/// Against `cargo tree`, which resolves features where the list takes all that Cargo's metadata has.
+#[cfg(target_os = "linux")]
+#[test]
+fn every_crate_that_is_linked_has_its_notice_and_is_listed() {
+    let folder = Folder::new("contents");
+    let target = &format!("{}-unknown-linux-gnu", std::env::consts::ARCH);
+    let python =
+        Command::new("python3").args(["-c", "import tomllib"]).stderr(Stdio::null()).status();
+    if !python.is_ok_and(|status| status.success()) {
+        eprintln!("no Python 3.11 or later: no list of the parts to compare");
+        return;
+    }
+    let run = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).current_dir(root()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let place = folder.path(".").to_str().unwrap().to_owned();
+    run("python3", &["packages/contents.py", "stickslip-cli", target, &place]);
+    let notices = String::from_utf8(folder.read("THIRD-PARTY-NOTICES.txt")).unwrap();
+    let listed = folder.json("stickslip-cli.cdx.json");
+    let components = listed["components"].as_array().unwrap();
+    let tree =
+        ["tree", "--locked", "--package", "stickslip-cli", "--edges", "normal", "--target", target];
+    let tree = [&tree[..], &["--prefix", "none", "--format", "{p}"]].concat();
+    let tree = run(env!("CARGO"), &tree);
+    let linked: Vec<(&str, &str)> = tree.lines().filter_map(|line| line.split_once(" v")).collect();
+    assert!(linked.len() > 150, "{}", linked.len());
+    for (name, version) in linked.into_iter().filter(|(name, _)| *name != "stickslip-cli") {
+        let version = version.split(' ').next().unwrap();
+        let is = |part: &&Value| part["name"] == name && part["version"] == version;
+        let part = components.iter().find(is).unwrap_or_else(|| panic!("{name} {version}"));
+        if !name.starts_with("stickslip") {
+            assert!(notices.contains(&format!("\n{name} {version}: ")), "{name} {version}");
+            assert_eq!(part["hashes"][0]["alg"], "SHA-256", "{name}");
+        }
+    }
+    // The font within one of them has terms of its own.
+    for words in ["Bitstream Vera", "Apache License", "Unicode, Inc."] {
+        assert!(notices.contains(words), "{words}");
+    }
+}
+
+/// Every action of a workflow is named by its commit, which nobody can move, and rights are asked for by each job.
+#[test]
+fn workflows_name_actions_by_commit_and_ask_for_few_rights() {
+    for name in ["check", "release"] {
+        let file = root().join(format!(".github/workflows/{name}.yml"));
+        let text = fs::read_to_string(file).unwrap();
+        assert!(text.contains("\npermissions: {}\n"), "{name}");
+        let uses: Vec<&str> = text
+            .lines()
+            .filter_map(|line| line.split_once("uses: "))
+            .map(|(_, action)| action)
+            .collect();
+        assert!(!uses.is_empty());
+        for action in uses {
+            let (commit, version) = action.split_once('@').unwrap().1.split_once(" # v").unwrap();
+            assert!(
+                commit.len() == 40 && commit.bytes().all(|b| b.is_ascii_hexdigit()),
+                "{action}"
+            );
+            assert!(version.split('.').count() == 3, "{action}");
+        }
+        let writes = text.matches(": write").count();
+        assert_eq!(
+            writes,
+            usize::from(name == "release"),
+            "{name}: only the draft of a release writes"
+        );
     }
 }
 

@@ -17,7 +17,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision timings figures peers fuzz doc \
+.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision reference timings figures peers fuzz doc \
 	install site test-site dist clean
 
 help: ## list these verbs
@@ -74,6 +74,9 @@ bench: ## measure: cost per step, whole runs, surfaces
 
 work-precision: ## measure time against error, into data/work_precision.json, which `figures` draws
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json
+
+reference: ## write the generated pages of docs/reference anew, from `--help` and the schemas
+	STICKSLIP_WRITE_REFERENCE=1 $(CARGO) test --locked -p stickslip-cli --test program reference::
 
 timings: ## time whole commands, processor and memory, into data/commands.json, which README.md and docs quote (two minutes)
 	$(CARGO) build --release --locked

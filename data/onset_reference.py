@@ -1,7 +1,7 @@
 """Small limit cycles near onset by harmonic balance, the oracle for the first Lyapunov coefficient.
 
 Writes onset_reference.json beside this file. Needs numpy (2.x) and scipy (1.x). Nothing of the expansion
-in docs/stability.md is used: the periodic solutions of (18) are solved in full.
+in docs/explanation/linear-theory.md is used: the periodic solutions of (18) are solved in full.
 
 l(t) = Σ c_k e^{ikωt}, |k| ≤ K, put into (18) at 2K+1 points of a period; the memory integral by
 Gauss-Legendre panels in rτ over the reach of f. αc and ω come from (42), (43) with the same panels.

@@ -7,7 +7,7 @@
     python3 -m venv VENV && VENV/bin/pip install mpmath==1.4.1 numpy
     VENV/bin/python data/reference_values.py > data/reference_values.json
 
-Equation numbers are the paper's; docs/mathematics.md derives the formulas. Whatever has a closed form is
+Equation numbers are the paper's; docs/explanation/equation.md derives the formulas. Whatever has a closed form is
 checked here against quadrature of its definition; numpy only starts the Newton iteration for the limit
 cycle. The run takes about a minute (Python 3.11, gmpy2 installed beside mpmath or not).
 """

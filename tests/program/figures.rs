@@ -1,7 +1,7 @@
 //! Does `stickslip figures` redraw the paper, and are its numbers audited?
 //!
 //! Judges: the numbers typed here from the paper, `data/reference_values.json` (30-digit arithmetic),
-//! the entries of `docs/corrections.md`, the schemas that the program prints, and a second making of the
+//! the entries of `docs/findings/corrections.md`, the schemas that the program prints, and a second making of the
 //! same.
 
 use crate::acceptance::Acceptance;
@@ -42,7 +42,7 @@ fn number(number: &Value, field: &str) -> f64 {
 #[test]
 fn every_printed_number_is_within_its_precision_or_explained() {
     let folder = Folder::new("reproduction");
-    let corrections = include_str!("../../docs/corrections.md");
+    let corrections = include_str!("../../docs/findings/corrections.md");
     let pinned = include_str!("../science/corrections.rs");
     for entry in numbers(&folder) {
         let (ours, value, half) =

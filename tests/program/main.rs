@@ -10,6 +10,8 @@ mod folder;
 mod runs;
 
 mod across;
+#[cfg(unix)]
+mod book;
 mod checkpoints;
 mod command_line;
 mod compare_command;
@@ -17,8 +19,6 @@ mod confined_files;
 mod cycle_commands;
 mod damaged_documents;
 mod documents;
-#[cfg(unix)]
-mod experiment;
 mod extreme_numbers;
 mod figures;
 mod fit_command;
@@ -33,6 +33,7 @@ mod pictures;
 mod prose_numbers;
 mod raster_commands;
 mod raster_sweeps;
+mod reference;
 mod refusals;
 mod resume;
 #[cfg(unix)]

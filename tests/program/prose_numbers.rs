@@ -156,7 +156,37 @@ fn the_race_is_told_as_it_was_run() {
     says(
         "README.md",
         &[
-            format!("({machine}; [data/peers.md](data/peers.md)"),
+            format!(
+                "takes {} at an error below 1e-5 ({machine}; one core)",
+                duration(number(&row("closed, modes")["seconds"]))
+            ),
+            format!(
+                "takes {} times as long, a general delay solver {} times, and the grid scheme of the literature {} times",
+                times(spectral),
+                times(delays),
+                times(windowed)
+            ),
+            format!("takes {} to {} times as long", digits(least, 2), digits(most, 2)),
+        ],
+    );
+    says(
+        "paper.md",
+        &[
+            format!(
+                "takes {} at an error below $10^{{-5}}$",
+                duration(number(&row("closed, modes")["seconds"]))
+            ),
+            format!(
+                "takes {} times as long, a general delay solver {} times",
+                times(spectral),
+                times(delays)
+            ),
+        ],
+    );
+    says(
+        "docs/reference/speed.md",
+        &[
+            format!("({machine}; [data/peers.md](../../data/peers.md)"),
             format!(
                 "a run takes {} times as long with `fft` as with `modes`, and {} times with `direct`",
                 times("closed, fft"),
@@ -220,9 +250,9 @@ fn the_race_is_told_as_it_was_run() {
             digits(number(&row["ratio"]), 2)
         )
     });
-    says("docs/speed.md", &table.collect::<Vec<_>>());
+    says("docs/reference/speed.md", &table.collect::<Vec<_>>());
     says(
-        "docs/speed.md",
+        "docs/reference/speed.md",
         &[
             format!("on one core of {machine}"),
             format!(
@@ -248,24 +278,10 @@ fn commands_take_what_was_measured() {
         let line = command["command"].as_str().unwrap().trim_start_matches("stickslip ");
         format!("| {name} | `{line}` | {time} | {size} |")
     });
-    says("README.md", &rows.collect::<Vec<_>>());
+    says("docs/reference/speed.md", &rows.collect::<Vec<_>>());
     let date = timed["date"].as_str().unwrap();
     let machine = format!("{}, {date}", timed["machine"]["cpu"].as_str().unwrap());
-    says("README.md", &[format!("({machine}; `make timings`)")]);
-    let (modes, fft, checked) = (of("long run"), of("long run, fft"), of("long run verified"));
-    says(
-        "docs/long_runs.md",
-        &[
-            format!(
-                "take {} of processor time and {} with `modes`, {} and {} with `fft`",
-                modes.0, modes.1, fft.0, fft.1
-            ),
-            format!(
-                "are verified in {} of processor time and {}, the run itself taking {}",
-                checked.0, checked.1, modes.0
-            ),
-        ],
-    );
+    says("docs/reference/speed.md", &[format!("({machine}; `make timings`)")]);
 }
 
 #[test]
@@ -283,7 +299,7 @@ fn what_a_digit_costs_is_what_was_measured() {
     });
     let (least, most) = range(costs);
     says(
-        "docs/reproduction.md",
+        "docs/reference/speed.md",
         &[format!(
             "seven digits more take {} to {} times the time with `modes`",
             digits(least, 2),
@@ -304,7 +320,7 @@ fn constants_of_the_integrator() {
     let whole = |x: f64| format!("{x:.0}");
     let name = |x: f64| ["four", "five", "six", "seven", "eight"][x as usize - 4];
     says(
-        "docs/mathematics.md",
+        "docs/explanation/integrator.md",
         &[
             format!("$E\\le\\varepsilon/{}$", whole(1.0 / share)),
             format!(
@@ -334,7 +350,7 @@ fn constants_of_the_integrator() {
                 whole(1.0 / plan("SHARE_OF_INTERPOLATION"))
             ),
             format!("none longer than {} of the limit above", plan("REACH_OF_PIECE")),
-            format!("about $p/{}$ times $1/S$", whole(1.0 / switch("REACH"))),
+            format!("about $\\nu/{}$ times $1/S$", whole(1.0 / switch("REACH"))),
             format!("collocation is tried for {} steps", name(switch("TRIAL"))),
             format!("longer than {} times that", name(switch("COST"))),
             format!("its steps are to be {} times as long", name(switch("COST_WITH_INERTIA"))),
@@ -361,7 +377,7 @@ fn constants_of_the_memories() {
     let (pencil, lattice) = ([1e-7, 1e-10, 9e-12].map(fit), [5e-13, 1e-13, 2e-14].map(fit));
     let weights = lattice.iter().map(|(_, weight)| *weight).fold(0.0, f64::max);
     says(
-        "docs/mathematics.md",
+        "docs/explanation/memories.md",
         &[
             format!("up to $2^{{{}}}$ nodes as they are", nodes.log2()),
             format!("moments of degree below {}", bins("MOMENTS")),
@@ -391,25 +407,18 @@ fn constants_of_the_memories() {
         ],
     );
     says(
-        "docs/long_runs.md",
-        &[
-            format!(
-                "within {} cells ({},000 widths of a Gaussian)",
-                grouped(cells),
-                digits(1e-3 * cells * spacing(band), 2)
-            ),
-            format!(
-                "at most {} steps",
-                grouped(constant("crates/outcome/src/observer.rs", "LONGEST_TAIL"))
-            ),
-            format!("the last {} extrema", constant("crates/tip/src/motion/extrema.rs", "MOST")),
-            format!(
-                "more than {} steps (230 MB)",
-                grouped(constant("crates/tip/src/run/scenario.rs", "MOST_STEPS"))
-            ),
-        ],
+        "docs/explanation/memories.md",
+        &[format!(
+            "within {} cells ({},000 widths of a Gaussian)",
+            grouped(cells),
+            digits(1e-3 * cells * spacing(band), 2)
+        )],
     );
-    says("docs/speed.md", &[format!("Visits are kept as they are, {} of them", grouped(nodes))]);
+    let extrema = constant("crates/tip/src/motion/extrema.rs", "MOST");
+    says("docs/explanation/regimes.md", &[format!("the last {extrema} extrema")]);
+    let steps = grouped(constant("crates/tip/src/run/scenario.rs", "MOST_STEPS"));
+    says("docs/how-to/long-runs.md", &[format!("more than {steps} steps (230 MB)")]);
+    says("notes/speed.md", &[format!("Visits are kept as they are, {} of them", grouped(nodes))]);
 }
 
 /// Of the lattice of `fft`: half of what the band asks for.
@@ -439,15 +448,17 @@ fn critical_points_and_thresholds() {
         )
     };
     says(
-        "docs/mathematics.md",
+        "docs/explanation/linear-theory.md",
         &[
             at("(48), $\\beta = 1$", &triple(1.0)),
             at("$e^{-x^2/2}$", &triple(0.0)),
             at("$e^{-x^2}$, the paper's numbers for $\\beta = 0$", &narrow),
             format!("| (48), $\\beta = 1$ | {:.12} | 1 | {:.12} |", slowest.r, slowest.omega),
-            trapping("(48), $\\beta = 1$", 1.0),
-            trapping("$e^{-x^2/2}$", 0.0),
         ],
+    );
+    says(
+        "docs/explanation/trapping.md",
+        &[trapping("(48), $\\beta = 1$", 1.0), trapping("$e^{-x^2/2}$", 0.0)],
     );
     let single = critical(&Wider::default(), &triple(0.0), 1.0).unwrap().alpha;
     let rows = [0.5, 1.0, 2.0].map(|pitch| {
@@ -459,7 +470,7 @@ fn critical_points_and_thresholds() {
         format!("| {pitch} | {:.6} | {angle:.1}° | {:.6} |", one_way.alpha, zigzag.alpha)
     });
     says(
-        "docs/stability.md",
+        "docs/explanation/rasters.md",
         &[&rows[..], &[format!("| one line | {single:.6} | 90° | |")]].concat(),
     );
     let small = [(1.0, 1.0), (0.0, 1.0), (1.0, 0.3), (0.0, 0.3)].map(|(beta, r)| {
@@ -479,7 +490,7 @@ fn critical_points_and_thresholds() {
             shown(ours.period_slope)
         )
     });
-    says("docs/stability.md", &small);
+    says("docs/explanation/linear-theory.md", &small);
 }
 
 /// The first wave of one-way lines of a round Gaussian at r = 1, on a spring across the scan if there is one.
@@ -525,20 +536,20 @@ fn thresholds_across_the_scan() {
     }
     let [across, axis] = [0.65, 1.54].map(|stiffness| first(0.5, Some(stiffness)).alpha);
     let held = first(0.5, None).alpha;
-    passages.push(format!("are {across:.5} and {axis:.5}, against {held:.5}"));
+    says("docs/findings/README.md", &[format!("are {across:.5} and {axis:.5}, against {held:.5}")]);
     let zigzag = |stiffness| first_across(RasterPath::Zigzag, 0.5, Some(stiffness));
     assert!(zigzag(1.0).q.abs() < 1e-12);
     passages.push(format!("threshold is {:.5}, close to", zigzag(1.0).alpha));
     passages.push(format!("it is {:.5}, a quarter above", zigzag(3.0).alpha));
-    says("docs/across.md", &passages);
+    says("docs/explanation/across.md", &passages);
 }
 
 #[test]
-fn the_limit_cycle_of_the_readme() {
+fn the_limit_cycle_next_to_onset() {
     let alpha = critical(&Wider::default(), &triple(1.0), 1.0).unwrap().alpha + 0.01;
     let found = cycle(&Model::new(triple(1.0), alpha, 1.0).unwrap(), DEFAULT_TOLERANCE).unwrap();
     says(
-        "README.md",
+        "docs/reference/accuracy.md",
         &[format!(
             "with period {:.10} and amplitude {:.10};",
             found.period(),
@@ -561,59 +572,7 @@ fn tolerances_last_as_long_as_told() {
         let until = number(&verified["verification"]["trusted_until"]);
         format!("| 1e-{digits} | {} |", grouped(until))
     };
-    says("docs/long_runs.md", &[6, 8].map(row));
-}
-
-/// What the README shows is what the program prints, but for the time that it took.
-#[test]
-fn commands_of_the_readme_print_what_it_shows() {
-    let readme = text("README.md");
-    let folder = Folder::new("readme");
-    let blocks = readme.split("```console\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    let mut shown = 0;
-    for block in blocks {
-        let is_command = |line: &str| line.trim_start_matches("$ ").starts_with("stickslip ");
-        let mut lines = block.lines().peekable();
-        while let Some(line) = lines.next() {
-            if !is_command(line) {
-                continue;
-            }
-            let command = line.trim_start_matches("$ ").trim_start_matches("stickslip ");
-            // A terminal gets text where no file is named.
-            let asks = ["-o ", "--print "].iter().any(|option| command.contains(option));
-            let format = if asks { "" } else { " --format text" };
-            let output = folder.stickslip(&format!("{command}{format}"));
-            assert!(output.status.success(), "{command}\n{}", said(&output));
-            let printed = said(&output) + std::str::from_utf8(&output.stdout).unwrap();
-            let printed: Vec<&str> = printed.lines().map(without_time).collect();
-            while let Some(line) =
-                lines.next_if(|line| !line.starts_with("$ ") && !is_command(line))
-            {
-                let line = without_time(line);
-                assert!(
-                    line.trim() == "…" || printed.contains(&line),
-                    "{command}\nprints no {line:?}, but\n{printed:#?}"
-                );
-                shown += 1;
-            }
-        }
-    }
-    assert!(shown >= 7, "{shown} lines");
-    assert!(readme.contains(&first_rows(&folder)), "{}", first_rows(&folder));
-}
-
-/// The first two rows of the surface of the first run.
-fn first_rows(folder: &Folder) -> String {
-    let table = String::from_utf8(folder.read("surface.csv")).unwrap();
-    table.lines().take(2).map(|line| format!("{line}\n")).collect()
-}
-
-/// A line without ", 2.1 ms" at its end.
-fn without_time(line: &str) -> &str {
-    match line.rsplit_once(", ") {
-        Some((before, time)) if time.ends_with(" ms") || time.ends_with(" s") => before,
-        _ => line,
-    }
+    says("docs/how-to/long-runs.md", &[6, 8].map(row));
 }
 
 /// The judge itself: a number changed in a document, a constant, or a file of data is found.

@@ -285,7 +285,7 @@ fn held(until: f64) -> u64 {
     counted.bytes_max
 }
 
-/// The density of `fft` has its full length after 24,000 widths (docs/long_runs.md, section 1).
+/// The density of `fft` has its full length after 24,000 widths (docs/how-to/long-runs.md).
 #[test]
 fn what_a_verification_of_samples_holds_does_not_grow() {
     let (early, late) = (held(26_000.0), held(60_000.0));

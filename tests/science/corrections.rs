@@ -2,7 +2,7 @@
 //!
 //! Judges: closed forms, quadrature, `data/reference_values.json` (30-digit arithmetic), and a small
 //! discretisation of (10) and (11), direct sums of (54) to (56), and panels of Gauss's rule, all written here.
-//! Judged: the printed formula or number, and the library's. `docs/corrections.md` gives the reasons.
+//! Judged: the printed formula or number, and the library's. `docs/findings/corrections.md` gives the reasons.
 
 use gauss_quad::legendre::GaussLegendre;
 use num_complex::Complex64;

@@ -5,7 +5,8 @@
 //! periodic solution of an ordinary differential equation. It is found by Radau collocation on a mesh that
 //! follows the motion, with Newton's method for all displacements, the period and, along a branch, a
 //! parameter; eliminated step by step, the equations leave a matrix of the size of the state, whose
-//! eigenvalues are the Floquet multipliers. `docs/cycles.md` derives it and says what was found with it.
+//! eigenvalues are the Floquet multipliers. `docs/explanation/cycles.md` derives it, and
+//! `docs/findings/README.md` has the results.
 //!
 //! ```
 //! use stickslip_cycles::{DEFAULT_TOLERANCE, cycle};

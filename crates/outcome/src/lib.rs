@@ -4,7 +4,7 @@
 //! where it applies. The roots of the characteristic equation decide whether steady motion is stable. A limit cycle and
 //! its Floquet multipliers give the distance of an oscillation from the cycle, and the rate of approach. The exponentials
 //! in the history of a stuck tip decide whether it will slip again. Elsewhere (J0 has no cycles) the changes from period
-//! to period are extrapolated. `docs/regimes.md` derives the criteria.
+//! to period are extrapolated. `docs/explanation/regimes.md` derives the criteria.
 
 mod ahead;
 mod creep;

@@ -32,13 +32,13 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
         figure_with("fig1", "Fig. 1: surface and velocity of the tip, β = 1, r = 1", &models);
     document.remarks = vec![
         "starts as the paper's simulations do: x0(t1) = 14 at t1 = 15 + α on a surface u = 0 but for noise. \
-         That is not the steady state, as the paper says: (24) is not 0 under the tip (docs/corrections.md, 13); \
+         That is not the steady state, as the paper says: (24) is not 0 under the tip (docs/findings/corrections.md, 13); \
          hence the oscillations at early times"
             .into(),
         "noise of 1e-4 on a grid of 0.05; on the paper's 0.001 its slope alone makes the velocity jitter by \
-         0.09 (docs/corrections.md, 10)"
+         0.09 (docs/findings/corrections.md, 10)"
             .into(),
-        "t = 457 of the caption; the text says 361 (docs/corrections.md, 12)".into(),
+        "t = 457 of the caption; the text says 361 (docs/findings/corrections.md, 12)".into(),
     ];
     let x = spaced(0.0, 470.0, 0.1);
     let headings = ["α = α_c − 0.01", "α = α_c + 0.01"];

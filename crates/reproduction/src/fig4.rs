@@ -33,9 +33,9 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let mut document = empty("fig4", title, std::slice::from_ref(&scenario.model));
     document.remarks = vec![
         BETA_0.into(),
-        "t = 460 of the caption; the text says 954 (docs/corrections.md, 12)".into(),
+        "t = 460 of the caption; the text says 954 (docs/findings/corrections.md, 12)".into(),
         "steady start with noise of 1e-4 on the paper's grid of 0.001; the grid is part of such a start, as \
-         is the seed (docs/corrections.md, 10)"
+         is the seed (docs/findings/corrections.md, 10)"
             .into(),
     ];
     let mut panel = panel("", ("x (σ)", "u (kσ²/a)"));

@@ -17,7 +17,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let mut document = empty("fig5", title, &[tip.model(ALPHA, critical.r)?]);
     document.remarks.push(
         "the paper quotes 6.59 as the period at r → rc; it is the wavelength there, the period is 6.87 \
-         (docs/corrections.md, 5)"
+         (docs/findings/corrections.md, 5)"
             .into(),
     );
     let distances: Vec<f64> = spaced(0.01, 0.1, 0.01).iter().map(|d| -d).collect();

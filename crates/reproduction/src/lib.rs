@@ -1,7 +1,7 @@
 //! The paper's figures and numbers, recomputed with the libraries of this project.
 //!
 //! Each figure is a function that computes a document, and is drawn from it alone; [`table`] compares every number
-//! printed in the paper with ours. `docs/reproduction.md` shows them.
+//! printed in the paper with ours. `docs/findings/reproduction.md` shows them.
 
 mod bifurcation;
 mod criticality;

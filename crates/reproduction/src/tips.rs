@@ -8,7 +8,7 @@ use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Remark of every figure that has a panel for β = 0.
 pub(super) const BETA_0: &str = "β = 0 is drawn with exp(-x²), a Gaussian of width 1/√2: the numbers that the \
-     paper prints for β = 0 are those of this tip, not of exp(-x²/2), (48) with β = 0 (docs/corrections.md, 3)";
+     paper prints for β = 0 are those of this tip, not of exp(-x²/2), (48) with β = 0 (docs/findings/corrections.md, 3)";
 
 /// A tip of the paper.
 #[derive(Debug, Clone)]

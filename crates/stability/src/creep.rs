@@ -2,7 +2,7 @@
 //! part.
 //!
 //! If the tip hardly moves, the time θ(x) at which it reaches x obeys a linear equation with the solutions Σ C e^{px}
-//! over these roots (`docs/mathematics.md`, section 8). The root of largest real part dominates. If it is real, the
+//! over these roots (`docs/explanation/trapping.md`). The root of largest real part dominates. If it is real, the
 //! tip is held permanently; if it is one of a complex pair, θ reaches a maximum, so that every stick ends in a slip.
 
 use super::StabilityError;

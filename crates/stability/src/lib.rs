@@ -14,7 +14,7 @@
 //! as well. A tip that is flexible across the scan may [snake](Snaking), and its scan lines may bunch
 //! ([`Raster::with_stiffness_across`]). [`least_depth_limit`] and [`memory_length`] give limits within which steady
 //! motion is always stable; [`walking_speeds`] and [`walk`] treat a tip without a spring, [`orbits`]
-//! a walker in the plane. `docs/stability.md` derives
+//! a walker in the plane. `docs/explanation/linear-theory.md` derives
 //! all of it. Nothing here integrates (18) in time, so that linear theory and integration are independent tests of
 //! each other.
 

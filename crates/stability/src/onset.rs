@@ -3,7 +3,7 @@
 //! With l = l0 + A e^{iωt} + c.c. + …, (18) expanded to third order in the differences
 //! l(t-τ) - l(t) and the amplitude equation read off at frequency ω (Lindstedt's method, which on the
 //! center manifold is its reduction): D_λ A' = -D_α (α - αc) A + N |A|²A, where D(λ) = λ + 1 - K̃(λ).
-//! `docs/stability.md` derives N.
+//! `docs/explanation/linear-theory.md` derives N.
 
 use super::critical::Critical;
 use super::transform::CurvatureTransform;

@@ -23,7 +23,7 @@
 //! Each line affects the later ones by one number, v·(A, B), so that ripples change from line to line by a recurrence:
 //! A_n ∝ zⁿ grows if |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}. Its crests qx + κy =
 //! const., κ = φ/d, are oblique to the scan lines. On the retrace of a zigzag q changes its sign: the coefficients of
-//! a line alone become their complex conjugates. α = a e^{|u0|/b} increases with a. `docs/stability.md` derives it.
+//! a line alone become their complex conjugates. α = a e^{|u0|/b} increases with a. `docs/explanation/rasters.md` derives it.
 //!
 //! If the tip is flexible across the lines, y' = -u_y + κ_y (Y_n - y), it also deviates by C_n e^{iωt} in y. Steady
 //! motion is then displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart.

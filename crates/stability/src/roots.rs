@@ -11,7 +11,7 @@ use stickslip_tip::{Model, TipFunction};
 /// All roots λ of (29) with Re λ ≥ `bound`.
 ///
 /// The number of roots comes from the argument principle on a rectangle beyond whose other three
-/// sides h of (30) cannot vanish, which the bounds in `docs/stability.md` show; so it holds for the
+/// sides h of (30) cannot vanish, which the bounds in `docs/explanation/linear-theory.md` show; so it holds for the
 /// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
 /// finds fewer than were counted, from bisection of the rectangle. Each is polished to round-off; two that
 /// are close to a double root are computed together from the zero of h'. If a root lies on Re λ = `bound`,

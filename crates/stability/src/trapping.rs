@@ -1,7 +1,7 @@
 //! Trapping: the logarithmic creep of a tip that its own groove holds permanently.
 //!
 //! x0 ~ (1/p) ln t solves (10) to leading order in t if α/r = 1/Q(p),
-//! Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds = -G(p). `docs/stability.md` derives it.
+//! Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds = -G(p). `docs/explanation/trapping.md` derives it.
 
 use super::StabilityError;
 use super::transform::CurvatureTransform;

@@ -11,7 +11,7 @@
 //!
 //! The surface depends on the past positions of the tip alone, so that x0(t) obeys a closed equation (18), which this
 //! crate integrates: [`run`]. Lengths are in units of the tip width σ, times in units of Γ/k. Equation numbers are
-//! those of the paper named in the project's README; `docs/mathematics.md` contains the derivations.
+//! those of the paper named in the project's README; `docs/explanation/equation.md` contains the derivations.
 
 pub mod collocation;
 pub mod elementary;

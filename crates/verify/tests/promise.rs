@@ -57,7 +57,7 @@ fn cases() -> Vec<(&'static str, Scenario)> {
     ]
 }
 
-/// f = cos without a spring is the Lorenz system (docs/walking.md). A shift of its start shifts all of the run; what errors
+/// f = cos without a spring is the Lorenz system (docs/explanation/wider-law.md). A shift of its start shifts all of the run; what errors
 /// grow by is judged by its three equations, integrated here by the classical method with and without the push.
 #[test]
 fn errors_of_a_tip_without_a_spring_grow_as_those_of_its_equations() {
@@ -151,7 +151,7 @@ fn where_motion_amplifies_errors_that_is_told() {
     let until = |end| largest_difference(|t| a.l(t), |t| b.l(t), (a.start(), end), 100_000);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
     assert!(until(trusted - 0.05) < 1.05 * allowed && until(trusted + 0.5) > 0.9 * allowed);
-    // docs/mathematics.md, section 12: a change of the kick by 1e-10 moves l by 8e-5.
+    // docs/reference/accuracy.md: a change of the kick by 1e-10 moves l by 8e-5.
     assert!((1e5..1e7).contains(&found.growth.amplification));
 }
 

@@ -1,27 +1,29 @@
-// The chapters of the book, from docs/*.md as they stand: `node chapters.mjs TARGET`. Equations become HTML here, so that
+// The chapters of the book, from docs as it stands: `node chapters.mjs TARGET`. Equations become HTML here, so that
 // the book needs no network; links to what is not in the book become the name of the file.
-import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { basename, dirname, join, normalize, resolve } from 'node:path';
+import { basename, dirname, join, normalize, relative, resolve } from 'node:path';
 import katex from 'katex';
 
 const here = import.meta.dirname;
 const root = resolve(here, '../../..');
 const book = resolve(process.argv[2]);
 const src = join(book, 'src');
-const program = process.env.STICKSLIP ?? join(root, 'target/release/stickslip');
 
 rmSync(src, { recursive: true, force: true });
 mkdirSync(src, { recursive: true });
 
 /** File of the project to chapter of the book. */
-const chapters = new Map([['README.md', 'start.md'], ['docs/figures/paper/reproduction.md', 'numbers.md'], ['CHANGELOG.md', 'changelog.md'], ['CONTRIBUTING.md', 'contributing.md']]);
-for (const name of readdirSync(join(root, 'docs')).filter((n) => n.endsWith('.md') && n !== 'README.md')) chapters.set(`docs/${name}`, name);
+const chapters = new Map([
+  ['README.md', 'start.md'], ['docs/findings/README.md', 'findings/findings.md'], ['docs/figures/paper/reproduction.md', 'findings/numbers.md'],
+  ['CHANGELOG.md', 'changelog.md'], ['CONTRIBUTING.md', 'contributing.md'],
+]);
+for (const folder of ['tutorials', 'how-to', 'reference', 'explanation', 'findings']) {
+  for (const name of readdirSync(join(root, 'docs', folder)).filter((n) => n.endsWith('.md') && n !== 'README.md')) chapters.set(`docs/${folder}/${name}`, `${folder}/${name}`);
+}
 
 const listed = readFileSync(join(here, 'SUMMARY.md'), 'utf8');
 for (const name of chapters.values()) if (!listed.includes(`(${name})`)) throw new Error(`${name} has no place in SUMMARY.md`);
 
-const escape = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 function equation(tex, displayMode) {
   const html = katex.renderToString(tex.replaceAll('\\|', '|').trim(), { displayMode, strict: false, output: 'htmlAndMathml' });
   // Markdown must leave it alone.
@@ -41,8 +43,9 @@ function link(file, [whole, mark, label, target]) {
   const [path, anchor] = target.split('#');
   const there = normalize(join(dirname(file), path));
   if (there === 'docs/README.md' || there === 'docs') return label;
-  if (chapters.has(there)) return `${mark}[${label}](${chapters.get(there)}${anchor ? `#${anchor}` : ''})`;
-  if (there.startsWith('docs/figures/')) return `${mark}[${label}](${there.slice('docs/'.length)})`;
+  const from = (place) => relative(dirname(chapters.get(file)), place);
+  if (chapters.has(there)) return `${mark}[${label}](${from(chapters.get(there))}${anchor ? `#${anchor}` : ''})`;
+  if (there.startsWith('docs/figures/')) return `${mark}[${label}](${from(there.slice('docs/'.length))})`;
   if (!existsSync(join(root, there))) throw new Error(`${file}: ${target} is not there`);
   return label.includes(basename(there)) ? `\`${there}\`` : `${label} (\`${there}\`)`;
 }
@@ -56,16 +59,10 @@ function chapter(file) {
     .replaceAll(/(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)/g, (...found) => link(file, found));
 }
 
-for (const [file, name] of chapters) writeFileSync(join(src, name), chapter(file));
-
-/** What the program says of itself. */
-function commands() {
-  const help = (...words) => execFileSync(program, [...words, '--help'], { encoding: 'utf8', env: { ...process.env, COLUMNS: '100' } });
-  const names = [...help().matchAll(/^ {2}([a-z]+) {2,}/gm)].map((match) => match[1]).filter((name) => name !== 'help');
-  const told = names.map((name) => `## ${name}\n\n<pre><code>${escape(help(name))}</code></pre>\n`);
-  return `# Commands and their options\n\nWhat \`stickslip COMMAND --help\` prints.\n\n${told.join('\n')}`;
+for (const [file, name] of chapters) {
+  mkdirSync(dirname(join(src, name)), { recursive: true });
+  writeFileSync(join(src, name), chapter(file));
 }
-writeFileSync(join(src, 'commands.md'), commands());
 
 /** The libraries by what their manifests say. */
 function libraries() {

@@ -60,7 +60,7 @@ fn ripples_are_those_that_grow() {
     assert!(lines[100..].iter().all(|line| *line == LineRegime::StickSlip));
 }
 
-/// The angles of docs/raster.md of lines that go one way, in units of the threshold: with errors of some degrees, and none is
+/// The angles of docs/findings/README.md of lines that go one way, in units of the threshold: with errors of some degrees, and none is
 /// left out.
 #[test]
 fn clear_ripples_have_an_angle() {

@@ -5,7 +5,7 @@ use stickslip::{NumberDocument, ReproductionDocument};
 const HEAD: &str = "# The paper's numbers beside ours
 
 Printed decimals are taken to half a unit of their last digit, whole numbers as exact. What
-differs is explained by an entry of `docs/corrections.md`, whose number is given; each entry has a test.
+differs is explained by an entry of `docs/findings/corrections.md`, whose number is given; each entry has a test.
 
 | quantity | for | where | printed | ours | relative difference | |
 |---|---|---|---|---|---|---|

@@ -33,7 +33,7 @@ impl Printed<'_> {
         }
     }
 
-    /// The comparison with our value, which differs for the reason given by an entry of docs/corrections.md.
+    /// The comparison with our value, which differs for the reason given by an entry of docs/findings/corrections.md.
     pub(super) fn corrected(&self, ours: f64, correction: u32, remark: &str) -> NumberDocument {
         let remark = Some(remark.into());
         NumberDocument { correction: Some(correction), remark, ..self.beside(ours) }

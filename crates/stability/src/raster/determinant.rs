@@ -1,6 +1,6 @@
 //! The determinant that vanishes where a ripple e^{iqx} neither grows nor fades from line to line.
 //!
-//! With T = r/a, w = 1/z and m = 1 + irq - Mr²q² the equations of `docs/stability.md` are (T - N)v = 0, N a matrix of
+//! With T = r/a, w = 1/z and m = 1 + irq - Mr²q² the equations of `docs/explanation/rasters.md` are (T - N)v = 0, N a matrix of
 //! functions of q and of Λ_l(w) = Σ_j c^j h_l(jd) w^j. One way, where not both the surface heals and the depth is limited,
 //!
 //! ```text

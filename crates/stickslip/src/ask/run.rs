@@ -346,7 +346,7 @@ impl Run {
 
     /// The question with the paper's initial condition expressed by the other parameters. The paper sets the tip down
     /// at X with the spring stretched by r + α/r on the steady surface, which it takes as flat if f has no volume
-    /// (docs/corrections.md, 13).
+    /// (docs/findings/corrections.md, 13).
     fn started(self, model: &Model) -> Self {
         let usual = if model.wider().spring { StartName::Steady } else { StartName::Flat };
         let start = self.start.unwrap_or(usual);

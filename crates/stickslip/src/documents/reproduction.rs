@@ -47,7 +47,7 @@ pub struct NumberDocument {
     pub relative_difference: Option<f64>,
     /// Whether our value lies within the precision of the printed one.
     pub agrees: bool,
-    /// Number of the entry in docs/corrections.md that explains a difference.
+    /// Number of the entry in docs/findings/corrections.md that explains a difference.
     pub correction: Option<u32>,
     /// Explanation of a difference, in one line.
     pub remark: Option<String>,

@@ -32,4 +32,4 @@ def test_a_notebook_is_committed_with_what_it_shows(path):
 
 
 def test_there_are_notebooks():
-    assert len(NOTEBOOKS) >= 6
+    assert len(NOTEBOOKS) >= 9

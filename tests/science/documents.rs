@@ -111,6 +111,7 @@ fn a_run_comes_back_from_its_document() {
         regime: RegimeName::Transient,
         oscillation: None,
         creep: None,
+        snaking: None,
         drifting: None,
         transient: None,
         remarks: vec![],

@@ -35,7 +35,7 @@ impl Software {
             name: "stickslip".into(),
             version: env!("CARGO_PKG_VERSION").into(),
             commit: commit.map(str::to_owned),
-            clean: commit.map(|_| env!("STICKSLIP_TREE") == "clean"),
+            clean: commit.map(|_| Some("clean") == option_env!("STICKSLIP_TREE")),
         }
     }
 }

@@ -132,15 +132,15 @@ impl Reference {
             let support = |t: f64| way.from + sign * self.law.r * (since + t);
             let stages = self.stages(&method, h, (&support, way.y, since), &rates);
             rates = stages.rates;
-            for k in 0..STAGES {
+            for (k, rate) in rates.iter().enumerate() {
                 let (spent, weight) = (h * method.b[k], stages.weights[k]);
                 self.visits.push(Visit {
                     t: self.t + h * method.c[k],
                     at: stages.at[k],
                     weight: spent * weight,
                 });
-                (0..2).for_each(|j| self.at[j] += spent * rates[k][j]);
-                let lost = stages.forces[k][0] - rates[k][0];
+                (0..2).for_each(|j| self.at[j] += spent * rate[j]);
+                let lost = stages.forces[k][0] - rate[0];
                 self.velocity += self.law.inertia.map_or(0.0, |mass| spent * lost / mass);
             }
             self.t = begun + h * n as f64;

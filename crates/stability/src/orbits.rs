@@ -219,7 +219,8 @@ impl Turning<'_> {
 /// The growth exponents of an orbit, by falling real part.
 fn exponents(scenario: &WalkerScenario, radius: f64, frequency: f64) -> Option<Vec<Complex64>> {
     let range = radius * frequency.abs() * scenario.healing_time;
-    let modes = directions(range, ERROR_OF_MODES)?;
+    // What the modes from m on do to the first ones goes through them twice.
+    let modes = directions(range, ERROR_OF_MODES)? / 2;
     if modes > MOST_MODES {
         return None;
     }

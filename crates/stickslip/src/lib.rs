@@ -85,6 +85,8 @@ pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, be
 pub use ask::run_many::ask_runs;
 pub use ask::sampling::{Sampling, Times};
 pub use ask::stability::{Stability, StabilityDocument};
+pub use ask::walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
+pub use ask::walker_motion::{CircleDocument, WalkerRegime};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
 pub use document::{Document, Question};
 pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat};

@@ -2,10 +2,10 @@
 
 use super::examples::examples;
 use super::named::named;
-use super::{DisturbanceArguments, FieldArguments, InUnitsArguments, Options};
+use super::{DisturbanceArguments, Either, FieldArguments, InUnitsArguments, Options};
 use clap::{Arg, Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use stickslip::{Run, RunFormat};
+use stickslip::{Run, RunFormat, Walker};
 
 /// The part of the dense history in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -17,6 +17,9 @@ pub(crate) enum HistoryName {
 }
 
 /// Integrate the motion of the tip and classify the result.
+///
+/// With --walker: that of a particle in the plane, driven by the field of J0 that it leaves, free, in a rotating frame or in
+/// a trap.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -25,7 +28,7 @@ pub(crate) enum HistoryName {
 )]
 pub(crate) struct RunArguments {
     #[command(flatten)]
-    pub(crate) options: Options<Run>,
+    pub(crate) options: Options<Either<Run, Walker>>,
 
     #[command(flatten)]
     pub(crate) disturbance: DisturbanceArguments,
@@ -90,6 +93,7 @@ pub(crate) struct RunArguments {
 }
 
 const USAGE: &str = "stickslip run (--alpha <A> | --alpha-above <D>) --r <R> --until <T> [OPTIONS]
+       stickslip run --walker --alpha <A> --until <T> [OPTIONS]
        stickslip run --resume <FILE> [-o <FILE>]";
 
 impl RunArguments {
@@ -123,6 +127,8 @@ const EXAMPLES: &str = "Examples:
     stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
   A particle that its own past drives: the Lorenz system:
     stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
+  A walker in a rotating frame, on a circular orbit, and all orbits that exist there:
+    stickslip run --walker --alpha=-3 --rotation 0.3 --until 100 -o orbit.json --plot orbit.svg
   A long run, its samples written as it passes them, that survives a loss of power (errors of the period
   add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint

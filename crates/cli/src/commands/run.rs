@@ -8,6 +8,7 @@ mod motion;
 mod order;
 mod record;
 mod resume;
+mod walker;
 mod write;
 
 use super::ask::refusal;
@@ -22,6 +23,7 @@ use checkpoint::Checkpoints;
 use integration::{Integrated, Integration};
 use motion::{Motion, Recorded};
 use record::{Record, Sink};
+use serde_json::Value;
 use std::path::Path;
 use stickslip::{Order, RunDocument, RunEnd, RunFormat};
 use stickslip_outcome::Watched;
@@ -36,7 +38,11 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 fn start(arguments: &RunArguments) -> Result<(), Failure> {
-    let order = order::order(arguments)?;
+    let values = arguments.options.values()?;
+    if values.get("walker") == Some(&Value::Bool(true)) {
+        return walker::run(arguments, values);
+    }
+    let order = order::order(arguments, values)?;
     let refusal_of = |failure| refusal(failure, &arguments.options.tip, &order::files(arguments));
     if let Some(scenario) = order.parameters.prepared_across().map_err(refusal_of)? {
         return across::start(arguments, &order, &scenario);
@@ -125,13 +131,16 @@ fn job(
     plot: Option<&Path>,
     fields: &FieldArguments,
 ) -> Result<Job, Failure> {
-    let format = match order.format {
+    Job::of_format::<RunDocument>(format_of(order.format), output, fields, plot)
+}
+
+fn format_of(format: RunFormat) -> Format {
+    match format {
         RunFormat::Json | RunFormat::Jsonl => Format::Json,
         RunFormat::Csv => Format::Csv,
         RunFormat::Npz => Format::Npz,
         RunFormat::Text => Format::Text,
-    };
-    Job::of_format::<RunDocument>(format, output, fields, plot)
+    }
 }
 
 fn record<S: Recorded>(order: &Order, scenario: &Scenario, sink: Sink) -> Record<S> {

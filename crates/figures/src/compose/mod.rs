@@ -19,6 +19,7 @@ mod stability;
 mod surface;
 mod sweep;
 mod tip;
+mod walker;
 mod walking;
 
 use crate::axis::is_range;
@@ -31,7 +32,7 @@ use stickslip::{
     FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
-    Unusable, WalkingDocument, read_from, told,
+    Unusable, WalkerDocument, WalkingDocument, read_from, told,
 };
 
 pub use drawn::{Drawn, View};
@@ -100,7 +101,7 @@ pub fn can_be_drawn(range: [f64; 2]) -> bool {
 }
 
 /// Formats of all documents that have a figure.
-pub const FORMATS: [&str; 19] = [
+pub const FORMATS: [&str; 20] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -117,6 +118,7 @@ pub const FORMATS: [&str; 19] = [
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
     WalkingDocument::FORMAT,
+    WalkerDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
     FitDocument::FORMAT,
     FigureDocument::FORMAT,
@@ -180,6 +182,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterStabilityDocument,
         RasterBoundaryDocument,
         WalkingDocument,
+        WalkerDocument,
         MeasuredTipDocument,
         FitDocument,
         FigureDocument

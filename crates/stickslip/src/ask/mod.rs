@@ -35,6 +35,8 @@ pub(crate) mod run_found;
 pub(crate) mod run_many;
 pub(crate) mod sampling;
 pub(crate) mod stability;
+pub(crate) mod walker;
+pub(crate) mod walker_motion;
 pub(crate) mod walking;
 
 use crate::{Context, Document, Failure, Question};

@@ -6,7 +6,7 @@ use crate::{
     RasterCompareDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
     RasterSweepDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
     StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
-    WalkingDocument,
+    WalkerDocument, WalkingDocument,
 };
 
 use schemars::{Schema, schema_for};
@@ -15,7 +15,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// All documents with a schema.
-pub const SCHEMAS: [NamedSchema; 24] = [
+pub const SCHEMAS: [NamedSchema; 25] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -23,6 +23,7 @@ pub const SCHEMAS: [NamedSchema; 24] = [
     ("surface", SurfaceDocument::schema),
     ("stability", StabilityDocument::schema),
     ("walking", WalkingDocument::schema),
+    ("walker", WalkerDocument::schema),
     ("boundary", BoundaryDocument::schema),
     ("compare", CompareDocument::schema),
     ("response", ResponseDocument::schema),

@@ -3,22 +3,25 @@
 use super::checkpoint;
 use super::disturbance::{disturbed, files_read, warn_of_idle};
 use crate::arguments::{Format, HistoryName, RunArguments};
-use crate::commands::ask::{context, refusal};
+use crate::commands::ask::{context, refusal, refuse_strangers};
 use crate::commands::in_units::scales;
 use crate::commands::job;
 use crate::failure::Failure;
 use crate::files::columns::read_surface_table;
 use crate::files::distinct::{Named, distinct};
 use crate::files::paths::resolved;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::path::Path;
 use stickslip::{Ask, Order, Run, RunFormat, parameter};
 
-/// The order of the arguments, checked as a whole.
-pub(super) fn order(arguments: &RunArguments) -> Result<Order, Failure> {
+/// The order of the arguments with these values of options, checked as a whole.
+pub(super) fn order(
+    arguments: &RunArguments,
+    values: Map<String, Value>,
+) -> Result<Order, Failure> {
     let format = format(arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
-    let values = options.values()?;
+    refuse_strangers::<Run>(&values, "a tip on its line, without --walker")?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let files = files(arguments);
@@ -107,7 +110,7 @@ pub(super) fn files(arguments: &RunArguments) -> Vec<Named<'_>> {
 }
 
 /// Checks that the files are different, and that a checkpoint can store their names.
-fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
+pub(super) fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
     let written = [
         ("--output", Some(arguments.output())),
         ("--plot", arguments.plot.as_deref()),
@@ -127,7 +130,7 @@ fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
     }
 }
 
-fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
+pub(super) fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if let Some(format) = arguments.format {
         return Ok(format);
     }

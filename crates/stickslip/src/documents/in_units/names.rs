@@ -33,16 +33,16 @@ fn of_name(name: &str) -> Option<Dimension> {
         | "lag" | "wavelength" | "wavelength_error" | "wavelength_x" | "amplitude_x0"
         | "amplitude_x0_error" | "deviation" | "mean_l" | "deviation_l" | "memory_length"
         | "pitch" | "width" | "start_position" | "kick" | "noise_spacing" | "residue_re"
-        | "residue_im" | "grid" | "closed" | "grid_x0" | "closed_x0" => Dimension::LENGTH,
+        | "residue_im" | "grid" | "closed" | "grid_x0" | "closed_x0" | "radius" | "center_x"
+        | "center_y" => Dimension::LENGTH,
         "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "amplitude_u_error"
         | "least_depth_limit" | "depth_limit" | "noise" | "grid_u" | "closed_u" => {
             Dimension::HEIGHT
         }
         "t" | "period" | "period_error" | "period_slope" | "origin" | "valid_from"
         | "healing_time" => Dimension::TIME,
-        "velocity" | "velocity_y" | "velocity_error" | "speed" | "residual" | "start_velocity" => {
-            Dimension::VELOCITY
-        }
+        "velocity" | "velocity_y" | "velocity_error" | "speed" | "free_speed" | "residual"
+        | "start_velocity" => Dimension::VELOCITY,
         "omega" | "omega_slope" | "growth_slope" | "re" | "im" | "re_min" | "re_max" | "im_max"
         | "largest_error" | "lambda_re" | "lambda_im" => Dimension::RATE,
         "Omega" | "q" | "kappa" | "rate" | "attracting" | "creep_rates" => Dimension::WAVE_NUMBER,

@@ -1,0 +1,64 @@
+//! `stickslip run --walker`.
+
+use super::disturbance::{parse_pulses, warn_of_idle_pulses};
+use super::{format_of, order};
+use crate::arguments::RunArguments;
+use crate::commands::ask::{context_cancelled_by, refuse_strangers};
+use crate::commands::in_units::scales;
+use crate::commands::job::Job;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use serde_json::{Map, Value};
+use std::sync::Arc;
+use stickslip::{Ask, Physical, RunFormat, Walker, WalkerDocument, parameter};
+
+/// The run, up to its end or to a signal.
+pub(super) fn run(arguments: &RunArguments, values: Map<String, Value>) -> Result<(), Failure> {
+    let format = order::format(arguments)?;
+    judge(arguments, format)?;
+    order::judge_files(arguments)?;
+    refuse_strangers::<Walker>(&values, "--walker")?;
+    let mut question: Walker = parameter::question(values)?;
+    let typed = &arguments.disturbance.pulse;
+    if !typed.is_empty() {
+        let pulses = parse_pulses(typed)?;
+        warn_of_idle_pulses(typed, &pulses, (0.0, question.until));
+        question.pulses = pulses.into_iter().map(Into::into).collect();
+    }
+    let scales = scales(&arguments.in_units, None, None)?;
+    let (output, plot) = (arguments.output(), arguments.plot.as_deref());
+    let interrupt = Interrupt::listen()?;
+    let context = context_cancelled_by(Arc::clone(interrupt.flag()));
+    let question = question.resolved(&context)?;
+    let fields = &arguments.fields;
+    let job = Job::of_format::<WalkerDocument>(format_of(format), output, fields, plot)?;
+    let found = question.answered(&context);
+    let signal = interrupt.signal();
+    let document = match (found, signal) {
+        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
+        (found, _) => found?.in_units(scales.as_ref()),
+    };
+    job.finish(document)?;
+    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+}
+
+/// Rejects options that are not available for a walker.
+fn judge(arguments: &RunArguments, format: RunFormat) -> Result<(), Failure> {
+    let disturbance = &arguments.disturbance;
+    let unavailable = [
+        ("--tip, --beta, --width and --tip-file", arguments.options.tip.is_given()),
+        ("--noise", disturbance.noise.is_some()),
+        ("--initial-surface", disturbance.initial_surface.is_some()),
+        ("--force-file", disturbance.force_file.is_some()),
+        ("--support-path", arguments.support_path.is_some()),
+        ("--verify", arguments.verify),
+        ("--checkpoint", arguments.checkpoint.is_some()),
+        ("--format jsonl", format == RunFormat::Jsonl),
+    ];
+    match unavailable.into_iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => {
+            Err(Failure::input(option, "is not available with --walker: leave one of them out"))
+        }
+    }
+}

@@ -53,6 +53,9 @@ fn the_page_of_commands() {
          called in documents and in Python: [parameters](parameters.md).\n"
     );
     for name in commands(&all) {
+        let described =
+            |line: &str| line.split_whitespace().next() == Some(name) && line.trim() != name;
+        assert!(all.lines().any(described), "{name} has no description in the list of commands");
         let text = help(&folder, name);
         write!(page, "\n## {name}\n\n```text\n{}\n```\n", text.trim_end()).unwrap();
         for below in commands(&text) {

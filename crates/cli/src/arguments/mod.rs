@@ -119,25 +119,43 @@ const EXAMPLES: &str = "Examples:
 
 `stickslip COMMAND --help` explains each command and gives examples.";
 
+/// The commands. The line above each is that of the list of commands: the rest of a command is built when it is needed.
 #[derive(Debug, Subcommand)]
 #[command(defer = true)]
 pub(crate) enum Command {
+    /// Integrate the motion of the tip and classify the result.
     Run(Box<RunArguments>),
+    /// Check a saved run.
     Verify(VerifyArguments),
+    /// Reconstruct the surface from a run or a raster.
     Surface(SurfaceArguments),
+    /// Compute the critical point of steady motion, and all growth exponents.
     Stability(StabilityArguments),
+    /// Compute the critical α against r, or of a raster against the pitch.
     Boundary(BoundaryArguments),
+    /// Compare the closed equation with the full equations on a grid.
     Compare(Box<CompareArguments>),
+    /// Compute the linear response of steady motion to weak pulses.
     Response(ResponseArguments),
+    /// Compute the periodic motion at given α and r, and its stability.
     Cycle(CycleArguments),
+    /// Follow a branch of cycles in α or r, and find its special points.
     Continue(ContinueArguments),
+    /// Find the motion that the tip settles into, over a grid of parameters.
     Sweep(Box<SweepArguments>),
+    /// Scan an area line by line, and report the pattern of the lines.
     Raster(Box<RasterArguments>),
+    /// Fit a footprint to a measured profile or image.
     Tip(MeasuredTipArguments),
+    /// Estimate α, r and σ from measured ripples and forces, with 95 % intervals.
     Fit(Box<FitArguments>),
+    /// Convert measured quantities to the numbers of the model, and back.
     Units(UnitsArguments),
+    /// Draw a saved document.
     Plot(PlotArguments),
+    /// Redraw the paper's figures, and compare its numbers with ours.
     Figures(FiguresArguments),
+    /// Print the JSON Schema of a document.
     Schema(SchemaArguments),
     Completions(CompletionsArguments),
 }

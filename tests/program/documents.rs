@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 16] = [
+const OTHERS: [(&str, &str); 17] = [
     ("stability", "stability --r 1"),
     ("walking", "stability --no-spring --alpha=-1"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
@@ -81,6 +81,7 @@ const OTHERS: [(&str, &str); 16] = [
     ),
     ("raster-compare", "compare --tip gaussian --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
     ("raster-boundary", "boundary --tip gaussian --pitch-range 0.5:2:4 --r 1"),
+    ("snaking-boundary", "boundary --stiffness-range 0.3:0.5:2 --r 1"),
     ("raster-stability", "stability --r 1 --pitch 1 --alpha 0.5"),
     (
         "units",

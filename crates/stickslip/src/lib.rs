@@ -84,6 +84,9 @@ pub use ask::run::{
 pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became, observed};
 pub use ask::run_many::ask_runs;
 pub use ask::sampling::{Sampling, Times};
+pub use ask::snaking_boundary::{
+    SnakingBoundary, SnakingBoundaryDocument, SnakingBoundaryFound, SnakingCrossing,
+};
 pub use ask::stability::{Stability, StabilityDocument};
 pub use ask::walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
 pub use ask::walker_motion::{CircleDocument, WalkerRegime};

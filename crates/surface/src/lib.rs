@@ -24,10 +24,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod across;
 mod carved;
 mod image;
 mod ripple;
 
+pub use across::SurfaceAcross;
 pub use carved::{Method, carved, carved_by};
 pub use ripple::{Ripple, ripple_behind};
 

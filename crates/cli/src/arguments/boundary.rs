@@ -4,15 +4,15 @@ use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip::{Boundary, RasterBoundary};
+use stickslip::{Boundary, RasterBoundary, SnakingBoundary};
 
 /// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
-/// against their pitch.
+/// against their pitch; or that of snaking against the stiffness across the scan.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
-    pub(crate) options: Options<Either<Boundary, RasterBoundary>>,
+    pub(crate) options: Options<Either<Boundary, Either<RasterBoundary, SnakingBoundary>>>,
 
     #[command(flatten)]
     pub(crate) answer: AnswerArguments,
@@ -24,7 +24,9 @@ pub(crate) struct BoundaryArguments {
 }
 
 const USAGE: &str = "stickslip boundary --r-range <LO:HI:N> [OPTIONS]
-       stickslip boundary --pitch-range <LO:HI:N> --r <R> [OPTIONS]";
+       stickslip boundary --pitch-range <LO:HI:N> --r <R> [OPTIONS]
+       stickslip boundary --stiffness-range <LO:HI:N> --r <R> [OPTIONS]
+       stickslip boundary --r-range <LO:HI:N> --stiffness-across <K> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 6:
@@ -38,4 +40,7 @@ const EXAMPLES: &str = "Examples:
   Where lines begin to ripple together, and at what angle:
     stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 -o pitch.csv --plot pitch.svg
   The same on a spring across the scan, where lines bunch too:
-    stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 --stiffness-across 2.5 -o across.csv --plot across.svg";
+    stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 --stiffness-across 2.5 -o across.csv --plot across.svg
+  Where a single line snakes, and from which stiffness on it sticks and slips first:
+    stickslip boundary --stiffness-range 0.05:2:40 --r 1 -o snaking.json --plot snaking.svg
+    stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 -o velocity.csv";

@@ -6,7 +6,7 @@ use super::job::Job;
 use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use stickslip::{Boundary, BoundaryDocument, RasterBoundary, parameter};
+use stickslip::{Boundary, BoundaryDocument, RasterBoundary, SnakingBoundary, parameter};
 use stickslip_figures::{Size, View};
 
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
@@ -20,6 +20,13 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
     let values = options.values()?;
     if values.contains_key("pitch_range") {
         return asked::<RasterBoundary, _>(options, values, answer, "--pitch-range");
+    }
+    let is_given = |name: &str| values.contains_key(name);
+    if is_given("stiffness_range") {
+        return asked::<SnakingBoundary, _>(options, values, answer, "--stiffness-range");
+    }
+    if is_given("r_range") && is_given("stiffness_across") {
+        return asked::<SnakingBoundary, _>(options, values, answer, "--stiffness-across");
     }
     if let Some(name) = parameter::stranger::<Boundary>(&values) {
         let message = "applies to neighbouring scan lines: give --pitch-range too, or leave it out";

@@ -15,6 +15,7 @@ mod raster_stability;
 mod raster_sweep;
 mod response;
 mod run;
+mod snaking;
 mod stability;
 mod surface;
 mod sweep;
@@ -31,8 +32,8 @@ use stickslip::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
-    ResponseDocument, RunDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular,
-    Unusable, WalkerDocument, WalkingDocument, read_from, told,
+    ResponseDocument, RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument,
+    SweepDocument, Tabular, Unusable, WalkerDocument, WalkingDocument, read_from, told,
 };
 
 pub use drawn::{Drawn, View};
@@ -101,7 +102,7 @@ pub fn can_be_drawn(range: [f64; 2]) -> bool {
 }
 
 /// Formats of all documents that have a figure.
-pub const FORMATS: [&str; 20] = [
+pub const FORMATS: [&str; 21] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -117,6 +118,7 @@ pub const FORMATS: [&str; 20] = [
     RasterSurfaceDocument::FORMAT,
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
+    SnakingBoundaryDocument::FORMAT,
     WalkingDocument::FORMAT,
     WalkerDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
@@ -181,6 +183,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterSurfaceDocument,
         RasterStabilityDocument,
         RasterBoundaryDocument,
+        SnakingBoundaryDocument,
         WalkingDocument,
         WalkerDocument,
         MeasuredTipDocument,

@@ -34,6 +34,7 @@ pub(crate) mod run;
 pub(crate) mod run_found;
 pub(crate) mod run_many;
 pub(crate) mod sampling;
+pub(crate) mod snaking_boundary;
 pub(crate) mod stability;
 pub(crate) mod walker;
 pub(crate) mod walker_motion;

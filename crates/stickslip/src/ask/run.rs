@@ -14,7 +14,7 @@ use stickslip_outcome::Watched;
 use stickslip_tip::planar::{HeightTable, PlanarError, PlanarScenario, TextureError};
 use stickslip_tip::{
     Force, ForceError, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Support,
-    SupportPath, TipFunction, Trajectory,
+    SupportPath, TipFunction, Trajectory, planar,
 };
 
 /// Everything that defines a run.
@@ -132,6 +132,23 @@ impl Document<Run> {
         }
         let scenario = parameters.scenario()?;
         history.under(*scenario.model.wider(), scenario.support())
+    }
+}
+
+impl Document<Run> {
+    /// The scenario and the motion of a tip that is free to move across the scan.
+    ///
+    /// # Errors
+    /// The tip is held on its line, the parameters define no run, or the history is missing or invalid.
+    pub fn trajectory_across(&self) -> Result<(PlanarScenario, planar::Trajectory), Unusable> {
+        let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
+        let scenario = self.parameters.prepared_across().map_err(unusable)?;
+        let scenario = scenario.ok_or_else(|| Unusable::new("the tip is held on its line"))?;
+        let missing = || Unusable::new("history: it was left out; run it again with --history all");
+        let history = self.history.as_ref().ok_or_else(missing)?;
+        let along = &scenario.along;
+        let trajectory = history.across(*along.model.wider(), along.support())?;
+        Ok((scenario, trajectory))
     }
 }
 

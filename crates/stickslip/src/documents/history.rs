@@ -4,7 +4,7 @@ use crate::Unusable;
 use crate::documents::table::Array;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights};
+use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights, planar};
 
 /// Farthest position, in σ: beyond it round-off exceeds a thousandth of σ, a tenth of the largest tolerance.
 pub const FARTHEST: f64 = 1e13;
@@ -110,6 +110,38 @@ impl History {
             return Err(unusable("heights are present with a depth limit, and only then"));
         }
         Ok(Trajectory::under(wider, support, steps))
+    }
+
+    /// The trajectory of this history of a tip that is free to move across the scan.
+    ///
+    /// # Errors
+    /// As [`under`](Self::under); y0 is missing, or its rows do not follow each other.
+    pub fn across(&self, wider: Wider, support: Support) -> Result<planar::Trajectory, Unusable> {
+        let along = self.under(wider, support.clone())?;
+        let rows = self.y0.as_ref().ok_or_else(|| unusable("y0 is missing"))?;
+        if rows.len() != along.steps().len() {
+            return Err(unusable("y0 does not have the length of extension"));
+        }
+        let parts = |row: &Vec<f64>| {
+            let (y, nodes) = row.split_first()?;
+            let nodes: [f64; STAGES] = nodes.try_into().ok()?;
+            row.iter().all(|y| y.abs() <= FARTHEST).then(|| (*y, nodes.map(|node| node - y)))
+        };
+        let step = |(along, row): (&Step, &Vec<f64>)| {
+            let (y, across) = parts(row)?;
+            Some(planar::Step { along: *along, y, across })
+        };
+        let steps: Option<Vec<_>> = along.steps().iter().zip(rows).map(step).collect();
+        let steps = steps.ok_or_else(|| unusable("a row of y0 has no 7 finite entries"))?;
+        let breaks = |pair: &[planar::Step]| {
+            (pair[0].y_at_end() - pair[1].y).abs() > 1e-9 * pair[1].y.abs().max(1.0)
+        };
+        match steps.windows(2).position(breaks) {
+            Some(i) => {
+                Err(unusable(format!("y0 of step {} is not that at the end of step {i}", i + 1)))
+            }
+            None => Ok(planar::Trajectory::new(wider, support, steps)),
+        }
     }
 
     fn steps(&self) -> Result<Vec<Step>, Unusable> {

@@ -5,8 +5,8 @@ use crate::{
     FigureDocument, FitDocument, MeasuredTipDocument, RasterBoundaryDocument,
     RasterCompareDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
     RasterSweepDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
-    StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument,
-    WalkerDocument, WalkingDocument,
+    SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument,
+    VerifyDocument, WalkerDocument, WalkingDocument,
 };
 
 use schemars::{Schema, schema_for};
@@ -15,7 +15,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// All documents with a schema.
-pub const SCHEMAS: [NamedSchema; 25] = [
+pub const SCHEMAS: [NamedSchema; 26] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -35,6 +35,7 @@ pub const SCHEMAS: [NamedSchema; 25] = [
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
     ("raster-stability", RasterStabilityDocument::schema),
     ("raster-boundary", RasterBoundaryDocument::schema),
+    ("snaking-boundary", SnakingBoundaryDocument::schema),
     ("sweep", SweepDocument::schema),
     ("tip", MeasuredTipDocument::schema),
     ("fit", FitDocument::schema),

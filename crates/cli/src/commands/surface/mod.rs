@@ -1,5 +1,6 @@
 //! `stickslip surface`.
 
+mod across;
 mod image;
 mod of_raster;
 mod places;
@@ -32,9 +33,7 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     };
     format.judge_of_run(arguments)?;
     if document.parameters.stiffness_across.is_some() {
-        let named = format!("RUN.json {}", arguments.run.display());
-        let message = "the tip moves in two coordinates: its surface is not available";
-        return Err(Failure::input(named, message));
+        return across::surface(arguments, &document, format);
     }
     let damaged = |message: String| {
         Failure::input(

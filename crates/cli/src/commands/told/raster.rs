@@ -5,7 +5,7 @@ use crate::commands::job::Product;
 use stickslip::{
     HeightMap, PathName, PatternDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterCompareFound, RasterCriticalDocument, RasterDocument, RasterKindName,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, SnakingBoundaryDocument,
 };
 
 impl Product for RasterDocument {
@@ -116,6 +116,32 @@ impl Product for RasterBoundaryDocument {
             told.row(&format!("{} first", kind[0].as_str()), format!("at pitches from {pitches}"))
         });
         told.remarks(&self.remarks).next(again("-o pitch.csv --plot pitch.svg"))
+    }
+}
+
+impl Product for SnakingBoundaryDocument {
+    fn told(&self) -> Told {
+        let ends = |v: &[f64]| {
+            let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
+            format!("{first} to {last}")
+        };
+        let over_stiffness = self.parameters.stiffness_range.is_some();
+        let (name, values) =
+            if over_stiffness { ("κ_y", &self.stiffness) } else { ("r", &self.r) };
+        let headline = format!(
+            "the line snakes above α from {} at {} values of {name} from {}",
+            ends(&self.alpha),
+            values.len(),
+            ends(values)
+        );
+        let told =
+            Told::new(headline).row("wavelength", format!("from {} σ", ends(&self.wavelength)));
+        let told = self.crossings.iter().fold(told, |told, at| {
+            let place = digits(if over_stiffness { at.stiffness } else { at.r }, 7);
+            let alpha = digits(at.alpha, 7);
+            told.row("as stick-slip", format!("at {name} = {place}, α = {alpha}"))
+        });
+        told.remarks(&self.remarks).next(again("-o snaking.json --plot snaking.svg"))
     }
 }
 

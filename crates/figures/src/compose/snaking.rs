@@ -1,0 +1,54 @@
+//! Figure of the threshold of snaking.
+
+use super::drawn::{Drawn, View};
+use super::labels::R;
+use super::tip::tip_name;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip::{
+    ColourName, CurveDocument, FigureDocument, PanelDocument, SnakingBoundaryDocument, StyleName,
+};
+
+/// Space above the lower of both thresholds, as a factor of its largest value.
+const AIR: f64 = 1.5;
+
+impl Drawn for SnakingBoundaryDocument {
+    /// The critical α of snaking and of stick-slip, and the wavelength of snaking at its threshold.
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        if self.alpha.is_empty() {
+            let message = "a line snakes at no α at each of these values";
+            return Err(FigureError::Nothing(message.into()));
+        }
+        let parameters = &self.parameters;
+        let over_stiffness = parameters.stiffness_range.is_some();
+        let (x, label) = if over_stiffness { (&self.stiffness, "κ_y") } else { (&self.r, R) };
+        let held = [
+            (", r = ", parameters.r.filter(|_| over_stiffness)),
+            (", κ_y = ", parameters.stiffness_across.filter(|_| !over_stiffness)),
+            (", b = ", parameters.law.depth_limit),
+            (", T = ", parameters.law.healing_time),
+            (", M = ", parameters.law.inertia),
+        ];
+        let held =
+            held.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
+        let title = tip_name(&(&parameters.tip.0).into()) + &held.collect::<String>();
+        let mut figure = FigureDocument::new("snaking-boundary", &title, vec![]);
+        let mut threshold = PanelDocument::new("", (label, "critical α"));
+        let mut snaking = CurveDocument::new(StyleName::Line, "snaking", x, &self.alpha);
+        snaking.colour = Some(ColourName::Green);
+        let mut stick_slip = CurveDocument::new(StyleName::Line, "stick-slip", x, &[]);
+        stick_slip.y = self.alpha_stick_slip.clone();
+        stick_slip.colour = Some(ColourName::Blue);
+        threshold.curves.push(snaking);
+        if self.alpha_stick_slip.iter().any(Option::is_some) {
+            threshold.curves.push(stick_slip);
+            let lower = self.alpha.iter().zip(&self.alpha_stick_slip);
+            let lower = lower.map(|(a, b)| b.map_or(*a, |b| a.min(b))).fold(0.0, f64::max);
+            threshold.y_range = (lower > 0.0).then_some([0.0, AIR * lower]);
+        }
+        let mut wavelength = PanelDocument::new("", (label, "wavelength of snaking (σ)"));
+        wavelength.curves = vec![CurveDocument::new(StyleName::Line, "", x, &self.wavelength)];
+        figure.panels = vec![threshold, wavelength];
+        Ok(figure)
+    }
+}

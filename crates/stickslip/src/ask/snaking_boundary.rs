@@ -1,0 +1,284 @@
+//! The question `snaking-boundary`: the threshold above which a single line snakes, over the stiffness across the scan
+//! or over the velocity, and the onset of stick-slip beside it.
+
+use super::lines::footprint;
+use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, Boundary, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip, Typed,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_stability::{self as stability, Snaking, StabilityError};
+use stickslip_tip::{Footprint, Wider};
+
+/// The critical α of snaking over a range of κ_y or of r.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct SnakingBoundary {
+    /// Footprint f of the tip.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    #[serde(default)]
+    pub tip: Tip,
+    /// First and last κ_y, the spring constant across the scan over that along it, above 0, and the number of values:
+    /// for each, the α above which a single line snakes.
+    #[schemars(extend("x-option" = option("LO:HI:N", "Across the scan", 40)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_range: Option<[f64; 2]>,
+    /// First and last r, above 0, and the number of values, both ends included.
+    #[schemars(extend("x-option" = option("LO:HI:N", "Boundary", 20)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r_range: Option<[f64; 2]>,
+    /// Dimensionless support velocity r (12), above 0, of a range of κ_y.
+    #[schemars(extend("x-option" = option("R", "Raster", 31)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub r: Option<f64>,
+    /// κ_y, above 0, of a range of r.
+    #[schemars(extend("x-option" = option("K", "Raster", 34)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Raster", 32)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_y: Option<f64>,
+    /// Number of values, if the range does not contain it; from 2 to 100,000.
+    #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
+    #[serde(default = "super::boundary::default_points")]
+    pub points: usize,
+    /// Spacing of the values of that range.
+    #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
+    #[serde(default)]
+    pub spacing: SpacingName,
+    /// Terms added to the basic model.
+    #[serde(flatten)]
+    pub law: Law,
+}
+
+/// A boundary of snaking and the question that it answers.
+pub type SnakingBoundaryDocument = Document<SnakingBoundary>;
+
+/// Threshold of snaking over κ_y or r. The columns have equal lengths; values at which a line never snakes are left
+/// out.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SnakingBoundaryFound {
+    /// κ_y, in units of the spring along the scan.
+    pub stiffness: Vec<f64>,
+    /// r
+    pub r: Vec<f64>,
+    /// α_y, above which the line snakes. A search over all wave numbers certifies that none grows below it.
+    pub alpha: Vec<f64>,
+    /// Angular frequency at the threshold, in k/Γ.
+    pub omega: Vec<f64>,
+    /// Wavelength at the threshold, in σ.
+    pub wavelength: Vec<f64>,
+    /// αc(r), above which the line sticks and slips; null if it does not at any α.
+    pub alpha_stick_slip: Vec<Option<f64>>,
+    /// Places between the values at which both thresholds are equal.
+    pub crossings: Vec<SnakingCrossing>,
+}
+
+/// A place at which a line begins to snake and to stick and slip at the same α.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SnakingCrossing {
+    /// κ_y
+    pub stiffness: f64,
+    /// r
+    pub r: f64,
+    /// α
+    pub alpha: f64,
+}
+
+impl Question for SnakingBoundary {
+    const FORMAT: &'static str = "stickslip/snaking-boundary";
+    type Answer = SnakingBoundaryFound;
+}
+
+/// Both thresholds at one place.
+struct Place {
+    stiffness: f64,
+    r: f64,
+    snaking: Option<stability::SnakingCritical>,
+    stick_slip: Option<f64>,
+}
+
+impl Place {
+    /// α_y - αc
+    fn difference(&self) -> Option<f64> {
+        Some(self.snaking?.alpha - self.stick_slip?)
+    }
+}
+
+/// Steps of the bisection for a crossing, to the last bits of κ_y or r.
+const BISECTIONS: u32 = 48;
+
+impl SnakingBoundary {
+    /// The name of the range, its ends, and (κ_y, r) at a value of it.
+    fn range(
+        &self,
+    ) -> Result<(&'static str, [f64; 2], impl Fn(f64) -> (f64, f64) + use<>), Refused> {
+        let (stiffness, r) = (self.stiffness_across, self.r);
+        let (name, ends) = match (self.stiffness_range, self.r_range) {
+            (Some(ends), None) => ("stiffness_range", ends),
+            (None, Some(ends)) => ("r_range", ends),
+            (None, None) => {
+                let why = "is needed, or {r_range}: a range of one of the two";
+                return Err(Refused::whole("stiffness_range", why));
+            }
+            (Some(_), Some(_)) => {
+                let why = "and {r_range} are both ranges: leave one of them out";
+                return Err(Refused::whole("stiffness_range", why));
+            }
+        };
+        let over_stiffness = name == "stiffness_range";
+        let (held, other) = if over_stiffness { (r, stiffness) } else { (stiffness, r) };
+        let names = ["r", "stiffness_across"];
+        let [held_name, other_name] = if over_stiffness { names } else { [names[1], names[0]] };
+        if let Some(value) = other {
+            let why = format!("is what {{{name}}} is a range of: leave one of them out");
+            return Err(Refused::number(other_name, value, why));
+        }
+        let held =
+            held.ok_or_else(|| Refused::whole(held_name, "is needed: the value that is held"))?;
+        if !(held.is_finite() && held > 0.0) {
+            return Err(Refused::number(held_name, held, "must be a finite number above 0"));
+        }
+        let at = move |value: f64| if over_stiffness { (value, held) } else { (held, value) };
+        Ok((name, ends, at))
+    }
+
+    /// Rejects an invalid range, or too few or too many points.
+    fn judged(&self) -> Result<(), Refused> {
+        let (name, [low, high], _) = self.range()?;
+        if !(high.is_finite() && 0.0 < low && low < high) {
+            return Err(self
+                .refused(name, "must be two finite numbers above 0, the first below the second"));
+        }
+        if !(2..=Boundary::MOST_POINTS).contains(&self.points) {
+            let why = format!("must be from 2 to {}", Boundary::MOST_POINTS);
+            return Err(Refused::number("points", self.points as f64, why));
+        }
+        Ok(())
+    }
+
+    fn refused(&self, name: &'static str, why: impl ToString) -> Refused {
+        let ends = self.stiffness_range.or(self.r_range).unwrap_or_default();
+        let [low, high] = ends.map(Typed);
+        let value = Some(format!("{low}:{high}:{}", self.points));
+        Refused { parameter: name.into(), value, why: why.to_string() }
+    }
+}
+
+/// Both thresholds at (κ_y, r).
+fn place(
+    footprint: &Footprint,
+    law: Wider,
+    (stiffness, r): (f64, f64),
+) -> Result<Place, StabilityError> {
+    let snaking = Snaking::new(footprint, law, (r, stiffness))?.critical()?;
+    let stick_slip = match stability::Boundary::new(&law, footprint.path()).at(r) {
+        Ok(found) => Some(found.alpha),
+        Err(StabilityError::Stopped) => return Err(StabilityError::Stopped),
+        Err(StabilityError::Wider(error)) => return Err(error.into()),
+        Err(_) => None,
+    };
+    Ok(Place { stiffness, r, snaking, stick_slip })
+}
+
+/// The place between two values at which both thresholds are equal.
+fn crossing(
+    [mut low, mut high]: [f64; 2],
+    at: impl Fn(f64) -> Result<Place, StabilityError>,
+) -> Result<Option<SnakingCrossing>, StabilityError> {
+    let is_first = |place: &Place| place.difference().map(|difference| difference < 0.0);
+    let Some(first) = is_first(&at(low)?) else { return Ok(None) };
+    for _ in 0..BISECTIONS {
+        let middle = f64::midpoint(low, high);
+        match is_first(&at(middle)?) {
+            Some(here) if here == first => low = middle,
+            Some(_) => high = middle,
+            None => return Ok(None),
+        }
+        if high - low <= 4.0 * f64::EPSILON * high {
+            break;
+        }
+    }
+    let found = at(f64::midpoint(low, high))?;
+    let crossing = |alpha| SnakingCrossing { stiffness: found.stiffness, r: found.r, alpha };
+    Ok(found.stick_slip.map(crossing))
+}
+
+impl Ask for SnakingBoundary {
+    fn support_velocity(&self) -> Option<f64> {
+        self.r
+    }
+
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.judged()?;
+        self.law.dragged(&self.tip.0)?;
+        let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
+        Ok(Self { width_y, ..self })
+    }
+
+    fn answer(&self, context: &Context) -> Result<(SnakingBoundaryFound, Vec<String>), Failure> {
+        let law = self.law.dragged(&self.tip.0)?;
+        let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
+        let (name, ends, split) = self.range()?;
+        let failed = |error: StabilityError| match error {
+            StabilityError::Stopped => Failure::Cancelled,
+            error => self.refused(name, error).into(),
+        };
+        let at = |value: f64| place(&footprint, law, split(value));
+        let (mut found, mut left_out) = (SnakingBoundaryFound::default(), vec![]);
+        let mut before: Option<(f64, f64)> = None;
+        for (n, value) in self.spacing.values(ends, self.points).into_iter().enumerate() {
+            let place = at(value).map_err(failed)?;
+            let difference = place.difference();
+            if let (Some((last, sign)), Some(here)) = (before, difference)
+                && sign * here < 0.0
+            {
+                found.crossings.extend(crossing([last, value], at).map_err(failed)?);
+            }
+            before = difference.map(|difference| (value, difference));
+            match place.snaking {
+                Some(critical) => found.push(&critical, place.stick_slip),
+                None => left_out.push(value),
+            }
+            context.counted(n + 1, self.points, "steps")?;
+        }
+        Ok((found, remark(&left_out).into_iter().collect()))
+    }
+}
+
+fn remark(left_out: &[f64]) -> Option<String> {
+    let (first, last) = (left_out.first()?, left_out.last()?);
+    Some(format!(
+        "{} values from {first} to {last} are left out: a line does not snake there, however large alpha",
+        left_out.len()
+    ))
+}
+
+impl SnakingBoundaryFound {
+    fn push(&mut self, critical: &stability::SnakingCritical, stick_slip: Option<f64>) {
+        self.stiffness.push(critical.stiffness);
+        self.r.push(critical.r);
+        self.alpha.push(critical.alpha);
+        self.omega.push(critical.omega);
+        self.wavelength.push(critical.wavelength);
+        self.alpha_stick_slip.push(stick_slip);
+    }
+}
+
+impl Tabular for SnakingBoundaryFound {
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![
+            ("stiffness", Column::of(&self.stiffness)),
+            ("r", Column::of(&self.r)),
+            ("alpha", Column::of(&self.alpha)),
+            ("omega", Column::of(&self.omega)),
+            ("wavelength", Column::of(&self.wavelength)),
+            ("alpha_stick_slip", Column::optional(&self.alpha_stick_slip)),
+        ]
+    }
+}

@@ -18,6 +18,9 @@ const MARKED: (f64, f64) = (0.4, 0.65);
 const MARKED_LINES: f64 = 0.72;
 const MARKED_PART: f64 = 0.4;
 const MOST_CRESTS: i64 = 24;
+/// Largest number of lines with a drawn path of the tip, and points of each.
+const MOST_PATHS: usize = 64;
+const POINTS_OF_A_PATH: u32 = 300;
 /// The colour scale covers the heights between these fractions of the length, because pits at the ends are deeper.
 const COLOURED: (f64, f64) = (0.2, 0.85);
 
@@ -33,6 +36,9 @@ impl Drawn for RasterDocument {
         if let Some(wave) = wave {
             let is_lines = parameters.plan()?.area.pitch(parameters.path.into()).is_some();
             surface.curves.extend(is_lines.then(|| crests(&map, wave)).flatten());
+        }
+        if parameters.stiffness_across.is_some() {
+            surface.curves.push(paths(self)?);
         }
         let x = map.x.clone();
         let z_range = heights_within(&map);
@@ -231,6 +237,28 @@ fn ends(c: f64, (q, kappa): (f64, f64), (x, y): (&[f64; 2], &[f64; 2])) -> Optio
     let first = *found.first()?;
     let last = *found.iter().max_by(|a, b| apart(a, &first).total_cmp(&apart(b, &first)))?;
     Some([first, last])
+}
+
+/// The paths of the tip over the surface, of all lines or of every so many.
+fn paths(document: &RasterDocument) -> Result<CurveDocument, FigureError> {
+    let (_, lines) = document.scanned()?;
+    let every = lines.len().div_ceil(MOST_PATHS);
+    let (mut x, mut y) = (vec![], vec![]);
+    for line in lines.iter().step_by(every) {
+        let end = line.trajectory().end();
+        let times =
+            (0..=POINTS_OF_A_PATH).map(|i| end * f64::from(i) / f64::from(POINTS_OF_A_PATH));
+        for t in times {
+            x.push(line.x0(t));
+            y.push(line.y0(t));
+        }
+        // The next begins elsewhere.
+        x.push(line.x0(end));
+        y.push(f64::NAN);
+    }
+    let mut curve = CurveDocument::new(StyleName::Line, "", &x, &y);
+    curve.colour = Some(ColourName::Silver);
+    Ok(curve)
 }
 
 /// The lag along each line against the position x of the support.

@@ -11,13 +11,15 @@ use stickslip::{
 };
 
 /// Regimes with their colours, in the order of the legend.
-const REGIMES: [(RasterRegimeName, ColourName); 6] = [
+const REGIMES: [(RasterRegimeName, ColourName); 7] = [
     (RasterRegimeName::Steady, ColourName::Silver),
     (RasterRegimeName::Ripples, ColourName::Sky),
     (RasterRegimeName::Pits, ColourName::Orange),
     (RasterRegimeName::Disordered, ColourName::Purple),
     (RasterRegimeName::StuckAtTheEdge, ColourName::Grey),
     (RasterRegimeName::Unknown, ColourName::Black),
+    // Of tips that are free to move across the lines only: in the legend where there are any.
+    (RasterRegimeName::Bunched, ColourName::Green),
 ];
 /// Largest number of points with a printed angle.
 const MOST_ANGLES: usize = 150;
@@ -73,14 +75,17 @@ fn map(document: &RasterSweepDocument) -> PanelDocument {
     let (x, pitches) = ascending(&parameters.pitch);
     let (y, alphas) = ascending(&parameters.alpha);
     let row = |alpha: &usize| pitches.iter().map(|pitch| kinds[*alpha][*pitch]).collect();
+    let is_bunched = |point: &RasterSweepPoint| point.regime == Some(RasterRegimeName::Bunched);
+    let hidden = usize::from(!document.points.iter().any(is_bunched));
+    let named = &REGIMES[..REGIMES.len() - hidden];
     // Whole cells, for what is written in them.
     (panel.x_range, panel.y_range) = (ends(&x), ends(&y));
     panel.cells = Some(CellsDocument {
         kinds: alphas.iter().map(row).collect(),
         x,
         y,
-        names: REGIMES.iter().map(|(name, _)| name.to_string()).collect(),
-        colours: REGIMES.iter().map(|(_, colour)| *colour).collect(),
+        names: named.iter().map(|(name, _)| name.to_string()).collect(),
+        colours: named.iter().map(|(_, colour)| *colour).collect(),
     });
     if document.points.len() <= MOST_ANGLES {
         panel.notes = document.points.iter().filter_map(angle).collect();

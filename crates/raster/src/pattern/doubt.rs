@@ -50,6 +50,13 @@ pub enum Doubt {
         /// Total number of lines.
         lines: usize,
     },
+    /// The error of the angle of trenches is too large to report it; lines of about this length are sufficient.
+    ShortTrenches {
+        /// Error (95 %), in degrees.
+        error: f64,
+        /// Length of the lines, in σ.
+        length: f64,
+    },
     /// The relative error of the wavelength is too large to report it.
     Unmeasured(f64),
 }
@@ -108,6 +115,13 @@ impl fmt::Display for Doubt {
                 out,
                 "the crest angle is uncertain by ±{:.0}°: about {lines} lines would resolve it if the crests are straight",
                 error.min(90.0)
+            ),
+            Self::ShortTrenches { error, length } => write!(
+                out,
+                "the angle of the trenches is uncertain by ±{:.0}°: lines of about {:.0} σ would resolve it if the trenches are \
+                 straight",
+                error.min(90.0),
+                length
             ),
             Self::Unmeasured(part) if *part < 1.0 => write!(
                 out,

@@ -60,6 +60,12 @@ impl Local {
         Estimate::of_quarters(of(coherence(&self.psi.view(), after)), &quarters)
     }
 
+    /// The same with x and y exchanged: of pairs of points at this distance along the lines.
+    pub(super) fn coherence_along(&self, after: usize) -> Estimate {
+        let quarters = self.quarters().map(|quarter| coherence(&quarter.t(), after));
+        Estimate::of_quarters(coherence(&self.psi.t(), after).0, &quarters)
+    }
+
     fn quarters(&self) -> [ArrayView2<'_, Complex64>; 4] {
         let (rows, columns) = self.psi.dim();
         quarters(rows, columns).map(|(rows, columns)| cut(self.psi.view(), rows, columns))

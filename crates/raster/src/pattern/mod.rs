@@ -1,5 +1,6 @@
 //! The pattern of the lines: ripples and their wave vector, pits, or disorder.
 
+mod bunched;
 mod depth;
 mod doubt;
 mod estimate;
@@ -43,7 +44,7 @@ pub struct Written {
 /// lines do not determine is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
-    /// Wave number along the lines, above 0; `None` if several waves have about the same power.
+    /// Wave number along the lines, 0 or above; `None` if several waves have about the same power.
     pub q: Option<f64>,
     /// Wave number across the lines, between -π/d and π/d; `None` if q is, and close to ±π/d, where its sign is
     /// undefined.
@@ -118,6 +119,16 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
         doubts.push(why);
         Written { regime: Regime::Unknown, pattern: None, doubts }
     };
+    if plan.free.is_some() {
+        let window = match Window::of(plan, lines.len()) {
+            Ok(window) => window,
+            Err(why) => return unknown(doubts, why),
+        };
+        if let Some(written) = bunched::bunched(plan, lines, &window) {
+            doubts.extend(written.doubts);
+            return Written { doubts, ..written };
+        }
+    }
     let sheets = match sheets(plan, lines) {
         Ok(sheets) => sheets,
         Err(why) => return unknown(doubts, why),
@@ -172,12 +183,7 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     let spacing = (to - from) / points as f64;
     let x: Vec<f64> = (0..points).map(|i| from + spacing * i as f64).collect();
     let y: Vec<f64> = lines[first..end].iter().map(|line| line.track().y).collect();
-    // Lines out of reach of these rows need not be read; between them none may be left out, as surfaces heal.
-    let (low, high) = (y[0] - plan.reach_across(), y[y.len() - 1] + plan.reach_across());
-    let is_felt = |line: &Line| (low..=high).contains(&line.track().y);
-    let ends = (lines.iter().position(is_felt), lines.iter().rposition(is_felt));
-    let felt = ends.0.unwrap_or(0)..ends.1.map_or(0, |last| last + 1);
-    let heights = Scanned::new(plan, &lines[felt]).heights(&x, &y);
+    let heights = Scanned::new(plan, felt(plan, lines, (y[0], y[y.len() - 1]))).heights(&x, &y);
     let own = own_grooves(plan, &lines[first..end], &x);
     let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
     let depth = depth::carved(plan, &lines[first..end], pitch);
@@ -190,6 +196,24 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
         return Err(Doubt::FewVisible { lines: visible.round() as usize, healed });
     }
     Ok(sheets)
+}
+
+/// The lines that have an effect on rows between these y. Between them none may be left out, as surfaces heal.
+fn felt<'a>(plan: &Plan, lines: &'a [Line], (low, high): (f64, f64)) -> &'a [Line] {
+    let (low, high) = (low - plan.reach_across(), high + plan.reach_across());
+    let is_felt = |line: &Line| {
+        // The tip itself may be elsewhere.
+        let off = if line.is_free() { farthest_across(line) } else { 0.0 };
+        (low - off..=high + off).contains(&line.track().y)
+    };
+    let ends = (lines.iter().position(is_felt), lines.iter().rposition(is_felt));
+    &lines[ends.0.unwrap_or(0)..ends.1.map_or(0, |last| last + 1)]
+}
+
+/// Largest distance of the tip from its line.
+fn farthest_across(line: &Line) -> f64 {
+    let y = line.track().y;
+    line.visits().iter().map(|visit| (visit.y - y).abs()).fold(0.0, f64::max)
 }
 
 /// Measured quantities.

@@ -10,6 +10,8 @@ pub enum Regime {
     Steady,
     /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
+    /// Lines that fell into grooves of earlier lines: trenches along the scan, or pairs of lines.
+    Bunched,
     /// Crests broken into pits; neighbouring lines are still correlated.
     Pits,
     /// Neither ripples nor pits.
@@ -25,6 +27,7 @@ impl fmt::Display for Regime {
         out.write_str(match self {
             Self::Steady => "steady",
             Self::Ripples => "ripples",
+            Self::Bunched => "bunched",
             Self::Pits => "pits",
             Self::Disordered => "disordered",
             Self::StuckAtTheEdge => "stuck at the edge",

@@ -50,9 +50,34 @@ impl Sheet {
         Self::of(u, (from, spacing), pitch, band)
     }
 
+    /// Heights minus a plane: what is the same all along a line remains.
+    pub(super) fn about_a_plane(mut u: Array2<f64>, at: (f64, f64), pitch: f64, band: f64) -> Self {
+        let middle = |count: usize| 0.5 * (count as f64 - 1.0);
+        let (rows, columns) = u.dim();
+        let off = |n: usize, count: usize| n as f64 - middle(count);
+        let moment = |count: usize| (0..count).map(|n| off(n, count).powi(2)).sum::<f64>();
+        let mean = u.sum() / u.len() as f64;
+        let tilt = |of: &dyn Fn((usize, usize)) -> f64, moment: f64, beside: usize| {
+            let sum: f64 = u.indexed_iter().map(|(at, u)| u * of(at)).sum();
+            sum / (moment * beside as f64)
+        };
+        let across = tilt(&|(n, _)| off(n, rows), moment(rows), columns);
+        let along = tilt(&|(_, i)| off(i, columns), moment(columns), rows);
+        for ((n, i), u) in u.indexed_iter_mut() {
+            *u -= mean + across * off(n, rows) + along * off(i, columns);
+        }
+        Self::of(u, at, pitch, band)
+    }
+
     fn of(u: Array2<f64>, (from, spacing): (f64, f64), pitch: f64, band: f64) -> Self {
         let windows = (window(u.ncols()), window(u.nrows()));
         Self { u, from, spacing, pitch, band, windows }
+    }
+
+    /// The same heights with x and y exchanged; the new y counts from the first of the former points.
+    pub(super) fn exchanged(&self) -> Self {
+        let u = self.u.t().as_standard_layout().into_owned();
+        Self::of(u, (0.0, self.pitch), self.spacing, self.band)
     }
 
     /// A part of the heights, unchanged.

@@ -23,7 +23,7 @@ pub(super) struct Vector {
 }
 
 /// Largest error of an angle in degrees, and largest relative error of a wavelength, that are reported.
-const MOST_ANGLE: f64 = 15.0;
+pub(super) const MOST_ANGLE: f64 = 15.0;
 const MOST_LENGTH: f64 = 0.25;
 /// Largest relative error of a wave number.
 const NO_WAVE: f64 = 0.5;
@@ -82,11 +82,7 @@ impl Vector {
 
     /// The relief of the second half of the lines over that of the first: in total, and of this wave.
     pub(super) fn changes(&self, sheet: &Sheet) -> [f64; 2] {
-        let [before, after] = super::sheet::halves_of(&sheet.u);
-        let halves = sheet
-            .halves()
-            .map(|half| half.power(self.wave.q, self.wave.kappa).sqrt() / half.u.nrows() as f64);
-        [after / before, halves[1] / halves[0]]
+        self.wave.changes(sheet)
     }
 
     /// The angle in degrees; `None`, with a doubt, if it is undetermined.

@@ -1,6 +1,6 @@
 //! The strongest waves of an area.
 
-use super::sheet::Sheet;
+use super::sheet::{Sheet, halves_of};
 use std::f64::consts::PI;
 
 /// A maximum of the power |Σ window u e^{-i(qx + κy)}|².
@@ -18,6 +18,8 @@ const PER_PEAK: f64 = 2.0;
 /// Largest wave number of the search, as a fraction of the bandwidth. The groove of a sharp pit has less than e^{-6}
 /// of its power beyond.
 const LOOKED_AT: f64 = 0.4;
+/// Smallest angle of the crests of ripples to the scan axis, in degrees, as in linear theory.
+const FLATTEST: f64 = 22.5;
 /// Smallest power of a rival, relative to the strongest wave.
 const RIVAL: f64 = 0.5;
 
@@ -25,6 +27,26 @@ impl Wave {
     /// Angle of the crests to the lines, in degrees.
     pub(super) fn angle(&self) -> f64 {
         self.q.atan2(self.kappa.abs()).to_degrees()
+    }
+
+    /// The relief of the second half of the lines over that of the first: in total, and of this wave.
+    pub(super) fn changes(&self, sheet: &Sheet) -> [f64; 2] {
+        let [before, after] = halves_of(&sheet.u);
+        let halves = sheet
+            .halves()
+            .map(|half| half.power(self.q, self.kappa).sqrt() / half.u.nrows() as f64);
+        [after / before, halves[1] / halves[0]]
+    }
+
+    /// The same wave with x and y exchanged, with a positive wave number along the new lines.
+    pub(super) fn exchanged(&self) -> Self {
+        let sign = if self.kappa < 0.0 { -1.0 } else { 1.0 };
+        Self { q: sign * self.kappa, kappa: sign * self.q, power: self.power }
+    }
+
+    /// Whether the crests are closer to the lines than to the diagonal: those of trenches and pairs.
+    pub(super) fn is_along_the_lines(&self) -> bool {
+        self.angle() < FLATTEST
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -35,7 +57,7 @@ impl Wave {
     /// longer: all with at least half of its power, or with more power of slopes.
     pub(super) fn strongest(sheet: &Sheet, fewest: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
-        let peaks = Self::peaks(sheet);
+        let peaks = Self::peaks(sheet, (FEWEST_SEEN * PER_PEAK) as i64);
         let is_whole = |wave: &&Self| wave.q >= (fewest - 0.5 / PER_PEAK) * dq;
         let highest = peaks.iter().filter(is_whole).max_by(|a, b| a.power.total_cmp(&b.power));
         let Some(highest) = highest else { return vec![] };
@@ -60,12 +82,43 @@ impl Wave {
         self.power >= factor * RIVAL * other.power || slopes(self) >= factor * slopes(other)
     }
 
-    /// All local maxima of the power with q > 0.
-    fn peaks(sheet: &Sheet) -> Vec<Self> {
+    /// The strongest wave of all, those that are the same all along the lines included, with at least `fewest`
+    /// wavelengths in one of the two directions and at most the wave number `most` across the lines; followed by its
+    /// rivals.
+    pub(super) fn strongest_of_all(sheet: &Sheet, fewest: f64, most: f64) -> Vec<Self> {
+        let (dq, dk) = sheet.resolution();
+        let mut peaks = Self::peaks(sheet, 0);
+        let is_whole = |wave: &Self| {
+            let least = fewest - 0.5 / PER_PEAK;
+            wave.q >= least * dq || wave.kappa.abs() >= least * dk
+        };
+        // Of a wave along the lines one of the two signs of κ.
+        peaks.retain(|wave| {
+            is_whole(wave) && wave.kappa.abs() <= most && (wave.q > 0.0 || wave.kappa > 0.0)
+        });
+        let by_power = |a: &Self, b: &Self| b.power.total_cmp(&a.power);
+        let Some(highest) = peaks.iter().copied().min_by(by_power) else { return vec![] };
+        peaks.retain(|wave| wave.power >= 0.8 * RIVAL * highest.power);
+        let steps = (dq / PER_PEAK, dk / PER_PEAK);
+        let mut waves: Vec<Self> = peaks.iter().map(|wave| wave.refined(sheet, steps)).collect();
+        waves.iter_mut().filter(|wave| wave.q < 0.0).for_each(|wave| {
+            (wave.q, wave.kappa) = (-wave.q, -wave.kappa);
+        });
+        waves.sort_by(by_power);
+        let first = waves[0];
+        let is_same = |wave: &Self| {
+            (wave.q - first.q).abs() < 0.5 * dq && (wave.kappa - first.kappa).abs() < 0.5 * dk
+        };
+        waves
+            .retain(|wave| *wave == first || (!is_same(wave) && wave.power >= RIVAL * first.power));
+        waves
+    }
+
+    /// All local maxima of the power from the sample `first` of q on.
+    fn peaks(sheet: &Sheet, first: i64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
         let half = (PI / sheet.pitch / step_k).round() as i64;
-        let first = (FEWEST_SEEN * PER_PEAK) as i64;
         let last = (LOOKED_AT * sheet.band / step_q) as i64;
         // One more at either end, which is looked at and not taken.
         let row = |i: i64| -> Vec<f64> {

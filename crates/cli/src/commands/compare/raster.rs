@@ -33,6 +33,10 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let (parameters, plan) =
         question(options, values, (area, &disturbance.pulse), scales.as_ref())?;
+    if let Some(stiffness) = parameters.stiffness_across {
+        let message = "there is no grid for a tip that is free to move across: leave it out";
+        return Err(Failure::input(format!("--stiffness-across {}", Typed(stiffness)), message));
+    }
     let sampling = &parameters.sampling;
     let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
     let (grid, method) = method(arguments.grid)?;

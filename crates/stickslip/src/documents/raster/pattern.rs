@@ -12,6 +12,9 @@ pub enum RasterRegimeName {
     Steady,
     /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
+    /// Lines that fell into grooves of earlier lines, of a tip that is free to move across: trenches along the scan, or
+    /// pairs of lines.
+    Bunched,
     /// Crests broken into pits; neighbouring lines are still correlated.
     Pits,
     /// Neither ripples nor pits.
@@ -29,7 +32,7 @@ pub enum RasterRegimeName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PatternDocument {
-    /// Wave number along the lines, in 1/σ; null if several waves have about the same power.
+    /// Wave number along the lines, in 1/σ, 0 for trenches along the scan; null if several waves have about the same power.
     pub q: Option<f64>,
     /// Wave number κ across the lines, in 1/σ; null if q is, and at ±π/pitch, where its sign is undefined.
     pub kappa: Option<f64>,
@@ -104,6 +107,7 @@ impl From<Regime> for RasterRegimeName {
         match regime {
             Regime::Steady => Self::Steady,
             Regime::Ripples => Self::Ripples,
+            Regime::Bunched => Self::Bunched,
             Regime::Pits => Self::Pits,
             Regime::Disordered => Self::Disordered,
             Regime::StuckAtTheEdge => Self::StuckAtTheEdge,
@@ -117,6 +121,7 @@ impl std::fmt::Display for RasterRegimeName {
         out.write_str(match self {
             Self::Steady => "steady",
             Self::Ripples => "ripples",
+            Self::Bunched => "bunched",
             Self::Pits => "pits",
             Self::Disordered => "disordered",
             Self::StuckAtTheEdge => "stuck at the edge",

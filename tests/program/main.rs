@@ -22,6 +22,7 @@ mod documents;
 mod extreme_numbers;
 mod figures;
 mod fit_command;
+mod free_rasters;
 mod image_files;
 mod interrupts;
 mod origin;

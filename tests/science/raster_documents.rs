@@ -1,7 +1,7 @@
 //! A document of a raster is the raster: plan and lines come back from its text.
 
 use stickslip::{KeptLine, ModelParameters, Raster, RasterDocument, read};
-use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
+use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 /// One-way under a depth limit on a surface that heals, the others under the paper's law.
@@ -74,5 +74,41 @@ fn a_damaged_history_is_refused() {
     let said = document.scanned().unwrap_err().to_string();
     assert!(said.contains("line 3"), "{said}");
     document.history.lines.truncate(2);
+    assert!(document.scanned().is_err());
+}
+
+/// Of a tip that is free to move across the lines: y0 on the surface is rounded, what is kept between lines is not.
+#[test]
+fn free_lines_come_back_too() {
+    let plan = plan(Path::Zigzag).with_free(Free { kick: 0.3, ..Free::new(0.9) });
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let lines = scanning.into_lines();
+    let model = ModelParameters::of(&plan.law.model, None);
+    let parameters = Raster::of(&plan, &model, Some(1.3)).unwrap();
+    assert_eq!((parameters.stiffness_across, parameters.kick_across), (Some(0.9), Some(0.3)));
+    let mut document = parameters.document(&plan, &lines, &[0.0, 10.0, 20.0]);
+    let samples = &document.lines[2].samples;
+    let (y0, velocity) = (samples.y0.as_ref().unwrap(), samples.velocity_y.as_ref().unwrap());
+    assert!((y0[1] - lines[2].y0(10.0)).abs() < 1e-15 && (y0[1] - 1.4).abs() > 1e-3);
+    assert!((velocity[1] - lines[2].velocity_y(10.0)).abs() < 1e-15);
+    let text = serde_json::to_string(&document).unwrap();
+    let back: RasterDocument = read(&text, RasterDocument::FORMAT).unwrap();
+    let (again, found) = back.scanned().unwrap();
+    let at = ([3.0, 9.5], [0.0, 1.9]);
+    let heights = |plan, lines| Scanned::new(plan, lines).heights(&at.0, &at.1);
+    let pairs = heights(&again, &found).into_iter().zip(heights(&plan, &lines));
+    assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-13));
+    for (n, line) in lines.iter().enumerate() {
+        let text = serde_json::to_string(&KeptLine::of(n, line)).unwrap();
+        let kept: KeptLine = serde_json::from_str(&text).unwrap();
+        assert!(kept.line(&plan).unwrap().planar_steps().eq(line.planar_steps()));
+        assert!(KeptLine { across: None, ..kept.clone() }.line(&plan).is_err());
+        assert!(KeptLine { across: Some(vec![]), ..kept }.line(&plan).is_err());
+    }
+    let damaged = document.history.lines[1].y0.as_mut().unwrap();
+    damaged[0][2] = f64::NAN;
+    assert!(document.scanned().unwrap_err().to_string().contains("line 2"));
+    document.history.lines[1].y0 = None;
     assert!(document.scanned().is_err());
 }

@@ -2,5 +2,6 @@
 
 mod limits;
 mod lines;
+mod patterns;
 mod reference;
 mod theory;

@@ -1,0 +1,86 @@
+//! Rasters of a tip that is free to move across the lines, as a user meets them. The lines themselves are judged in
+//! crates/raster/tests.
+
+use crate::folder::Folder;
+use crate::runs::{schema, validate};
+use serde_json::Value;
+use stickslip_raster::{Free, Path, Plan, Scanned, Scanning};
+use stickslip_tip::{Footprint, Model, TipFunction};
+
+const LINES: &str = "raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 4 --length 16";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+/// Samples and heights are those of the library; formats, pictures and questions from documents know both coordinates.
+#[test]
+fn a_free_raster_is_that_of_the_library() {
+    let folder = Folder::new("free_raster");
+    let line = format!("{LINES} --path zigzag --stiffness-across 0.8 --kick-across 0.2");
+    let line = format!("{line} --sample-at 0,7.5,16");
+    folder.prints(&format!("{line} -o raster.json --plot raster.svg"));
+    let document = folder.json("raster.json");
+    validate(&schema(&folder, "raster"), &document);
+    let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
+    let model = Model::new(footprint.path().clone(), 0.5, 1.0).unwrap();
+    let plan = Plan::new(footprint, model, Path::Zigzag, 0.5, 4, 16.0);
+    let plan = plan.with_free(Free { kick: 0.2, ..Free::new(0.8) });
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let lines = scanning.into_lines();
+    for (n, line) in lines.iter().enumerate() {
+        let samples = &document["lines"][n]["samples"];
+        for (i, t) in [0.0, 7.5, 16.0].into_iter().enumerate() {
+            assert!((number(&samples["x0"][i]) - line.x0(t)).abs() < 1e-15);
+            assert!((number(&samples["y0"][i]) - line.y0(t)).abs() < 1e-15);
+            assert!((number(&samples["velocity_y"][i]) - line.velocity_y(t)).abs() < 1e-15);
+        }
+    }
+    // The tip goes on from where it was.
+    let ends =
+        [&document["lines"][0]["samples"]["y0"][2], &document["lines"][1]["samples"]["y0"][0]];
+    assert!((number(ends[0]) - number(ends[1])).abs() < 1e-12);
+    assert!((number(&document["lines"][0]["samples"]["y0"][0]) - 0.2).abs() < 1e-15);
+    let surface = folder.prints_json("surface raster.json --x 3,8.25 --y 0.1,1.5");
+    let wanted = Scanned::new(&plan, &lines).heights(&[3.0, 8.25], &[0.1, 1.5]);
+    for ((row, column), u) in wanted.indexed_iter() {
+        assert!((number(&surface["surfaces"][0]["u"][row][column]) - u).abs() < 1e-12);
+    }
+    for name in ["a.csv", "a.npz", "a.gsf"] {
+        folder.prints(&format!("{line} --sigma 30nm -o {name}"));
+    }
+    let csv = String::from_utf8(folder.read("a.csv")).unwrap();
+    let head = csv.lines().find(|line| !line.starts_with('#')).unwrap();
+    assert!(head.contains("y0_nm") && head.contains("velocity_y"), "{head}");
+    let again = folder.prints_json("raster --parameters raster.json");
+    assert_eq!(again["lines"], document["lines"]);
+    folder.prints("plot raster.json -o again.svg");
+    assert_eq!(folder.read("again.svg"), folder.read("raster.svg"));
+}
+
+/// Without the option documents say nothing of it, and pictures draw no path.
+#[test]
+fn a_held_raster_says_nothing_of_motion_across() {
+    let folder = Folder::new("held_raster");
+    folder.prints(&format!("{LINES} -o raster.json --plot raster.svg"));
+    let text = String::from_utf8(folder.read("raster.json")).unwrap();
+    for word in ["across", "y0", "velocity_y"] {
+        assert!(!text.contains(word), "{word}");
+    }
+}
+
+#[test]
+fn what_a_free_raster_does_not_know_is_refused_by_name() {
+    let folder = Folder::new("free_refusals");
+    let free = format!("{LINES} --stiffness-across 1");
+    for (line, words) in [
+        (format!("{LINES} --stiffness-across 0"), ["--stiffness-across 0", "above 0"]),
+        (format!("{LINES} --stiffness-across -2"), ["--stiffness-across -2", "above 0"]),
+        (format!("{LINES} --kick-across 1"), ["--kick-across 1", "--stiffness-across"]),
+        (format!("{free} --memory fft"), ["--stiffness-across 1", "the memory fft"]),
+        (free.replace("raster", "compare"), ["--stiffness-across 1", "no grid"]),
+    ] {
+        folder.refuses(&line, &words);
+    }
+}

@@ -2,7 +2,8 @@
 //!
 //! On a lattice of spacing Δ, Gaussians of width 1.2 Δ reproduce every function that the lattice resolves: the
 //! saturation error of such a quasi-interpolation is 2 exp(-2π²·1.2²) ≈ 1e-12, and its matrix has a condition number
-//! below 1e3.
+//! below 1e3. The lattice is the coarsest one that reproduces the rows to 4e-12, as far as one is found by bisection, or
+//! that of the rows.
 
 use super::{Gaussian, TipFunctionError};
 use crate::elementary::exp;
@@ -19,20 +20,83 @@ const ZEROS_BEYOND: usize = 12;
 /// Half-width of the matrix in lattice points: exp(-(11/1.2)²/2) is below round-off.
 const NEIGHBOURS: usize = 11;
 
+/// Largest error with which a coarser lattice reproduces the rows, as a fraction of the largest value: some times the
+/// saturation error.
+const REPRODUCED: f64 = 4e-12;
+/// Smallest number of spacings of a coarser lattice.
+const FEWEST: usize = 12;
+
+/// The Gaussians on the coarsest lattice that reproduces the rows: their width, not the spacing of the rows, determines
+/// the length of steps.
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
     validate(x, f)?;
-    let (spacing, coefficients) = lattice_through(x, f);
-    Ok(gaussians_of(spacing, &coefficients))
+    let fine = Through::of(on_a_lattice(x, f));
+    let wanted = &fine.samples[..x.len()];
+    let largest = wanted.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let reproduces = |sum: &Through| {
+        let off = |(i, f): (usize, &f64)| (sum.value(i as f64 * fine.spacing) - f).abs();
+        wanted.iter().enumerate().map(off).fold(0.0, f64::max) <= REPRODUCED * largest
+    };
+    // Bisection: a number of spacings that suffices, and one that does not.
+    let (mut enough, mut few) = (x.len() - 1, FEWEST);
+    let mut coarsest = None;
+    while few < enough {
+        let middle = few.midpoint(enough);
+        let coarser = fine.on(middle, (x.len() - 1) as f64 / middle as f64);
+        if reproduces(&coarser) {
+            (coarsest, enough) = (Some(coarser), middle);
+        } else {
+            few = middle + 1;
+        }
+    }
+    let Through { spacing, coefficients, .. } = coarsest.as_ref().unwrap_or(&fine);
+    Ok(gaussians_of(*spacing, coefficients))
+}
+
+/// An even sum of Gaussians through values on a lattice.
+struct Through {
+    spacing: f64,
+    /// Values on the points ≥ 0, the last of them 0.
+    samples: Vec<f64>,
+    /// Coefficients on the same points.
+    coefficients: Vec<f64>,
+}
+
+impl Through {
+    /// The sum through these values at multiples of the spacing, and 0 beyond.
+    fn of((spacing, mut samples): (f64, Vec<f64>)) -> Self {
+        samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
+        let origin = samples.len() - 1;
+        let coefficients = interpolate(&mirrored(&samples, 1.0)).split_off(origin);
+        Self { spacing, samples, coefficients }
+    }
+
+    /// The sum through the values of this one on a lattice that many times as wide, with this number of spacings.
+    fn on(&self, count: usize, times: f64) -> Self {
+        let spacing = times * self.spacing;
+        Self::of((spacing, (0..=count).map(|i| self.value(i as f64 * spacing)).collect()))
+    }
+
+    /// The sum at x ≥ 0.
+    fn value(&self, x: f64) -> f64 {
+        let at = x / self.spacing;
+        #[expect(clippy::cast_possible_truncation, reason = "a few thousand")]
+        let nearest = at.round() as isize;
+        let reach = NEIGHBOURS as isize;
+        let term = |j: isize| {
+            let coefficient = self.coefficients.get(j.unsigned_abs()).copied().unwrap_or(0.0);
+            let z = (at - j as f64) / WIDTH_PER_SPACING;
+            coefficient * exp(-0.5 * z * z)
+        };
+        (nearest - reach..=nearest + reach).map(term).sum()
+    }
 }
 
 /// Spacing of the lattice, and coefficients on its points ≥ 0 of the even sum of Gaussians through the points (x, f)
 /// of a valid table.
 pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
-    let (spacing, mut samples) = on_a_lattice(x, f);
-    samples.resize(samples.len() + ZEROS_BEYOND, 0.0);
-    let origin = samples.len() - 1;
-    let mut coefficients = interpolate(&mirrored(&samples, 1.0));
-    (spacing, coefficients.split_off(origin))
+    let Through { spacing, coefficients, .. } = Through::of(on_a_lattice(x, f));
+    (spacing, coefficients)
 }
 
 /// The Gaussians on the whole lattice, from the coefficients on its points ≥ 0.
@@ -105,10 +169,11 @@ fn on_a_lattice(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
 /// gradients; 300 steps are far beyond convergence at the matrix's condition number.
 fn interpolate(samples: &[f64]) -> Vec<f64> {
     let n = samples.len();
+    let fading: [f64; NEIGHBOURS + 1] = std::array::from_fn(gaussian);
     let apply = |v: &[f64]| -> Vec<f64> {
         let row = |i: usize| -> f64 {
             let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(n);
-            near.map(|j| gaussian(i.abs_diff(j)) * v[j]).sum()
+            near.map(|j| fading[i.abs_diff(j)] * v[j]).sum()
         };
         (0..n).map(row).collect()
     };
@@ -159,6 +224,38 @@ mod tests {
             assert!((table.value(x) - exact.value(x)).abs() < 1e-11, "{x}");
             assert!((table.slope(x) - exact.slope(x)).abs() < 1e-9, "{x}");
         }
+    }
+
+    /// Many rows of a smooth footprint: as wide a band as few rows have, and the same function.
+    #[test]
+    fn the_band_is_that_of_the_function_and_not_of_the_rows() {
+        let exact = TipFunction::gaussian(1.0).unwrap();
+        for rows in [60, 200, 1000, 2000] {
+            let x: Vec<f64> = (0..rows).map(|i| 8.5 * f64::from(i) / f64::from(rows - 1)).collect();
+            let f: Vec<f64> = x.iter().map(|&x| exact.value(x)).collect();
+            let table = TipFunction::table(&x, &f).unwrap();
+            assert!(table.band() < 3.0 * exact.band(), "{rows} rows: {}", table.band());
+            for i in 0..900 {
+                let x = 0.011 * f64::from(i);
+                let (slope, curvature) = table.slope_and_curvature(x);
+                let right = exact.slope_and_curvature(x);
+                assert!((table.value(x) - exact.value(x)).abs() < 1e-11, "{rows} {x}");
+                assert!((slope - right.0).abs() < 2e-10, "{rows} {x}: {:e}", slope - right.0);
+                assert!((curvature - right.1).abs() < 4e-9, "{rows} {x}");
+            }
+        }
+    }
+
+    /// A kink that only the rows' own lattice follows.
+    #[test]
+    fn details_of_the_rows_are_kept() {
+        let x: Vec<f64> = (0..400).map(|i| 0.02 * f64::from(i)).collect();
+        let f: Vec<f64> = x.iter().map(|x| (1.0 - x).max(0.0)).collect();
+        let table = TipFunction::table(&x, &f).unwrap();
+        for (x, f) in x.iter().zip(&f) {
+            assert!((table.value(*x) - f).abs() < 1e-11, "{x}");
+        }
+        assert!(table.band() > 8.7 / 0.03, "{}", table.band());
     }
 
     #[test]

@@ -136,6 +136,13 @@ impl<P: Part> Finished<P> {
         parts
     }
 
+    /// The parts by rising index, without a copy: they leave this list, but not the file.
+    pub(super) fn take_in_order(&mut self) -> Vec<P> {
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.sort_unstable_by_key(Part::index);
+        parts
+    }
+
     /// Removes the file when it is no longer needed.
     pub(super) fn remove(self) {
         if let Some(kept) = self.kept.filter(|kept| !kept.is_gone) {

@@ -53,10 +53,10 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     };
     let interrupt = Interrupt::listen()?;
     let work = (threads, grid.together());
-    let finished = compute(&indices, finished, work, &interrupt, |indices, take| {
+    let mut finished = compute(&indices, finished, work, &interrupt, |indices, take| {
         judged(indices, &grid, take);
     })?;
-    let points = finished.in_order();
+    let points = finished.take_in_order();
     let found = SweepFound { points, ensembles: None, arithmetic: Some(arithmetic()), crc32: None };
     let document: SweepDocument = Document::new(grid.parameters, found, vec![]);
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;

@@ -60,10 +60,10 @@ pub(super) fn sweep(arguments: &RasterSweepArguments) -> Result<(), Failure> {
         None => Finished::in_memory(),
     };
     let interrupt = Interrupt::listen()?;
-    let finished = compute(&indices, finished, (threads, 1), &interrupt, |indices, take| {
+    let mut finished = compute(&indices, finished, (threads, 1), &interrupt, |indices, take| {
         indices.iter().for_each(|index| take(grid.point(*index)));
     })?;
-    let points = finished.in_order();
+    let points = finished.take_in_order();
     let found = RasterSweepFound { points, arithmetic: Some(arithmetic()), crc32: None };
     let document: RasterSweepDocument = Document::new(grid.parameters, found, vec![]);
     job.finish(document.sealed()?.in_units(scales.as_ref()))?;

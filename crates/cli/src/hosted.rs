@@ -8,7 +8,8 @@
 pub use crate::host::{Host, Pace, Supply};
 pub use crate::made::{Document, Made};
 
-use crate::arguments::Cli;
+use crate::arguments::{Cli, Command};
+use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
 use crate::message::harmless;
@@ -53,6 +54,37 @@ pub fn call<'a>(
         }
         Err(failure) => Err(failure.into()),
     }
+}
+
+/// Runs several `run` commands together on this thread, side by side where possible. Each has its words, such as
+/// `["run", "--r=1", …]`, and a host that supplies its files and hears its warnings; `host` sees the progress of all and
+/// may cancel them. Invalid input of any command is an error before the first run begins.
+///
+/// # Errors
+/// The messages of the program, with the number of the command, from 0.
+pub fn runs(
+    commands: &[(Vec<String>, Arc<Host>)],
+    host: &Arc<Host>,
+) -> Result<Vec<Result<Made, Refusal>>, (usize, Refusal)> {
+    let order = |(words, own): &(Vec<String>, Arc<Host>)| {
+        let cli = parse(words.iter().map(String::as_str))?;
+        let Command::Run(arguments) = &cli.command else {
+            return Err(Refusal::Input("several commands at once are runs".into()));
+        };
+        let _lent = Lent::to(own);
+        many::order_of(arguments).map_err(Refusal::from)
+    };
+    let orders = commands.iter().enumerate();
+    let orders = orders.map(|(number, command)| order(command).map_err(|e| (number, e)));
+    let orders = orders.collect::<Result<_, _>>()?;
+    let _lent = Lent::to(host);
+    let runs = stop::where_asked_by(host.stop(), || many::runs(orders));
+    let stopped = host.stop().load(Ordering::Relaxed);
+    let refused = |failure: Failure| match failure {
+        failure if stopped => Refusal::Stopped(failure.to_string()),
+        failure => failure.into(),
+    };
+    Ok(runs.into_iter().map(|run| run.map_err(refused)).collect())
 }
 
 /// Guard: the thread has a host until this is dropped.
@@ -224,6 +256,43 @@ mod tests {
         assert_eq!(text(&in_hand), text(written));
         assert!(in_hand.history.is_some());
         assert!(host::current().is_none(), "the thread is its own again");
+    }
+
+    #[test]
+    fn several_runs_are_those_of_the_command_within_their_tolerance() {
+        let words = |alpha: &str, more: &[&str]| {
+            let usual = ["run", alpha, "--r=1", "--kick=0.05", "--until=60", "--sample-every=2"];
+            let words = usual.into_iter().chain(more.iter().copied()).map(str::to_owned);
+            (words.collect::<Vec<_>>(), host([]))
+        };
+        let commands = [
+            words("--alpha=1.2", &[]),
+            words("--alpha=0.8", &["--noise=1e-3", "--noise-spacing=0.5"]),
+            words("--alpha=0.9", &["--history=none"]),
+        ];
+        let told = |made: &Made| made.document.any().downcast_ref::<RunDocument>().unwrap().clone();
+        let together: Vec<_> =
+            runs(&commands, &host([])).unwrap().into_iter().map(Result::unwrap).collect();
+        for ((words, own), made) in commands.iter().zip(&together) {
+            let (beside, single) =
+                (told(made), call(words.iter().map(String::as_str), own).unwrap().unwrap());
+            let single = told(&single);
+            assert_eq!(beside.regime, single.regime);
+            assert_eq!(beside.samples.t, single.samples.t);
+            for (a, b) in beside.samples.x0.iter().zip(&single.samples.x0) {
+                assert!((a - b).abs() < 1e-8, "{a} {b}");
+            }
+            let is_beside = beside.work.memory_reason.starts_with("side by side");
+            assert_eq!(is_beside, !words.iter().any(|word| word.starts_with("--noise")));
+            assert_eq!(beside.history.is_none(), words.iter().any(|word| word == "--history=none"));
+            assert_eq!(made.headline.split(':').next(), Some(single.regime.to_string().as_str()));
+        }
+        let refused = runs(&[words("--alpha=1", &[]), words("--alpha=-1", &[])], &host([]));
+        assert!(
+            matches!(refused, Err((1, Refusal::Input(said))) if said.starts_with("--alpha -1"))
+        );
+        let refused = runs(&[words("--alpha=1", &["--output=x.json"])], &host([]));
+        assert!(matches!(refused, Err((0, Refusal::Input(said))) if said.starts_with("--output")));
     }
 
     #[test]

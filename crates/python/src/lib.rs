@@ -21,5 +21,5 @@ mod _native {
     #[pymodule_export]
     use super::told::{commands, csv, options};
     #[pymodule_export]
-    use super::work::{call, load, read};
+    use super::work::{call, call_runs, load, read};
 }

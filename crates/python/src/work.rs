@@ -28,8 +28,6 @@ pub(crate) enum Given {
     Document(Py<Document>),
 }
 
-type Answer = Result<Option<Made>, Refusal>;
-
 /// Carries out a command: its words, the files that it finds in memory, and who is told how far it has come, by part
 /// (None where the end is not known) and words. What it has made, if anything, and the lines that it has said.
 #[pyfunction]
@@ -43,14 +41,71 @@ pub(crate) fn call(
     let supplies: PyResult<Vec<_>> =
         supplies.into_iter().map(|(name, given)| Ok((name.into(), supply(py, given)?))).collect();
     let host = Arc::new(Host::new(supplies?));
-    let mut answer = begin(words, &host)?;
+    let own = Arc::clone(&host);
+    let mut answer = begin(move || hosted::call(words.iter().map(String::as_str), &own))?;
     let answer = wait(py, &mut answer, &host, progress.as_ref());
     let left = || host.take().map(|made| Document::new(py, made));
     match answer {
-        Ok(Ok(made)) => Ok((made.map(|made| Document::new(py, made)), host.heard())),
-        Ok(Err(refusal)) => Err(with_result(py, raised(refusal), left())),
+        Ok(Some(Ok(made))) => Ok((made.map(|made| Document::new(py, made)), host.heard())),
+        Ok(Some(Err(refusal))) => Err(with_result(py, raised(refusal), left())),
+        Ok(None) => Err(with_result(py, raised(panicked()), left())),
         Err(error) => Err(with_result(py, error, left())),
     }
+}
+
+/// A command: its words, and the files that it finds in memory.
+type Command = (Vec<String>, Vec<(String, Given)>);
+
+/// Carries out several commands `run` together. The document of each, None where its run failed, with why it did; and
+/// the lines that were said, each with the number of its run.
+#[pyfunction]
+#[pyo3(signature = (commands, progress=None))]
+#[expect(clippy::type_complexity, reason = "a tuple for Python")]
+pub(crate) fn call_runs(
+    py: Python<'_>,
+    commands: Vec<Command>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<(Vec<(Option<Document>, Option<String>)>, Vec<(usize, String)>)> {
+    let command = |(words, supplies): Command| {
+        let supplies = supplies.into_iter();
+        let supplies = supplies.map(|(name, given)| Ok((name.into(), supply(py, given)?)));
+        Ok((words, Arc::new(Host::new(supplies.collect::<PyResult<Vec<_>>>()?))))
+    };
+    let commands = commands.into_iter().map(command).collect::<PyResult<Vec<_>>>()?;
+    let hosts: Vec<Arc<Host>> = commands.iter().map(|(_, host)| Arc::clone(host)).collect();
+    let host = Arc::new(Host::new([]));
+    let own = Arc::clone(&host);
+    let mut answer = begin(move || hosted::runs(&commands, &own))?;
+    let runs = match wait(py, &mut answer, &host, progress.as_ref())? {
+        Some(Ok(runs)) => runs,
+        Some(Err((number, refusal))) => return Err(raised(of_run(number, refusal))),
+        None => return Err(raised(panicked())),
+    };
+    let heard = hosts.iter().enumerate().flat_map(|(number, host)| {
+        host.heard().into_iter().map(move |line| (number, line))
+    });
+    let run = |run: Result<Made, Refusal>| match run {
+        Ok(made) => (Some(Document::new(py, made)), None),
+        Err(Refusal::Input(said) | Refusal::Run(said) | Refusal::Stopped(said)) => {
+            (None, Some(said))
+        }
+    };
+    Ok((runs.into_iter().map(run).collect(), heard.collect()))
+}
+
+/// The refusal with the number of its run.
+fn of_run(number: usize, refusal: Refusal) -> Refusal {
+    let named = |said: String| format!("run {number}: {said}");
+    match refusal {
+        Refusal::Input(said) => Refusal::Input(named(said)),
+        Refusal::Run(said) => Refusal::Run(named(said)),
+        Refusal::Stopped(said) => Refusal::Stopped(named(said)),
+    }
+}
+
+fn panicked() -> Refusal {
+    let said = "the computation failed for an unknown reason: please report it";
+    Refusal::Run(said.into())
 }
 
 fn supply(py: Python<'_>, given: Given) -> PyResult<Supply> {
@@ -79,13 +134,13 @@ fn idle() -> MutexGuard<'static, (u32, Vec<Sender<Work>>)> {
 
 /// Starts the work, in a thread that is there already, if one is: a new one costs half a millisecond, most of it for
 /// memory of its own.
-fn begin(words: Vec<String>, host: &Arc<Host>) -> PyResult<Receiver<Answer>> {
+fn begin<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<Receiver<T>> {
     let (answer, receiver) = channel();
-    let host = Arc::clone(host);
     let work = move || {
-        let words = words.iter().map(String::as_str);
         // Nobody hears it who has gone.
-        answer.send(hosted::call(words, &host)).ok();
+        answer.send(work()).ok();
     };
     let mut work: Work = Box::new(work);
     while let Some(thread) = { idle().1.pop() } {
@@ -112,21 +167,17 @@ fn work_on(first: Work) {
     }
 }
 
-/// Waits for the answer; the error is Python's, Ctrl-C say, and the work was told to stop.
-fn wait(
+/// Waits for the answer; None if the work panicked. The error is Python's, Ctrl-C say, and the work was told to stop.
+fn wait<T: Send>(
     py: Python<'_>,
-    answer: &mut Receiver<Answer>,
+    answer: &mut Receiver<T>,
     host: &Host,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Answer> {
+) -> PyResult<Option<T>> {
     loop {
         match hear(py, answer, LOOK) {
-            Ok(answer) => return Ok(answer),
-            Err(RecvTimeoutError::Disconnected) => {
-                let said =
-                    "the computation failed for an unknown reason: please report it";
-                return Ok(Err(Refusal::Run(said.into())));
-            }
+            Ok(answer) => return Ok(Some(answer)),
+            Err(RecvTimeoutError::Disconnected) => return Ok(None),
             Err(RecvTimeoutError::Timeout) => {}
         }
         let looked = py.check_signals().and_then(|()| show(host, progress));
@@ -139,11 +190,11 @@ fn wait(
 }
 
 /// The answer, if it comes in time; other threads of Python run on.
-fn hear(
+fn hear<T: Send>(
     py: Python<'_>,
-    answer: &mut Receiver<Answer>,
+    answer: &mut Receiver<T>,
     patience: Duration,
-) -> Result<Answer, RecvTimeoutError> {
+) -> Result<T, RecvTimeoutError> {
     py.detach(move || answer.recv_timeout(patience))
 }
 

@@ -12,6 +12,7 @@ in Gamma/k, forces in k sigma, heights in k sigma^2/a.
 ((), (2,))
 """
 
+from ._call import run_many
 from ._commands import (
     boundary,
     compare,
@@ -82,6 +83,7 @@ __all__ = [
     "raster",
     "response",
     "run",
+    "run_many",
     "stability",
     "surface",
     "sweep",

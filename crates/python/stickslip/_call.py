@@ -27,6 +27,43 @@ def call(path, given, progress):
     return None if document is None else result_of(document)
 
 
+def run_many(questions, *, progress=None):
+    """Several runs at once: for each dict of keyword arguments of :func:`run` a :class:`RunResult`, in the same order.
+
+    Motions without noise, profiles, forces and further terms of the law share the lanes of the processor, in half of the time or
+    less; ``work.memory_reason`` says which did. They are as accurate as those of ``run`` but differ in the last digits; the
+    others are those of ``run``. ValueError if one is refused, before the first begins; where one fails a RuntimeError, the
+    others being its ``results``, with None for those that failed. ``output``, ``plot``, ``verify`` and checkpoints are of
+    ``run`` alone.
+
+    >>> runs = stickslip.run_many([{"alpha": alpha, "r": 1, "until": 400} for alpha in (0.9, 1.1, 1.2)])
+    """
+    path = ("run",)
+    asked = [Asked(path, dict(given)) for given in questions]
+    try:
+        with told(progress) as tell:
+            runs, said = _native.call_runs([(one.words, one.supplies) for one in asked], tell)
+    except (ValueError, RuntimeError, KeyboardInterrupt) as error:
+        error.args = tuple(": ".join([number, in_words_of_python(path, why)]) if why else number for number, why in map(apart, error.args))
+        raise
+    for number, line in said:
+        line = in_words_of_python(path, line.removeprefix("stickslip: "))
+        warnings.warn(f"run {number}: {line}", StickslipWarning, stacklevel=2)
+    results = [None if document is None else result_of(document) for document, _ in runs]
+    failed = [f"run {number}: {in_words_of_python(path, why)}" for number, (_, why) in enumerate(runs) if why is not None]
+    if failed:
+        error = RuntimeError("\n".join(failed))
+        error.results = results
+        raise error
+    return results
+
+
+def apart(said):
+    """``run 3`` and what is said of it."""
+    number, _, why = str(said).partition(": ")
+    return number, why
+
+
 MISSING = "the following required arguments were not provided:"
 
 

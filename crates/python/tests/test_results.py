@@ -132,3 +132,24 @@ def test_units_and_stability_have_their_fields():
         found.critcal
     with pytest.raises(AttributeError, match="there is no alfa"):
         found.critical.alfa
+
+
+def test_many_runs_are_those_of_run_within_their_tolerance():
+    questions = [{"alpha": alpha, "r": 1, "kick": 0.05, "until": 80, "sample_every": 1} for alpha in (0.9, 1.1, 1.2)]
+    questions.append({**questions[0], "noise": 1e-3, "noise_spacing": 0.5})
+    together = stickslip.run_many(questions)
+    for question, run in zip(questions, together):
+        one = stickslip.run(**question)
+        assert run.regime == one.regime and np.array_equal(run.t, one.t)
+        assert np.abs(run.x0 - one.x0).max() < 1e-8
+        assert run.work.memory_reason.startswith("side by side") == ("noise" not in question)
+        assert run.sol(50.0).l == pytest.approx(one.sol(50.0).l, abs=1e-8)
+    # Whatever the company.
+    assert np.array_equal(stickslip.run_many(questions[1:2])[0].x0, together[1].x0)
+    with pytest.raises(ValueError, match=r"run 1: alpha=-1: "):
+        stickslip.run_many([questions[0], {**questions[0], "alpha": -1}])
+    with pytest.raises(ValueError, match="run 0: missing: until"):
+        stickslip.run_many([{"alpha": 1, "r": 1}])
+    with pytest.raises(TypeError):
+        stickslip.run_many([{"alfa": 1}])
+    assert stickslip.run_many([]) == []

@@ -4,6 +4,7 @@ mod across;
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
 mod integration;
+pub(crate) mod many;
 mod motion;
 mod order;
 mod record;

@@ -84,6 +84,24 @@ impl Image {
         Ok(Self { x, y, rows })
     }
 
+    /// Positions of the columns.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Positions of the rows.
+    #[must_use]
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Heights, a row for each y.
+    #[must_use]
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
     /// Every `every`th pixel in both directions: x, y and height.
     fn pixels(&self, every: usize) -> impl Iterator<Item = [f64; 3]> {
         let rows = self.y.iter().zip(&self.rows).step_by(every);

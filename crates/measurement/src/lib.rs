@@ -25,6 +25,7 @@ mod judge;
 mod least_squares;
 mod profile;
 mod projection;
+mod ripples;
 mod tip;
 
 pub use fit::{
@@ -35,4 +36,5 @@ pub use image::{Across, Image, ImageError};
 pub use interval::Estimate;
 pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};
+pub use ripples::{RippleError, RippleRequest, Ripples, ripples};
 pub use tip::{Candidate, Fitted, MeasuredTip, Request, TipError, tip};

@@ -11,3 +11,4 @@ mod measured_images;
 mod measured_tips;
 mod noise;
 mod noisy_table;
+mod ripple_images;

@@ -1,0 +1,296 @@
+//! The wave in an image: wave vector and harmonics, with line offsets and tilts removed.
+//!
+//! ```text
+//! z(x,y) = a_row + b_row x + 2 Re Σ_{k=1}^{3} B_k e^{ik(qx + κy)} + noise
+//! ```
+//!
+//! Offset and slope of every row are projected out. The start is the largest value of the periodogram; the rest is least
+//! squares. Errors follow from the scatter of the scores between blocks of the image, which counts noise that is correlated
+//! from pixel to pixel, and slow changes of the pattern across the image.
+
+use super::RippleError;
+use crate::image::Image;
+use nalgebra::{Complex, DMatrix, DVector};
+use std::f64::consts::TAU;
+
+type Complex64 = Complex<f64>;
+
+/// Harmonics measured.
+pub(crate) const HARMONICS: usize = 3;
+/// q, κ, and two numbers for each harmonic.
+pub(crate) const UNKNOWNS: usize = 2 + 2 * HARMONICS;
+/// Blocks along each side for the errors.
+const BLOCKS: usize = 4;
+/// Largest number of rows and columns of the periodogram, to which the image is averaged.
+const COARSE: usize = 128;
+/// Least number of wavelengths along x, and in the image altogether.
+const FEWEST: f64 = 1.5;
+const ITERATIONS: usize = 60;
+
+/// A plane wave in an image, lengths and heights in the units of the image, relative to its middle.
+#[derive(Debug, Clone)]
+pub(crate) struct Wave {
+    /// q, κ, then Re B_k and Im B_k.
+    pub(crate) values: [f64; UNKNOWNS],
+    pub(crate) covariance: DMatrix<f64>,
+    /// Standard deviation of the residuals.
+    pub(crate) residual: f64,
+    /// Fraction of the variance that the wave explains.
+    pub(crate) explained: f64,
+}
+
+/// Rows without their own offsets and slopes; positions relative to the middle.
+struct Rows {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<Vec<f64>>,
+}
+
+impl Wave {
+    /// The strongest wave of an image.
+    pub(crate) fn of(image: &Image) -> Result<Self, RippleError> {
+        let rows = Rows::of(image);
+        let mut at = [0.0; UNKNOWNS];
+        [at[0], at[1]] = rows.coarse(COARSE).strongest().ok_or(RippleError::Nothing)?;
+        at[2] = 0.0;
+        rows.fit(at)
+    }
+
+    pub(crate) fn q(&self) -> f64 {
+        self.values[0]
+    }
+
+    pub(crate) fn kappa(&self) -> f64 {
+        self.values[1]
+    }
+
+    pub(crate) fn harmonic(&self, k: usize) -> Complex64 {
+        Complex64::new(self.values[2 * k], self.values[2 * k + 1])
+    }
+}
+
+impl Rows {
+    fn of(image: &Image) -> Self {
+        let centred = |at: &[f64]| -> Vec<f64> {
+            let middle = 0.5 * (at[0] + at[at.len() - 1]);
+            at.iter().map(|v| v - middle).collect()
+        };
+        let x = centred(image.x());
+        let z = image.rows().iter().map(|row| levelled(&x, row)).collect();
+        Self { y: centred(image.y()), x, z }
+    }
+
+    /// Averaged over blocks, to at most `most` rows and columns.
+    fn coarse(&self, most: usize) -> Self {
+        let (across, along) = (self.y.len().div_ceil(most), self.x.len().div_ceil(most));
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let x: Vec<f64> = self.x.chunks_exact(along).map(mean).collect();
+        let y: Vec<f64> = self.y.chunks_exact(across).map(mean).collect();
+        let z = self.z.chunks_exact(across).map(|rows| {
+            let sums: Vec<f64> =
+                (0..self.x.len()).map(|i| rows.iter().map(|row| row[i]).sum::<f64>()).collect();
+            let row: Vec<f64> = sums.chunks_exact(along).map(mean).collect();
+            levelled(&x, &row)
+        });
+        Self { z: z.collect(), x, y }
+    }
+
+    /// The wave vector of the largest value of the periodogram, at half the distance of Fourier frequencies.
+    fn strongest(&self) -> Option<[f64; 2]> {
+        let (dx, dy) = (self.x[1] - self.x[0], self.y[1] - self.y[0]);
+        let (nx, ny) = (self.x.len(), self.y.len());
+        let step = [0.5 * TAU / (dx * nx as f64), 0.5 * TAU / (dy * ny as f64)];
+        let first = (2.0 * FEWEST).ceil() as usize;
+        let mut best = (0.0, None);
+        for m in first..nx {
+            let q = step[0] * m as f64;
+            let turn: Vec<Complex64> =
+                self.x.iter().map(|x| Complex64::from_polar(1.0, -q * x)).collect();
+            let sums: Vec<Complex64> =
+                self.z.iter().map(|row| row.iter().zip(&turn).map(|(z, e)| e * *z).sum()).collect();
+            for n in 0..2 * ny {
+                let kappa = step[1] * (n as f64 - ny as f64);
+                let mut phase = Complex64::from_polar(1.0, -kappa * self.y[0]);
+                let on = Complex64::from_polar(1.0, -kappa * dy);
+                let mut sum = Complex64::new(0.0, 0.0);
+                for row in &sums {
+                    sum += row * phase;
+                    phase *= on;
+                }
+                if sum.norm_sqr() > best.0 {
+                    best = (sum.norm_sqr(), Some([q, kappa]));
+                }
+            }
+        }
+        best.1
+    }
+
+    /// Least squares from a start, by Levenberg's and Marquardt's method.
+    fn fit(&self, start: [f64; UNKNOWNS]) -> Result<Wave, RippleError> {
+        let mut at = start;
+        // The amplitudes are linear: from the start all of them are found at once.
+        let mut normal = self.normal(&at);
+        at = moved(&at, &normal.linear().ok_or(RippleError::Nothing)?);
+        normal = self.normal(&at);
+        let mut damping = 1e-3;
+        for _ in 0..ITERATIONS {
+            let step = normal.step(damping).ok_or(RippleError::Nothing)?;
+            let there = moved(&at, &step);
+            let beyond = self.normal(&there);
+            if beyond.sum <= normal.sum {
+                let gain = (normal.sum - beyond.sum) / normal.sum.max(f64::MIN_POSITIVE);
+                (at, normal, damping) = (there, beyond, 0.1 * damping);
+                if gain < 1e-14 {
+                    break;
+                }
+            } else {
+                damping *= 10.0;
+                if damping > 1e12 {
+                    break;
+                }
+            }
+        }
+        self.judged(at, &normal)
+    }
+
+    /// Normal equations, of the whole image and the scores of each block.
+    fn normal(&self, at: &[f64; UNKNOWNS]) -> Normal {
+        let (q, kappa) = (at[0], at[1]);
+        let b: [Complex64; HARMONICS] =
+            std::array::from_fn(|i| Complex64::new(at[2 + 2 * i], at[3 + 2 * i]));
+        // Waves along x, and times x, without what offsets and slopes of the rows take.
+        let waves: Vec<[Vec<Complex64>; 2]> = (1..=HARMONICS)
+            .map(|k| {
+                let plain: Vec<Complex64> =
+                    self.x.iter().map(|x| Complex64::from_polar(1.0, k as f64 * q * x)).collect();
+                let times: Vec<Complex64> = plain
+                    .iter()
+                    .zip(&self.x)
+                    .map(|(e, x)| e * Complex64::new(0.0, k as f64 * x))
+                    .collect();
+                [levelled_wave(&self.x, &plain), levelled_wave(&self.x, &times)]
+            })
+            .collect();
+        let mut found = Normal::default();
+        let (columns, rows) = (self.x.len(), self.y.len());
+        for (j, (y, z)) in self.y.iter().zip(&self.z).enumerate() {
+            let turn: [Complex64; HARMONICS] =
+                std::array::from_fn(|i| Complex64::from_polar(1.0, (i + 1) as f64 * kappa * y));
+            let block = (j * BLOCKS / rows) * BLOCKS;
+            for (i, z) in z.iter().enumerate() {
+                let mut slopes = [0.0; UNKNOWNS];
+                let mut left = *z;
+                for k in 0..HARMONICS {
+                    let here = waves[k][0][i] * turn[k];
+                    left -= 2.0 * (b[k] * here).re;
+                    slopes[0] += 2.0 * (b[k] * waves[k][1][i] * turn[k]).re;
+                    slopes[1] -= 2.0 * (b[k] * here).im * (k + 1) as f64 * y;
+                    slopes[2 + 2 * k] = 2.0 * here.re;
+                    slopes[3 + 2 * k] = -2.0 * here.im;
+                }
+                found.add(block + i * BLOCKS / columns, left, &slopes);
+            }
+        }
+        found
+    }
+
+    fn judged(&self, at: [f64; UNKNOWNS], normal: &Normal) -> Result<Wave, RippleError> {
+        let pixels = (self.x.len() * self.y.len()) as f64;
+        let freedom = (pixels - 2.0 * self.y.len() as f64 - UNKNOWNS as f64).max(1.0);
+        let residual = (normal.sum / freedom).sqrt();
+        let all: f64 = self.z.iter().flatten().map(|z| z * z).sum();
+        let inverse = normal.matrix().try_inverse().ok_or(RippleError::Nothing)?;
+        let white = &inverse * (residual * residual);
+        let blocks = normal.scatter();
+        let scattered = &inverse * blocks * &inverse;
+        // Correlations between the numbers as for independent pixels; variances by the larger of both.
+        let factor: Vec<f64> =
+            (0..UNKNOWNS).map(|i| (scattered[(i, i)] / white[(i, i)]).max(1.0).sqrt()).collect();
+        let covariance =
+            DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| white[(i, j)] * factor[i] * factor[j]);
+        let mut values = at;
+        if values[0] < 0.0 {
+            values[0] = -values[0];
+            values[1] = -values[1];
+            (0..HARMONICS).for_each(|k| values[3 + 2 * k] = -values[3 + 2 * k]);
+        }
+        Ok(Wave {
+            values,
+            covariance,
+            residual,
+            explained: 1.0 - normal.sum / all.max(f64::MIN_POSITIVE),
+        })
+    }
+}
+
+/// Normal equations of least squares.
+#[derive(Default)]
+struct Normal {
+    matrix: [[f64; UNKNOWNS]; UNKNOWNS],
+    /// Scores of the blocks.
+    scores: [[f64; UNKNOWNS]; BLOCKS * BLOCKS],
+    /// Sum of the squared residuals.
+    sum: f64,
+}
+
+impl Normal {
+    fn add(&mut self, block: usize, left: f64, slopes: &[f64; UNKNOWNS]) {
+        self.sum += left * left;
+        for (i, slope) in slopes.iter().enumerate() {
+            self.scores[block][i] += slope * left;
+            for (sum, other) in self.matrix[i].iter_mut().zip(slopes).take(i + 1) {
+                *sum += slope * other;
+            }
+        }
+    }
+
+    fn matrix(&self) -> DMatrix<f64> {
+        DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| self.matrix[i.max(j)][i.min(j)])
+    }
+
+    fn right(&self) -> DVector<f64> {
+        DVector::from_fn(UNKNOWNS, |i, _| self.scores.iter().map(|score| score[i]).sum())
+    }
+
+    fn step(&self, damping: f64) -> Option<DVector<f64>> {
+        let mut matrix = self.matrix();
+        (0..UNKNOWNS).for_each(|i| matrix[(i, i)] *= 1.0 + damping);
+        matrix.lu().solve(&self.right())
+    }
+
+    /// The step of the amplitudes alone.
+    fn linear(&self) -> Option<DVector<f64>> {
+        let linear = self.matrix().view((2, 2), (UNKNOWNS - 2, UNKNOWNS - 2)).into_owned();
+        let found = linear.lu().solve(&self.right().rows(2, UNKNOWNS - 2).into_owned())?;
+        Some(DVector::from_fn(UNKNOWNS, |i, _| if i < 2 { 0.0 } else { found[i - 2] }))
+    }
+
+    /// Sum over the blocks of the outer products of their scores.
+    fn scatter(&self) -> DMatrix<f64> {
+        let count = (BLOCKS * BLOCKS) as f64;
+        let mut sum = DMatrix::zeros(UNKNOWNS, UNKNOWNS);
+        for score in &self.scores {
+            let score = DVector::from_column_slice(score);
+            sum += &score * score.transpose();
+        }
+        sum * (count / (count - 1.0))
+    }
+}
+
+fn moved(at: &[f64; UNKNOWNS], step: &DVector<f64>) -> [f64; UNKNOWNS] {
+    std::array::from_fn(|i| at[i] + step[i])
+}
+
+/// Values minus their regression line over x, which has mean 0.
+fn levelled(x: &[f64], values: &[f64]) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let slope = x.iter().zip(values).map(|(x, v)| x * v).sum::<f64>()
+        / x.iter().map(|x| x * x).sum::<f64>().max(f64::MIN_POSITIVE);
+    x.iter().zip(values).map(|(x, v)| v - mean - slope * x).collect()
+}
+
+fn levelled_wave(x: &[f64], values: &[Complex64]) -> Vec<Complex64> {
+    let part =
+        |of: fn(&Complex64) -> f64| levelled(x, &values.iter().map(of).collect::<Vec<f64>>());
+    part(|c| c.re).into_iter().zip(part(|c| c.im)).map(|(re, im)| Complex64::new(re, im)).collect()
+}

@@ -1,0 +1,191 @@
+//! α, r, wavelength and crest angle from images of rasters by the crate `raster`, whose lines are integrated one after another in
+//! time: it shares no code with the settled pattern that is fitted.
+
+use crate::noise::normal;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use stickslip_measurement::{Image, RippleError, RippleRequest, Ripples, ripples};
+use stickslip_raster::{Path, Plan, Scanned, Scanning};
+use stickslip_stability::{Raster, RasterPath};
+use stickslip_tip::{Footprint, Model, TipFunction, Wider};
+
+const SIGMA: f64 = 30.0;
+const GAIN: f64 = 18.0;
+
+/// A raster above its threshold, and its settled part.
+struct Made {
+    alpha: f64,
+    r: f64,
+    pitch: f64,
+    scanned: Scanned,
+    /// First and last x and y of the settled part.
+    window: [[f64; 2]; 2],
+}
+
+fn made(above: f64, r: f64, pitch: f64, (length, height): (f64, f64)) -> Made {
+    let tip = TipFunction::gaussian(1.0).unwrap();
+    let footprint = Footprint::separable(tip.clone(), 1.0).unwrap();
+    let critical = Raster::new(&footprint, Wider::default(), (r, pitch), 1.0)
+        .unwrap()
+        .critical(RasterPath::OneWay)
+        .unwrap();
+    let alpha = above * critical.alpha;
+    let lines = (height / pitch) as usize;
+    let model = Model::new(tip, alpha, r).unwrap();
+    let mut plan = Plan::new(footprint, model, Path::OneWay, pitch, lines, length);
+    plan.law.tolerance = 1e-6;
+    let mut scanning = Scanning::new(&plan).unwrap();
+    while scanning.next_line().unwrap().is_some() {}
+    let scanned = Scanned::new(&plan, &scanning.into_lines());
+    let window = [[0.5 * length, length - 8.0], [0.55 * height, height - 6.0]];
+    Made { alpha, r, pitch, scanned, window }
+}
+
+/// An image in nm with noise, a tilt and an offset of each line, each relative to the height of the ripples.
+fn image(made: &mut Made, pixels: usize, noise: f64, seed: u64, mirrored: [bool; 2]) -> Image {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let shift = [normal(&mut random), normal(&mut random)].map(|v| (v * 7.3).sin());
+    let [x, y] = [0, 1].map(|i| {
+        let [first, last] = made.window[i];
+        let at = |k: usize| first + shift[i] + (last - first) * k as f64 / pixels as f64;
+        (0..pixels).map(at).collect::<Vec<f64>>()
+    });
+    let heights = made.scanned.heights(&x, &y);
+    let size = {
+        let mean = heights.mean().unwrap();
+        heights.iter().map(|u| (u - mean).powi(2)).sum::<f64>().sqrt() / pixels as f64
+    };
+    let tilt = [normal(&mut random), normal(&mut random)].map(|v| 0.05 * v * size);
+    let mut rows = vec![];
+    for (j, row) in heights.outer_iter().enumerate() {
+        let offset = 0.5 * size * normal(&mut random);
+        let one = |(i, u): (usize, &f64)| {
+            let ground = offset + tilt[0] * x[i] + tilt[1] * y[j];
+            GAIN * (u + ground + noise * size * normal(&mut random))
+        };
+        let mut row: Vec<f64> = row.iter().enumerate().map(one).collect();
+        if mirrored[0] {
+            row.reverse();
+        }
+        rows.push(row);
+    }
+    if mirrored[1] {
+        rows.reverse();
+    }
+    // Positions of the mirrored image ascend too.
+    let from_first = |at: &[f64]| at.iter().map(|v| SIGMA * (v - at[0])).collect::<Vec<f64>>();
+    Image::new(from_first(&x), from_first(&y), rows).unwrap()
+}
+
+fn request(made: &Made) -> RippleRequest {
+    RippleRequest {
+        tip: TipFunction::gaussian(1.0).unwrap(),
+        across: 1.0,
+        sigma: SIGMA,
+        pitch: SIGMA * made.pitch,
+        forward: None,
+        upward: None,
+    }
+}
+
+fn told(made: &Made, found: &Ripples) -> String {
+    let Ripples { alpha, r, .. } = found;
+    format!(
+        "α {} in [{:.4}, {:.4}] {:.4}, r {} in [{:.4}, {:.4}] {:.4}, χ² {:.2}, λ {:.3} ± {:.3}, {:.2} ± {:.2}°, gain {:.2}",
+        made.alpha,
+        alpha.low,
+        alpha.high,
+        alpha.value,
+        made.r,
+        r.low,
+        r.high,
+        r.value,
+        found.chi_squared,
+        found.wavelength.value / SIGMA,
+        0.5 * (found.wavelength.high - found.wavelength.low) / SIGMA,
+        found.crest_angle.value,
+        0.5 * (found.crest_angle.high - found.crest_angle.low),
+        found.height_gain * SIGMA * SIGMA
+    )
+}
+
+#[test]
+fn alpha_and_r_follow_from_an_image_of_ripples() {
+    let mut made = made(1.12, 1.0, 1.0, (120.0, 120.0));
+    for (pixels, noise, mirrored) in
+        [(64, 0.1, [false, false]), (128, 0.3, [true, false]), (256, 0.02, [false, true])]
+    {
+        let image = image(&mut made, pixels, noise, 7 + pixels as u64, mirrored);
+        let found = ripples(&image, &request(&made)).unwrap();
+        let all = told(&made, &found);
+        eprintln!("{all}");
+        assert!((found.alpha.value / made.alpha - 1.0).abs() < 0.05, "{all}");
+        assert!((found.r.value / made.r - 1.0).abs() < 0.05, "{all}");
+        assert!((found.height_gain * SIGMA * SIGMA / GAIN - 1.0).abs() < 0.05, "{all}");
+        assert_eq!([!found.forward, !found.upward], mirrored, "{all}");
+    }
+}
+
+#[test]
+fn noise_has_no_ripples() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let at: Vec<f64> = (0..64).map(f64::from).collect();
+    let rows = (0..64).map(|_| (0..64).map(|_| normal(&mut random)).collect()).collect();
+    let image = Image::new(at.clone(), at, rows).unwrap();
+    let request = RippleRequest {
+        tip: TipFunction::gaussian(1.0).unwrap(),
+        across: 1.0,
+        sigma: 2.0,
+        pitch: 2.0,
+        forward: None,
+        upward: None,
+    };
+    let found = ripples(&image, &request);
+    assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
+}
+
+/// 200 images: see docs/experiment.md for what it prints.
+#[test]
+#[ignore = "minutes"]
+fn study_of_200_images() {
+    let (mut all, mut held) = (0, [0_u32; 2]);
+    let mut worst = [0.0_f64; 2];
+    let rasters = [
+        (1.05, 1.0, 1.0),
+        (1.12, 1.0, 1.0),
+        (1.2, 1.0, 1.0),
+        (1.1, 0.7, 1.0),
+        (1.1, 1.5, 1.0),
+        (1.1, 1.0, 0.5),
+        (1.2, 1.0, 0.5),
+        (1.1, 0.7, 0.5),
+        (1.15, 1.4, 0.7),
+        (1.1, 1.0, 1.4),
+    ];
+    for (i, (above, r, pitch)) in rasters.into_iter().enumerate() {
+        let mut made = made(above, r, pitch, (140.0, 140.0));
+        for k in 0..20 {
+            let pixels = [64, 96, 128, 200, 256, 512][k % 6];
+            let noise = [0.02, 0.1, 0.3, 0.6, 1.0][k % 5];
+            let mirrored = [k % 2 == 1, k % 4 > 1];
+            let image = image(&mut made, pixels, noise, (100 * i + k) as u64, mirrored);
+            match ripples(&image, &request(&made)) {
+                Ok(found) => {
+                    all += 1;
+                    held[0] += u32::from(found.alpha.holds(made.alpha));
+                    held[1] += u32::from(found.r.holds(made.r));
+                    worst[0] = worst[0].max((found.alpha.value / made.alpha - 1.0).abs());
+                    worst[1] = worst[1].max((found.r.value / made.r - 1.0).abs());
+                    println!(
+                        "{above} {r} {pitch} {pixels} {noise} {mirrored:?} {} {}: {}",
+                        !found.forward,
+                        !found.upward,
+                        told(&made, &found)
+                    );
+                }
+                Err(error) => println!("{above} {r} {pitch} {pixels} {noise}: {error}"),
+            }
+        }
+        println!("{all}: α {} r {}, worst {worst:?}", held[0], held[1]);
+    }
+}

@@ -5,8 +5,8 @@ files, or a second writer of the same file, and then repeated in peace.
     packages/soak.py PROGRAM [--minutes 30] [--seed N]
 
 The judge of each is the same command, undisturbed, in a folder of its own. What must hold:
-- an output that was there is, after a fault, what it was or the whole of the new one, never a part of either; lines of
-  a run that was interrupted may end early, and then say so;
+- an output that was there is, after a fault, what it was or the whole of the new one, never a part of either; a
+  run that was interrupted may end early, and then says so;
 - after a repetition in peace (--resume, where there is a checkpoint) the bytes are those of the judge, and so are the
   names in the folder: nothing is lost, nothing is left over, there or in TMPDIR;
 - no panic, no status that docs/robustness.md does not have, no process that outlives its command, memory below 512 MB.
@@ -127,7 +127,7 @@ def allow(status, allowed, said):
 
 
 def disturb(program, line, place, fault, took, size, rng):
-    """Runs the command with the fault."""
+    """Runs the command with the fault; whether it ended as one that was interrupted."""
     if fault in ("killed", "interrupted", "terminated"):
         sent = {"killed": signal.SIGKILL, "interrupted": signal.SIGINT, "terminated": signal.SIGTERM}[fault]
         child = start(program, line, place)
@@ -136,7 +136,8 @@ def disturb(program, line, place, fault, took, size, rng):
         status, said = end(child, line)
         # Before it listens, the signal itself ends it.
         allow(status, {0, -sent, INTERRUPTED.get(sent, 0)}, said)
-    elif fault == "two writers":
+        return status == INTERRUPTED.get(sent) and line.startswith("run ")
+    if fault == "two writers":
         both = [start(program, line, place)]
         time.sleep(rng.uniform(0, 0.5 * took))
         both.append(start(program, line, place))
@@ -156,21 +157,32 @@ def disturb(program, line, place, fault, took, size, rng):
             status, said = end(start(program, line, place, largest=room), line)
         # A limit that the system sets ends a program by a signal.
         allow(status, {0, 1} if fault == "full disk" else {0, 1, -signal.SIGXFSZ}, said)
+    return False
 
 
-def is_interrupted(now, whole):
-    """Lines of a run, the last of which says that it was interrupted, and the others are those of the whole run."""
+def is_cut(name, now, whole):
+    """What a run writes that was interrupted: its end says so, and what comes before is that of the whole run."""
+    if name.endswith(".json"):
+        return json.loads(now)["interrupted"] is True
+    if name.endswith(".jsonl"):
+        return json.loads(now.splitlines()[-1]).get("interrupted") is True and is_begun(now, whole)
+    if name.endswith(".npz"):
+        return b"interrupted.npy" in now
+    return name.endswith(".svg") or is_begun(now, whole)
+
+
+def is_begun(now, whole):
+    """Whether all lines but the last, at which it was interrupted, are the first ones of another."""
     lines = now.splitlines()
-    is_ended = lines and json.loads(lines[-1]).get("interrupted") is True
-    return is_ended and lines[:-1] == whole.splitlines()[:len(lines) - 1]
+    return lines[:-1] == whole.splitlines()[:len(lines) - 1]
 
 
-def check_whole(place, judged, written):
-    """Each output is what it was, or the whole of the new one."""
+def check_whole(place, judged, written, is_interrupted):
+    """Each output is what it was, or the whole of the new one, or that of an interrupted run."""
     for name, now in place.files().items():
         if name not in written or name == "ck":
             continue  # a beginning, under a name of its own
-        if now not in (OLD, judged[name]) and not (name.endswith(".jsonl") and is_interrupted(now, judged[name])):
+        if now not in (OLD, judged[name]) and not (is_interrupted and is_cut(name, now, judged[name])):
             raise Violation(f"{name} is neither the old nor the new one ({len(now)} of {len(judged[name])} bytes)")
 
 
@@ -195,8 +207,8 @@ def one(program, rng, parent, has_disk):
             for name in set(written) - {"ck"}:
                 (place.work / name).write_bytes(OLD)
         size = max(len(data) for data in judged.values())
-        disturb(program, line, place, fault, took, size, rng)
-        check_whole(place, judged, written)
+        is_interrupted = disturb(program, line, place, fault, took, size, rng)
+        check_whole(place, judged, written, is_interrupted)
         # A run of which there is a checkpoint goes on from there.
         again = "run --resume ck" if (place.work / "ck").exists() else line
         status, said = end(start(program, again, place), again)

@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use stickslip::{KeptLine, Software, SweepPoint};
 
@@ -95,6 +95,9 @@ impl<P: Part> Finished<P> {
         let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
         let opened = open(&path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
+            if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded) {
+                return Failure::Write { target: path.display().to_string(), error };
+            }
             taken("--output", output, &error).unwrap_or_else(|| {
                 let advice = "remove it, or choose another --output";
                 let message = format!("{} {error}; {advice}", path.display());

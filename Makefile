@@ -8,6 +8,10 @@ CASES ?= 1670000
 MOTIONS ?= 25000
 # Changed documents, each through one of the commands that read it.
 DOCUMENTS ?= 1000000
+# Of `make alone`.
+MINUTES ?= 30
+# Of `make instructions`.
+BEFORE ?= HEAD~1
 # Runs of `make judge`.
 RUNS ?= 1000
 
@@ -17,8 +21,8 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-python test-slurm wheel survive judge check wasm outputs bench work-precision reference timings figures peers fuzz doc \
-	install site test-site dist clean
+.PHONY: help run test test-python test-slurm wheel packages deny alone instructions survive judge check wasm outputs bench work-precision \
+	reference timings figures peers fuzz doc install site test-site dist clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -37,8 +41,21 @@ test-slurm: ## examples/slurm with a controller and a node of Slurm started here
 	$(CARGO) build --release --locked
 	tests/slurm/run.py target/release/stickslip
 
-wheel: ## the Python package for Linux of glibc 2.28 and later, in target/wheels
+wheel: ## the Python package for Linux of glibc 2.28 and later, x86-64 and arm64, and its sources for pip, in target/wheels
 	crates/python/wheel
+
+packages: ## the crates that are published, each built from its packaged sources, in target/package
+	$(CARGO) package --locked --workspace --exclude stickslip-cli --exclude stickslip-grid --exclude stickslip-reproduction --exclude stickslip-benches
+
+deny: ## licences, sources and bans of all that is built, for each lock file
+	.ci/deny
+
+alone: ## the .deb of `make dist` in a root with nothing else; and a soak of its program for MINUTES
+	packages/alone.sh target/dist/stickslip_*_amd64.deb
+	packages/soak.py target/dist/stickslip-*-x86_64-unknown-linux-gnu/stickslip --minutes $(MINUTES)
+
+instructions: ## is a kernel over 5 % dearer than in the commit BEFORE? counted by valgrind
+	.ci/instructions $(BEFORE)
 
 survive: ## the long tests: 300 kills, 200 pairs of writers, 500 flipped bits, 400 tips, 500 tables, 3,000 extreme lines, signals; 400 measured profiles, 800 fitted ripples, 150 other fits; 200 random rasters
 	$(CARGO) test --release --locked --test survival -- --ignored --nocapture --test-threads 1

@@ -14,6 +14,7 @@ pub(crate) mod journal;
 pub(crate) mod lines;
 mod lock;
 pub(crate) mod measured;
+mod npz;
 pub(crate) mod output;
 pub(crate) mod paths;
 pub(crate) mod place;

@@ -23,6 +23,17 @@ pub enum FigureError {
     /// The document has nothing to draw.
     #[error("{0}")]
     Nothing(String),
+    /// Nothing moves, or none of it at the requested times.
+    #[error("{0}")]
+    Still(String),
+    /// The file name of an animation where a picture is drawn.
+    #[error(
+        "an animation is made of a saved run or raster: name the picture .svg, .png or .pdf, save the document by -o RUN.json and use stickslip plot RUN.json -o {0}"
+    )]
+    Animated(String),
+    /// An option of an animation that is out of range: the quantity, the smallest and the largest value.
+    #[error("the {0} may be {1} to {2}")]
+    Film(&'static str, f64, f64),
     /// The document contains invalid data.
     #[error("the document is damaged: {0}")]
     Damaged(String),

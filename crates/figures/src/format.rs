@@ -35,7 +35,36 @@ impl FigureFormat {
             Some("pdf") => Ok(Self::Pdf),
             #[cfg(not(feature = "pdf"))]
             Some("pdf") => Err(FigureError::Missing("PDF", "pdf")),
+            Some("gif" | "webp" | "apng") => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                Err(FigureError::Animated(name))
+            }
             _ => Err(FigureError::Extension),
+        }
+    }
+}
+
+/// Storage formats of animations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnimationFormat {
+    /// At most 256 colours; shown everywhere.
+    Gif,
+    /// All colours, without loss.
+    Webp,
+    /// At most 256 colours, smaller than a GIF; viewers without animation show its first frame.
+    Apng,
+}
+
+impl AnimationFormat {
+    /// The format by the extension of `path`, in any case; `None` for any other than .gif, .webp and .apng.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("gif") => Some(Self::Gif),
+            Some("webp") => Some(Self::Webp),
+            Some("apng") => Some(Self::Apng),
+            _ => None,
         }
     }
 }

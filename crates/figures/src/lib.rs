@@ -4,9 +4,13 @@
 //! axes, which can be saved and drawn later. [`draw`] returns the bytes of a file, [`svg`] an SVG document. The crate
 //! uses no files and no arguments. Equal documents give equal bytes.
 //!
-//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines. Both contain the font
-//! DejaVu Sans; an SVG file only names it, and the viewer supplies it.
+//! `animate` returns an animation of a run or a raster, made of a `Scene`: axes that stay, and their content at any time.
+//!
+//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines, `animation` writes GIF, WebP
+//! and APNG. All contain the font DejaVu Sans; an SVG file only names it, and the viewer supplies it.
 
+#[cfg(feature = "animation")]
+mod animation;
 mod axis;
 mod cells;
 mod colours;
@@ -24,6 +28,8 @@ mod pdf;
 mod picture;
 #[cfg(feature = "png")]
 mod raster;
+#[cfg(feature = "animation")]
+mod scene;
 mod sheet;
 mod size;
 mod style;
@@ -36,10 +42,16 @@ mod ticks;
 #[cfg(any(feature = "png", feature = "pdf"))]
 mod vector;
 
+#[cfg(feature = "animation")]
+pub use animation::{Film, animate};
+#[cfg(feature = "animation")]
+pub use compose::scene_of;
 pub use compose::{
     Drawn, FORMATS, Taker, View, can_be_drawn, judge_sweep, of, onset_of, saved, saved_as,
 };
 pub use encode::{draw, svg};
 pub use error::FigureError;
-pub use format::FigureFormat;
+pub use format::{AnimationFormat, FigureFormat};
+#[cfg(feature = "animation")]
+pub use scene::{Moment, Scene, Shot};
 pub use size::{Size, Width};

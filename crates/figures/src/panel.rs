@@ -66,6 +66,13 @@ impl<'a> Panel<'a> {
         HEADING_LINE * lines + Legend::of(self.document, right - left).height()
     }
 
+    /// The axes of the panel within `space`, between `left` and `right`.
+    pub(crate) fn frame(&self, space: Rect, (left, right): (f64, f64)) -> Frame<'_> {
+        let top = space.top + MARGIN_TOP + self.head((left, right));
+        let bottom = (space.bottom - MARGIN_BOTTOM).max(top + 10.0);
+        Frame { x: &self.x, y: &self.y, at: Rect { left, right, top, bottom } }
+    }
+
     /// Draws the panel within `space`, its axes between `left` and `right`.
     pub(crate) fn draw(
         &self,
@@ -76,9 +83,8 @@ impl<'a> Panel<'a> {
         let legend = Legend::of(self.document, right - left);
         let heading = self.heading(right - left);
         let legend_top = space.top + MARGIN_TOP + HEADING_LINE * heading.len() as f64;
-        let top = legend_top + legend.height();
-        let at = Rect { left, right, top, bottom: (space.bottom - MARGIN_BOTTOM).max(top + 10.0) };
-        let frame = Frame { x: &self.x, y: &self.y, at };
+        let frame = self.frame(space, (left, right));
+        let at = frame.at;
         if let Some(map) = &self.map {
             map.draw(at, svg)?;
         }

@@ -30,7 +30,7 @@ pub(crate) fn raster(svg: &str, size: &Size) -> Result<Vec<u8>, FigureError> {
 }
 
 /// Red, green and blue of an opaque picture, in the same storage.
-fn without_alpha(picture: Pixmap) -> Vec<u8> {
+pub(crate) fn without_alpha(picture: Pixmap) -> Vec<u8> {
     let pixels = picture.width() as usize * picture.height() as usize;
     let mut kept = picture.take();
     // Of a slice, by index: there may be millions, and the tests have this as it stands, unoptimised.
@@ -46,7 +46,7 @@ fn without_alpha(picture: Pixmap) -> Vec<u8> {
 
 /// Draws the images within the SVG, which are below everything else. resvg would need decoders of four formats; only
 /// PNG occurs here.
-fn draw_images(group: &Group, scale: Transform, picture: &mut Pixmap) {
+pub(crate) fn draw_images(group: &Group, scale: Transform, picture: &mut Pixmap) {
     for node in group.children() {
         match node {
             Node::Group(group) => draw_images(group, scale, picture),

@@ -1,5 +1,7 @@
 //! The canvas: panels in rows under a title, as one SVG document.
 
+#[cfg(feature = "animation")]
+use crate::curve::Frame;
 use crate::error::FigureError;
 use crate::panel::Panel;
 use crate::size::Size;
@@ -33,44 +35,74 @@ pub(crate) fn sheet(
     size: &Size,
     with_ground: bool,
 ) -> Result<String, FigureError> {
-    let width = size.units();
-    let asked = figure.columns.clamp(1, 12);
-    let columns = if width < NARROWEST * asked as f64 { 1 } else { asked };
-    let rows = rows(figure, columns, width);
-    let sides = sides(&rows, columns, width);
-    let between = |placed: &Placed| (sides[placed.columns.0].0, sides[placed.columns.1 - 1].1);
-    let height_of =
-        |placed: &Placed| placed.height + (placed.panel.head(between(placed)) - 24.0).max(0.0);
-    let row_height = |row: &Vec<Placed>| row.iter().map(height_of).fold(0.0, f64::max);
-
-    let title = wrapped(&figure.title, TITLE_SIZE, 0.94 * width);
-    let head = if title.is_empty() { 0.0 } else { 8.0 + TITLE_LINE * title.len() as f64 };
-    let height = head + rows.iter().map(row_height).sum::<f64>();
+    let sheet = Sheet::of(figure, size.units());
+    let (width, height) = sheet.size;
     let mut svg = Svg::default();
     if with_ground {
-        svg.rect(
-            Rect { left: 0.0, top: 0.0, right: width, bottom: height },
-            Paint::fill("#ffffff"),
-        );
+        let ground = Rect { left: 0.0, top: 0.0, right: width, bottom: height };
+        svg.rect(ground, Paint::fill("#ffffff"));
     }
-    for (i, line) in title.iter().enumerate() {
-        let (x, y) = (0.5 * width, 8.0 + TITLE_LINE * (i as f64 + 0.75));
-        let (label, size, anchor) = (line.as_str(), TITLE_SIZE, Anchor::Middle);
-        svg.text(Text { x, y, label, size, anchor, upright: false });
-    }
-    let mut top = head;
-    for row in &rows {
-        let bottom = top + row_height(row);
-        for placed in row {
-            let column = width / columns as f64;
-            let (left, right) =
-                (column * placed.columns.0 as f64, column * placed.columns.1 as f64);
-            placed.panel.draw(Rect { left, top, right, bottom }, between(placed), &mut svg)?;
-        }
-        top = bottom;
-    }
+    sheet.draw(&mut svg)?;
     let written = if with_ground { size.written(height) } else { (number(width), number(height)) };
-    Ok(svg.finish((width, height), written))
+    Ok(svg.finish(sheet.size, written))
+}
+
+/// A figure with the places of its panels.
+pub(crate) struct Sheet<'a> {
+    /// Width and height, in units.
+    pub(crate) size: (f64, f64),
+    title: Vec<String>,
+    panels: Vec<Laid<'a>>,
+}
+
+/// A panel with its space, and the left and right ends of its axes.
+struct Laid<'a> {
+    panel: Panel<'a>,
+    space: Rect,
+    between: (f64, f64),
+}
+
+impl<'a> Sheet<'a> {
+    /// The figure at this width, in units.
+    pub(crate) fn of(figure: &'a FigureDocument, width: f64) -> Self {
+        let asked = figure.columns.clamp(1, 12);
+        let columns = if width < NARROWEST * asked as f64 { 1 } else { asked };
+        let rows = rows(figure, columns, width);
+        let sides = sides(&rows, columns, width);
+        let between = |placed: &Placed| (sides[placed.columns.0].0, sides[placed.columns.1 - 1].1);
+        let height_of =
+            |placed: &Placed| placed.height + (placed.panel.head(between(placed)) - 24.0).max(0.0);
+        let title = wrapped(&figure.title, TITLE_SIZE, 0.94 * width);
+        let head = if title.is_empty() { 0.0 } else { 8.0 + TITLE_LINE * title.len() as f64 };
+        let column = width / columns as f64;
+        let (mut top, mut panels) = (head, vec![]);
+        for row in rows {
+            let bottom = top + row.iter().map(height_of).fold(0.0, f64::max);
+            for placed in row {
+                let (left, right) =
+                    (column * placed.columns.0 as f64, column * placed.columns.1 as f64);
+                let (space, between) = (Rect { left, right, top, bottom }, between(&placed));
+                panels.push(Laid { panel: placed.panel, space, between });
+            }
+            top = bottom;
+        }
+        Self { size: (width, top), title, panels }
+    }
+
+    pub(crate) fn draw(&self, svg: &mut Svg) -> Result<(), FigureError> {
+        for (i, line) in self.title.iter().enumerate() {
+            let (x, y) = (0.5 * self.size.0, 8.0 + TITLE_LINE * (i as f64 + 0.75));
+            let (label, size, anchor) = (line.as_str(), TITLE_SIZE, Anchor::Middle);
+            svg.text(Text { x, y, label, size, anchor, upright: false });
+        }
+        self.panels.iter().try_for_each(|laid| laid.panel.draw(laid.space, laid.between, svg))
+    }
+
+    /// The axes of each panel.
+    #[cfg(feature = "animation")]
+    pub(crate) fn frames(&self) -> Vec<Frame<'_>> {
+        self.panels.iter().map(|laid| laid.panel.frame(laid.space, laid.between)).collect()
+    }
 }
 
 /// The panels by rows, filled as far as their spans allow.

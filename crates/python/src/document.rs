@@ -13,7 +13,9 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use stickslip_cli::hosted::{self, Made};
 use stickslip::RunDocument;
-use stickslip_figures::{self as figures, FigureFormat, Size, View, Width};
+use stickslip_figures::{
+    self as figures, AnimationFormat, FigureFormat, Film, Shot, Size, View, Width,
+};
 use stickslip_tip::Trajectory;
 
 /// What a command has made, or a file held.
@@ -151,6 +153,31 @@ impl Document {
             let drawn = document.drawn().ok_or_else(|| unusable("there is no picture of it"))?;
             let figure = figures::of(drawn, &view).map_err(unusable)?;
             figures::draw(&figure, format, &size).map_err(unusable)
+        })??;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// An animation of it, as `stickslip plot` makes it: "gif", "webp" or "apng".
+    #[pyo3(signature = (format, times=None, seconds=None, fps=None, width=None))]
+    fn animation<'py>(
+        &self,
+        py: Python<'py>,
+        format: &str,
+        times: Option<[f64; 2]>,
+        seconds: Option<f64>,
+        fps: Option<f64>,
+        width: Option<&str>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let name = format!("animation.{format}");
+        let format = AnimationFormat::of(Path::new(&name))
+            .ok_or_else(|| unusable("an animation is a .gif, .webp or .apng"))?;
+        let width = width.map(str::parse::<Width>).transpose().map_err(unusable)?;
+        let film = Film::new(seconds, fps, width).map_err(unusable)?;
+        let shot = Shot { times, scales: None };
+        let bytes = self.whole(py, |document| {
+            let drawn = document.drawn().ok_or_else(|| unusable("there is no animation of it"))?;
+            let mut scene = figures::scene_of(drawn, &shot).map_err(unusable)?;
+            figures::animate(&mut *scene, format, &film).map_err(unusable)
         })??;
         Ok(PyBytes::new(py, &bytes))
     }

@@ -32,7 +32,7 @@ from ._commands import (
     verify,
 )
 from ._instruments import open  # noqa: A004
-from ._picture import Picture
+from ._picture import Animation, Picture
 from ._records import Record
 from ._results import (
     BoundaryResult,
@@ -57,6 +57,7 @@ __version__ = "0.1.0"
 
 # Without `open`: a star import leaves that of Python alone.
 __all__ = [
+    "Animation",
     "BoundaryResult",
     "ContinueResult",
     "CycleResult",

@@ -24,6 +24,14 @@ class Document:
         x_range: tuple[float, float] | None = None,
         y_range: tuple[float, float] | None = None,
     ) -> bytes: ...
+    def animation(
+        self,
+        format: str,
+        times: tuple[float, float] | None = None,
+        seconds: float | None = None,
+        fps: float | None = None,
+        width: str | None = None,
+    ) -> bytes: ...
     def span(self) -> tuple[float, float]: ...
     def motion(self, t: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]: ...
     def heights(

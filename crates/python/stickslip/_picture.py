@@ -1,6 +1,9 @@
-"""A picture of a document, drawn by the program."""
+"""Pictures and animations of a document, drawn by the program."""
 
 import os
+
+#: Endings of animations.
+ANIMATIONS = ("gif", "webp", "apng")
 
 
 class Picture:
@@ -22,6 +25,32 @@ class Picture:
         """Writes .svg, .png or .pdf, as the ending says."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lstrip(".")
+        if ending.lower() in ANIMATIONS:
+            raise ValueError(f"a picture is an .svg, .png or .pdf: animate().save({path!r}) writes an animation")
         picture = self._document.picture(ending, **self._view)
         with open(path, "wb") as file:
             file.write(picture)
+
+
+class Animation:
+    """What ``stickslip plot -o run.gif`` makes: a tip carving the surface, or a raster growing line by line. A notebook
+    plays it; :meth:`save` writes it."""
+
+    def __init__(self, document, **film):
+        self._document = document
+        self._film = film
+        self._apng = None
+
+    def _repr_png_(self):
+        """APNG, which browsers play, and of which other viewers of notebooks show the first frame."""
+        if self._apng is None:
+            self._apng = self._document.animation("apng", **self._film)
+        return self._apng
+
+    def save(self, path):
+        """Writes .gif, .webp or .apng, as the ending says."""
+        path = os.fspath(path)
+        ending = os.path.splitext(path)[1].lstrip(".")
+        animation = self._document.animation(ending, **self._film)
+        with open(path, "wb") as file:
+            file.write(animation)

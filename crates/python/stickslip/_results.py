@@ -5,7 +5,7 @@ import os
 from collections import namedtuple
 
 from . import _native
-from ._picture import Picture
+from ._picture import Animation, Picture
 from ._records import Record, recorded
 
 Motion = namedtuple("Motion", "l x0 velocity lag")
@@ -66,6 +66,12 @@ class Result:
         ordinate."""
         view = {"width": width, "dpi": dpi, "x_range": x_range, "y_range": y_range}
         return Picture(self._document, **view)
+
+    def animate(self, *, times=None, seconds=None, fps=None, width=None):
+        """The animation that ``stickslip plot`` makes of a run or a raster: first and last time shown in Gamma/k,
+        duration in seconds (10), frames per second (20), and width such as "640px"."""
+        film = {"times": times, "seconds": seconds, "fps": fps, "width": width}
+        return Animation(self._document, **film)
 
     def to_xarray(self):
         """Its table as an xarray Dataset over its first column, and what defines it as attributes."""

@@ -153,3 +153,17 @@ def test_many_runs_are_those_of_run_within_their_tolerance():
     with pytest.raises(TypeError):
         stickslip.run_many([{"alfa": 1}])
     assert stickslip.run_many([]) == []
+
+
+def test_animations_are_those_of_the_program(run, tmp_path):
+    film = run.animate(times=(100, 110), seconds=0.5, fps=4, width="300px")
+    apng = film._repr_png_()
+    assert apng.startswith(b"\x89PNG") and b"acTL" in apng
+    for ending, beginning in (("gif", b"GIF89a"), ("webp", b"RIFF"), ("apng", b"\x89PNG")):
+        film.save(tmp_path / f"run.{ending}")
+        assert (tmp_path / f"run.{ending}").read_bytes().startswith(beginning)
+    assert (tmp_path / "run.apng").read_bytes() == apng
+    with pytest.raises(ValueError, match=r"animate\(\)\.save"):
+        run.plot().save(tmp_path / "run.gif")
+    with pytest.raises(ValueError, match="run or raster"):
+        stickslip.cycle(alpha=1.2, r=1).animate()._repr_png_()

@@ -7,7 +7,9 @@ use std::path::PathBuf;
 
 /// Draw a saved document: a run, a surface, a cycle, a sweep, or any other JSON output that has a picture.
 ///
-/// The picture is that of the command's own `--plot`, with a width, a resolution and axes of your choice.
+/// The picture is that of the command's own `--plot`, with a width, a resolution and axes of your choice. A name that
+/// ends in .gif, .webp or .apng makes an animation of a run (the tip carves the surface) or of a raster (which grows
+/// line by line). Its first frame shows the end of the motion.
 #[derive(Debug, Args)]
 #[command(after_help = examples(EXAMPLES))]
 pub(crate) struct PlotArguments {
@@ -15,11 +17,11 @@ pub(crate) struct PlotArguments {
     #[arg(value_name = "DOCUMENT.json")]
     pub(crate) document: PathBuf,
 
-    /// The picture: .svg, .png or .pdf.
+    /// The picture: .svg, .png or .pdf; or an animation: .gif, .webp or .apng.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 
-    /// Width of the picture with its unit: 85mm on paper, 600px on a screen [default: 900px]
+    /// Width of the picture with its unit: 85mm on paper, 600px on a screen [default: 900px; of an animation 640px]
     ///
     /// On paper letters have 7 to 9 points for any width. A width in pixels is also that of a PNG.
     #[arg(long, value_name = "WIDTH")]
@@ -38,6 +40,19 @@ pub(crate) struct PlotArguments {
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) y_range: Option<String>,
 
+    /// First and last time of an animation, LO:HI, in Γ/k or in the unit of its time axis; for a raster from the start
+    /// of the scan [default: the last ripples of a run, all of a raster]
+    #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
+    pub(crate) times: Option<String>,
+
+    /// Duration of an animation in seconds [default: 10]
+    #[arg(long, value_name = "S")]
+    pub(crate) seconds: Option<f64>,
+
+    /// Frames per second of an animation [default: 20]
+    #[arg(long, value_name = "N")]
+    pub(crate) fps: Option<f64>,
+
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
 
@@ -50,4 +65,5 @@ const EXAMPLES: &str = "Examples:
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip plot run.json -o slips.png --x-range 400:420 --dpi 300
   stickslip plot run.json -o run.svg --sigma 30nm --stiffness 0.2N/m --velocity 1um/s --slope-force 5nN
-  stickslip plot boundary.json --onset -o criticality.svg";
+  stickslip plot boundary.json --onset -o criticality.svg
+  stickslip plot run.json -o carving.gif --times 400:440 --seconds 8";

@@ -1,5 +1,8 @@
 //! `stickslip plot`.
 
+#[cfg(feature = "animation")]
+mod animation;
+
 use super::figure::{Figure, undrawn};
 use super::in_units::scales;
 use crate::arguments::PlotArguments;
@@ -8,9 +11,21 @@ use crate::files::distinct::distinct;
 use crate::files::input::{open, read_document};
 use std::path::Path;
 use stickslip::{BoundaryDocument, FigureDocument};
-use stickslip_figures::{self as figures, FigureError, Size, View, Width};
+use stickslip_figures::{self as figures, AnimationFormat, FigureError, Size, View, Width};
 
 pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
+    if let Some(format) = AnimationFormat::of(&arguments.output) {
+        return animate(arguments, format);
+    }
+    let of_animations = [
+        ("--times", arguments.times.is_some()),
+        ("--seconds", arguments.seconds.is_some()),
+        ("--fps", arguments.fps.is_some()),
+    ];
+    if let Some((option, _)) = of_animations.into_iter().find(|(_, given)| *given) {
+        let why = "belongs to an animation: name the output .gif, .webp or .apng, or leave it out";
+        return Err(Failure::input(option, why));
+    }
     let size = size(arguments)?;
     let view = View {
         x_range: range("--x-range", arguments.x_range.as_deref())?,
@@ -22,6 +37,17 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Figure::at("--output", &arguments.output)?;
     output.write(&figure(arguments, &view)?, &size)
+}
+
+#[cfg(feature = "animation")]
+fn animate(arguments: &PlotArguments, format: AnimationFormat) -> Result<(), Failure> {
+    animation::write(arguments, format)
+}
+
+#[cfg(not(feature = "animation"))]
+fn animate(arguments: &PlotArguments, _: AnimationFormat) -> Result<(), Failure> {
+    let option = format!("--output {}", arguments.output.display());
+    Err(Failure::input(option, FigureError::Missing("animations", "animation")))
 }
 
 fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Failure> {
@@ -50,11 +76,15 @@ fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Fail
 }
 
 fn size(arguments: &PlotArguments) -> Result<Size, Failure> {
+    Size::new(width(arguments)?, arguments.dpi)
+        .map_err(|error| Failure::input(format!("--dpi {}", arguments.dpi.unwrap_or(0.0)), error))
+}
+
+fn width(arguments: &PlotArguments) -> Result<Option<Width>, Failure> {
     let width = arguments.width.as_deref().map(|typed| {
         typed.parse::<Width>().map_err(|error| Failure::input(format!("--width {typed}"), error))
     });
-    Size::new(width.transpose()?, arguments.dpi)
-        .map_err(|error| Failure::input(format!("--dpi {}", arguments.dpi.unwrap_or(0.0)), error))
+    width.transpose()
 }
 
 fn range(option: &str, typed: Option<&str>) -> Result<Option<[f64; 2]>, Failure> {

@@ -1,6 +1,8 @@
 //! Documents that have a figure, and options of a figure.
 
 use crate::error::FigureError;
+#[cfg(feature = "animation")]
+use crate::scene::{Scene, Shot};
 use stickslip::{FigureDocument, KnownScales, Tabular};
 
 /// Options of a figure, in addition to its document.
@@ -21,4 +23,14 @@ pub trait Drawn: Tabular {
     /// # Errors
     /// The document is damaged, or contains nothing to draw.
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError>;
+
+    /// The motion that an animation shows, in the model's units.
+    ///
+    /// # Errors
+    /// Nothing moves in a document of this kind, or the document is damaged.
+    #[cfg(feature = "animation")]
+    fn scene(&self, _: &Shot) -> Result<Box<dyn Scene>, FigureError> {
+        let why = "animations show the motion of a saved run or raster: name this picture .svg, .png or .pdf";
+        Err(FigureError::Still(why.into()))
+    }
 }

@@ -1,6 +1,12 @@
 //! Conversion of a finished figure to nm, s and nN; the unit of an axis is read from its label.
 
 use super::View;
+#[cfg(feature = "animation")]
+use super::labels::L;
+#[cfg(feature = "animation")]
+use crate::error::FigureError;
+#[cfg(feature = "animation")]
+use crate::scene::{Moment, Scene};
 use stickslip::{CurveDocument, Dimension, FigureDocument, KnownScales, PanelDocument};
 
 /// An axis: the factor of its numbers, and its new label.
@@ -82,4 +88,50 @@ fn convert(panel: &mut PanelDocument, scales: &KnownScales) {
     panel.y_range.iter_mut().for_each(|range| y.all(range));
     panel.natural.iter_mut().for_each(|natural| y.one(natural));
     (panel.x_label, panel.y_label) = (x.label, y.label);
+}
+
+/// Times in the unit of a time axis, converted to Γ/k.
+#[cfg(feature = "animation")]
+pub(super) fn times_of(times: [f64; 2], scales: &KnownScales) -> [f64; 2] {
+    times.map(|t| t / Axis::of(L.0, scales).factor)
+}
+
+/// A scene in nm, s and nN, as far as the scales are known.
+#[cfg(feature = "animation")]
+pub(super) struct InUnits {
+    scene: Box<dyn Scene>,
+    scales: KnownScales,
+}
+
+#[cfg(feature = "animation")]
+impl InUnits {
+    pub(super) fn new(scene: Box<dyn Scene>, scales: KnownScales) -> Self {
+        Self { scene, scales }
+    }
+}
+
+#[cfg(feature = "animation")]
+impl Scene for InUnits {
+    fn still(&self) -> FigureDocument {
+        in_units(self.scene.still(), &self.scales)
+    }
+
+    fn times(&self) -> [f64; 2] {
+        self.scene.times().map(|t| t * Axis::of(L.0, &self.scales).factor)
+    }
+
+    fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
+        let time = Axis::of(L.0, &self.scales);
+        let mut moment = self.scene.moment(t / time.factor)?;
+        let unit = time.label.trim_end_matches(')').rsplit_once('(');
+        (moment.t, moment.unit) = (t, unit.map_or(String::new(), |(_, unit)| unit.into()));
+        if let Some(first) = moment.panels.first() {
+            let axes =
+                (Axis::of(&first.x_label, &self.scales), Axis::of(&first.y_label, &self.scales));
+            moment.tip = (moment.tip.0 * axes.0.factor, moment.tip.1 * axes.1.factor);
+            moment.support = moment.support.map(|x| x * axes.0.factor);
+        }
+        moment.panels.iter_mut().for_each(|panel| convert(panel, &self.scales));
+        Ok(moment)
+    }
 }

@@ -1,12 +1,17 @@
 //! Figures as data, from documents.
 
 mod boundary;
+#[cfg(feature = "animation")]
+mod carving;
 mod compare;
 mod continuation;
 mod cycle;
 mod dense;
 mod drawn;
 mod fit;
+#[cfg(feature = "animation")]
+mod growing;
+mod height_scale;
 mod in_units;
 mod labels;
 mod measured_tip;
@@ -25,6 +30,10 @@ mod walking;
 
 use crate::axis::is_range;
 use crate::error::FigureError;
+#[cfg(feature = "animation")]
+use crate::scene::{Scene, Shot};
+#[cfg(feature = "animation")]
+use in_units::InUnits;
 use in_units::{asked_of, in_units};
 use serde::Serialize;
 use std::io::Read;
@@ -53,6 +62,22 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
         view = whole.panels.first().map_or(view, |first| asked_of(first, &scales, &view));
     }
     Ok(in_units(shown(document, &view)?, &scales))
+}
+
+/// The motion in a document; in nm, s and nN if the shot or the document contains the scales of an experiment.
+///
+/// # Errors
+/// The document is damaged, contains no motion, or none at the requested times.
+#[cfg(feature = "animation")]
+pub fn scene_of<D: Drawn + ?Sized>(
+    document: &D,
+    shot: &Shot,
+) -> Result<Box<dyn Scene>, FigureError> {
+    let known = shot.scales.or_else(|| document.physical().map(|physical| physical.scales));
+    let Some(scales) = known else { return document.scene(shot) };
+    let times = shot.times.map(|times| in_units::times_of(times, &scales));
+    let scene = document.scene(&Shot { times, ..*shot })?;
+    Ok(Box::new(InUnits::new(scene, scales)))
 }
 
 /// The figure in the model's units.

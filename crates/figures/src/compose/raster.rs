@@ -1,14 +1,18 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
 use super::drawn::{Drawn, View};
-use super::tip::model_name;
-use crate::axis::extremes;
+#[cfg(feature = "animation")]
+use super::growing::Growing;
+use super::height_scale::heights_within;
+use super::tip::raster_title;
 use crate::error::FigureError;
 use crate::number::short;
+#[cfg(feature = "animation")]
+use crate::scene::{Scene, Shot};
 use std::f64::consts::{PI, TAU};
 use stickslip::{
     ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
-    PanelDocument, PathName, Raster, RasterCompareDocument, RasterDocument, RasterSurfaceDocument,
+    PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterSurfaceDocument,
     ScaleName, StyleName,
 };
 
@@ -21,14 +25,10 @@ const MOST_CRESTS: i64 = 24;
 /// Largest number of lines with a drawn path of the tip, and points of each.
 const MOST_PATHS: usize = 64;
 const POINTS_OF_A_PATH: u32 = 300;
-/// The colour scale covers the heights between these fractions of the length, because pits at the ends are deeper.
-const COLOURED: (f64, f64) = (0.2, 0.85);
-
 impl Drawn for RasterDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
-        let title =
-            format!("{}, {}", model_name(&parameters.model_parameters()), path_name(parameters));
+        let title = raster_title(parameters);
         let mut figure = FigureDocument::new("raster", &title, vec![parameters.model_parameters()]);
         let map = self.height_map()?;
         let mut surface = PanelDocument::new(&heading(self), ("x (σ)", "y (σ)"));
@@ -48,13 +48,18 @@ impl Drawn for RasterDocument {
         figure.columns = 2;
         Ok(figure)
     }
+
+    #[cfg(feature = "animation")]
+    fn scene(&self, shot: &Shot) -> Result<Box<dyn Scene>, FigureError> {
+        Ok(Box::new(Growing::of(self, shot)?))
+    }
 }
 
 impl Drawn for RasterCompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters.raster;
         let model = &parameters.model_parameters();
-        let title = format!("Raster and grid, {}, {}", model_name(model), path_name(parameters));
+        let title = format!("Raster and grid, {}", raster_title(parameters));
         let mut figure = FigureDocument::new("raster-compare", &title, vec![model.clone()]);
         let map = HeightMap { x: self.x.clone(), y: self.y.clone(), u: self.closed_u.clone() };
         let off = self.closed_u.iter().zip(&self.grid_u);
@@ -88,7 +93,7 @@ impl Drawn for RasterSurfaceDocument {
     /// A height map, or profiles if there are too few rows for a map.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = &self.parameters.model_parameters();
-        let title = format!("{}, {}", model_name(model), path_name(&self.parameters));
+        let title = raster_title(&self.parameters);
         let mut figure = FigureDocument::new("raster-surface", &title, vec![model.clone()]);
         for map in &self.surfaces {
             let mut panel;
@@ -114,17 +119,6 @@ fn is_even(v: &[f64]) -> bool {
     let step = (last - first) / (v.len() - 1) as f64;
     let off = |(i, x): (usize, &f64)| (x - first - step * i as f64).abs() > 1e-6 * step.abs();
     v.len() > 2 && step > 0.0 && !v.iter().enumerate().any(off)
-}
-
-fn path_name(parameters: &Raster) -> String {
-    let pitch = parameters.pitch.map_or(String::new(), |pitch| format!(", pitch {}", short(pitch)));
-    let path = match parameters.path {
-        PathName::OneWay => "one-way",
-        PathName::Zigzag => "zigzag",
-        PathName::Repeat => "one line repeated",
-    };
-    let shape = parameters.area.as_ref().map_or("", |_| ", an area of its own");
-    format!("{path}{pitch}{shape}")
 }
 
 /// A heading such as "ripples: 6.12 ± 0.21 σ at 46.0 ± 2.2°, coherence 0.998".
@@ -153,18 +147,6 @@ fn heights(map: HeightMap) -> MapDocument {
         colours: ColoursName::Cividis,
         z_range: None,
     }
-}
-
-/// The lowest and the highest height away from the ends of the lines.
-fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
-    let (low, high) = (map.x.first()?, map.x.last()?);
-    let (from, to) = (low + COLOURED.0 * (high - low), low + COLOURED.1 * (high - low));
-    let inside = |x: &f64| (from..=to).contains(x);
-    let of = |row: &Vec<f64>| -> Vec<f64> {
-        map.x.iter().zip(row).filter(|(x, _)| inside(x)).map(|(_, u)| *u).collect()
-    };
-    let (low, high) = extremes(map.u.iter().flat_map(of))?;
-    (low < high).then_some([low, high])
 }
 
 /// Crests of the wave with the reported wavelength and angle, in phase with the surface on the patch: straight lines

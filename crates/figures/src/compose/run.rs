@@ -2,16 +2,19 @@
 
 mod ground;
 
+#[cfg(feature = "animation")]
+use super::carving::Carving;
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
 use super::labels::{FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
-use super::tip::model_name;
+use super::tip::run_title;
 use crate::error::FigureError;
-use crate::number::{seven_digits, short};
+use crate::number::short;
+#[cfg(feature = "animation")]
+use crate::scene::{Scene, Shot};
 use ground::{Ground, MARGIN};
 use stickslip::{
     CurveDocument, FigureDocument, PanelDocument, PulseParameters, Run, RunDocument, StyleName,
-    to_its_digits,
 };
 use stickslip_surface::Surface;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
@@ -28,7 +31,7 @@ const LOOP_POINTS: u32 = 4000;
 impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
-        let mut figure = FigureDocument::new("run", &title(self), vec![model]);
+        let mut figure = FigureDocument::new("run", &run_title(self), vec![model]);
         if self.parameters.stiffness_across.is_some() {
             figure.panels = sampled(self);
             figure.panels.extend(across(self));
@@ -63,6 +66,11 @@ impl Drawn for RunDocument {
             figure.panels.extend(detail);
         }
         Ok(figure)
+    }
+
+    #[cfg(feature = "animation")]
+    fn scene(&self, shot: &Shot) -> Result<Box<dyn Scene>, FigureError> {
+        Ok(Box::new(Carving::of(self, shot)?))
     }
 }
 
@@ -110,21 +118,6 @@ impl<'a> Shown<'a> {
         detail.x_range = Some([end.span.0, end.span.1]);
         (against(labels, band, level.as_ref()), Some(detail))
     }
-}
-
-fn title(run: &RunDocument) -> String {
-    let name = model_name(&run.parameters.model_parameters());
-    let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
-        let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
-        let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
-        format!(", T = {period}")
-    });
-    let swing = run.snaking.as_ref().map_or(String::new(), |swing| {
-        format!(", T = {}", to_its_digits(swing.period, swing.period_error))
-    });
-    let stiffness = run.parameters.stiffness_across;
-    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
-    format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
 }
 
 /// A constant level, and its name.

@@ -1,7 +1,9 @@
 //! Names of tips and models in titles.
 
 use crate::number::{seven_digits, short};
-use stickslip::{GaussianDocument, ModelParameters, TipDocument};
+use stickslip::{
+    GaussianDocument, ModelParameters, PathName, Raster, RunDocument, TipDocument, to_its_digits,
+};
 
 /// Largest difference of numbers that count as equal.
 const SAME: f64 = 1e-9;
@@ -21,6 +23,38 @@ pub(crate) fn model_name(model: &ModelParameters) -> String {
     let [alpha, r] = [model.alpha, model.r].map(seven_digits);
     let dragged = if model.law.no_spring { ", no spring".into() } else { format!(", r = {r}") };
     format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), wider_name(model))
+}
+
+/// Model and motion of a run.
+pub(crate) fn run_title(run: &RunDocument) -> String {
+    let name = model_name(&run.parameters.model_parameters());
+    let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
+        let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
+        let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
+        format!(", T = {period}")
+    });
+    let swing = run.snaking.as_ref().map_or(String::new(), |swing| {
+        format!(", T = {}", to_its_digits(swing.period, swing.period_error))
+    });
+    let stiffness = run.parameters.stiffness_across;
+    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+    format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
+}
+
+/// Model and path of a raster.
+pub(crate) fn raster_title(parameters: &Raster) -> String {
+    format!("{}, {}", model_name(&parameters.model_parameters()), path_name(parameters))
+}
+
+fn path_name(parameters: &Raster) -> String {
+    let pitch = parameters.pitch.map_or(String::new(), |pitch| format!(", pitch {}", short(pitch)));
+    let path = match parameters.path {
+        PathName::OneWay => "one-way",
+        PathName::Zigzag => "zigzag",
+        PathName::Repeat => "one line repeated",
+    };
+    let shape = parameters.area.as_ref().map_or("", |_| ", an area of its own");
+    format!("{path}{pitch}{shape}")
 }
 
 /// Tip and extensions of the basic model, which are the same at every α and r.

@@ -1,0 +1,64 @@
+//! Animations of `stickslip plot`.
+
+use crate::arguments::PlotArguments;
+use crate::commands::figure::undrawn;
+use crate::commands::in_units::scales;
+use crate::commands::plot::{range, width};
+use crate::failure::Failure;
+use crate::files::distinct::distinct;
+use crate::files::input::open;
+use crate::files::output::Output;
+use stickslip_figures::{self as figures, AnimationFormat, Drawn, FigureError, Film, Shot};
+
+pub(super) fn write(arguments: &PlotArguments, format: AnimationFormat) -> Result<(), Failure> {
+    refuse_options_of_pictures(arguments)?;
+    let film = film(arguments)?;
+    let times = range("--times", arguments.times.as_deref())?;
+    let units = ("--units", arguments.in_units.units.as_deref());
+    let read = [("DOCUMENT.json", Some(&*arguments.document)), units];
+    distinct(&[("--output", Some(&*arguments.output))], &read)?;
+    let output = Output::open("--output", &arguments.output)?;
+    let option = "DOCUMENT.json";
+    let named = || format!("{option} {}", arguments.document.display());
+    let document = figures::saved(open(option, &arguments.document)?)
+        .map_err(|error| Failure::input(named(), error))?;
+    let shot =
+        Shot { times, scales: scales(&arguments.in_units, None, one_r(arguments, &*document))? };
+    let failed = |error: FigureError| match error {
+        FigureError::Damaged(_) | FigureError::Nothing(_) | FigureError::Still(_) => {
+            Failure::input(named(), error)
+        }
+        error => undrawn(&error),
+    };
+    let mut scene = figures::scene_of(&*document, &shot).map_err(failed)?;
+    output.write_bytes(&figures::animate(&mut *scene, format, &film).map_err(failed)?)
+}
+
+/// r, from which the scale of time follows if the velocity of the support is given.
+fn one_r(arguments: &PlotArguments, document: &dyn Drawn) -> Option<f64> {
+    arguments.in_units.velocity.as_ref()?;
+    figures::scene_of(document, &Shot::default()).ok()?.still().one_r()
+}
+
+fn film(arguments: &PlotArguments) -> Result<Film, Failure> {
+    let given = |name: &str, value: Option<f64>| value.map(|value| format!("{name} {value}"));
+    let options = [given("--seconds", arguments.seconds), given("--fps", arguments.fps)];
+    let options: Vec<String> = options.into_iter().flatten().collect();
+    Film::new(arguments.seconds, arguments.fps, width(arguments)?)
+        .map_err(|error| Failure::input(options.join(" "), error))
+}
+
+fn refuse_options_of_pictures(arguments: &PlotArguments) -> Result<(), Failure> {
+    let given = [
+        ("--x-range", arguments.x_range.is_some(), "use --times LO:HI"),
+        ("--y-range", arguments.y_range.is_some(), "leave it out"),
+        ("--dpi", arguments.dpi.is_some(), "use --width, in pixels"),
+        ("--onset", arguments.onset, "leave it out"),
+    ];
+    match given.into_iter().find(|(_, given, _)| *given) {
+        Some((option, _, remedy)) => {
+            Err(Failure::input(option, format!("has no meaning for an animation: {remedy}")))
+        }
+        None => Ok(()),
+    }
+}

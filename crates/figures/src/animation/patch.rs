@@ -1,0 +1,84 @@
+//! The part of a frame that differs from the frame before.
+
+use crate::error::FigureError;
+
+/// A writer of frames.
+pub(super) trait Writer {
+    /// Appends a frame that is shown for this time.
+    fn frame(&mut self, patch: &Patch, milliseconds: u32) -> Result<(), FigureError>;
+
+    /// The bytes of the file.
+    fn finish(self: Box<Self>) -> Result<Vec<u8>, FigureError>;
+}
+
+/// A rectangle of pixels; `None` for one that is unchanged. Its left and upper edges are even, as WebP requires.
+pub(super) struct Patch {
+    pub(super) left: usize,
+    pub(super) top: usize,
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) pixels: Vec<Option<[u8; 3]>>,
+}
+
+impl Patch {
+    /// The smallest rectangle with all pixels that differ; all of the first frame, one pixel of a frame without a
+    /// change.
+    pub(super) fn between(
+        before: Option<&[u8]>,
+        now: &[u8],
+        (width, height): (usize, usize),
+    ) -> Self {
+        let Some(before) = before else {
+            let pixels = now.chunks_exact(3).map(|p| Some([p[0], p[1], p[2]])).collect();
+            return Self { left: 0, top: 0, width, height, pixels };
+        };
+        let row = |all: &[u8], y: usize| all[3 * width * y..3 * width * (y + 1)].to_vec();
+        let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
+        for y in 0..height {
+            let (a, b) = (row(before, y), row(now, y));
+            if a == b {
+                continue;
+            }
+            (top, bottom) = (top.min(y), y + 1);
+            let differs = |i: &usize| a[*i] != b[*i];
+            let first = (0..3 * width).find(differs).map_or(width, |i| i / 3);
+            let last = (0..3 * width).rev().find(differs).map_or(0, |i| i / 3 + 1);
+            (left, right) = (left.min(first), right.max(last));
+        }
+        if top >= bottom {
+            (left, right, top, bottom) = (0, 1, 0, 1);
+        }
+        let (left, top) = (left - left % 2, top - top % 2);
+        let mut pixels = Vec::with_capacity((right - left) * (bottom - top));
+        for y in top..bottom {
+            for x in left..right {
+                let i = 3 * (width * y + x);
+                let (a, b) = (&before[i..i + 3], &now[i..i + 3]);
+                pixels.push((a != b).then_some([b[0], b[1], b[2]]));
+            }
+        }
+        Self { left, top, width: right - left, height: bottom - top, pixels }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_patch_holds_all_that_differs_and_no_more() {
+        let size = (6, 5);
+        let before = vec![7; 3 * 30];
+        let mut now = before.clone();
+        for (x, y) in [(3, 2), (4, 3)] {
+            now[3 * (6 * y + x) + 1] = 9;
+        }
+        let patch = Patch::between(Some(&before), &now, size);
+        assert_eq!((patch.left, patch.top, patch.width, patch.height), (2, 2, 3, 2));
+        let changed = Some([7, 9, 7]);
+        assert_eq!(patch.pixels, [None, changed, None, None, None, changed]);
+        let same = Patch::between(Some(&now), &now, size);
+        assert_eq!((same.width, same.height, &same.pixels[..]), (1, 1, &[None][..]));
+        assert_eq!(Patch::between(None, &now, size).pixels.len(), 30);
+    }
+}

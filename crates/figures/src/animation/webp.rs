@@ -1,0 +1,82 @@
+//! WebP: lossless pictures by the crate image-webp, in the container of an animation (RFC 9649, section 2.7).
+
+use super::patch::{Patch, Writer};
+use crate::error::FigureError;
+use image_webp::{ColorType, WebPEncoder};
+
+/// Flags of VP8X for transparency and animation.
+const ALPHA: u8 = 1 << 4;
+const ANIMATION: u8 = 1 << 1;
+/// Bytes before the first chunk of a file, and of the header of a chunk.
+const FILE_HEAD: usize = 12;
+const CHUNK_HEAD: usize = 8;
+
+pub(super) struct Webp {
+    chunks: Vec<u8>,
+}
+
+impl Webp {
+    pub(super) fn new((width, height): (usize, usize)) -> Self {
+        let mut chunks = vec![];
+        let mut head = vec![ALPHA | ANIMATION, 0, 0, 0];
+        head.extend(three(width - 1));
+        head.extend(three(height - 1));
+        push(&mut chunks, b"VP8X", &head);
+        // White, and repeated for ever.
+        push(&mut chunks, b"ANIM", &[255, 255, 255, 255, 0, 0]);
+        Self { chunks }
+    }
+}
+
+impl Writer for Webp {
+    fn frame(&mut self, patch: &Patch, milliseconds: u32) -> Result<(), FigureError> {
+        let rgba = |pixel: &Option<[u8; 3]>| pixel.map_or([0; 4], |[r, g, b]| [r, g, b, 255]);
+        let pixels: Vec<u8> = patch.pixels.iter().flat_map(rgba).collect();
+        let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+        let mut file = vec![];
+        WebPEncoder::new(&mut file)
+            .encode(&pixels, side(patch.width), side(patch.height), ColorType::Rgba8)
+            .map_err(|error| FigureError::Png(error.to_string()))?;
+        let mut frame = vec![];
+        for number in [
+            patch.left / 2,
+            patch.top / 2,
+            patch.width - 1,
+            patch.height - 1,
+            milliseconds as usize,
+        ] {
+            frame.extend(three(number));
+        }
+        // Drawn over the frame before, and left there.
+        frame.push(0);
+        frame.extend(&file[FILE_HEAD..]);
+        push(&mut self.chunks, b"ANMF", &frame);
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<Vec<u8>, FigureError> {
+        let mut file = b"RIFF".to_vec();
+        file.extend(four(self.chunks.len() + 4));
+        file.extend(b"WEBP");
+        file.extend(self.chunks);
+        Ok(file)
+    }
+}
+
+/// Appends a chunk: its name, its length, and its content, of even length.
+fn push(chunks: &mut Vec<u8>, name: &[u8; 4], content: &[u8]) {
+    chunks.reserve(CHUNK_HEAD + content.len() + 1);
+    chunks.extend(name);
+    chunks.extend(four(content.len()));
+    chunks.extend(content);
+    chunks.extend((content.len() % 2 == 1).then_some(0));
+}
+
+fn four(number: usize) -> [u8; 4] {
+    u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes()
+}
+
+fn three(number: usize) -> [u8; 3] {
+    let [a, b, c, _] = four(number);
+    [a, b, c]
+}

@@ -1,0 +1,191 @@
+//! A run as a scene: the tip on its spring, the surface that it carves, and the spring force.
+
+use super::dense::Part;
+use super::labels::{LAG, NATURAL, SURFACE, VELOCITY};
+use super::tip::run_title;
+use crate::axis::extremes;
+use crate::error::FigureError;
+use crate::scene::{Moment, Scene, Shot};
+use stickslip::{ColourName, CurveDocument, FigureDocument, PanelDocument, RunDocument, StyleName};
+use stickslip_surface::Surface;
+use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory};
+
+/// Periods shown by default, and the least number of them.
+const PERIODS: (f64, f64) = (6.0, 2.2);
+/// Path shown by default, in σ, unless periods are longer.
+const PATH: f64 = 48.0;
+/// Surface shown behind the tip and ahead of tip and support, in σ.
+const BEHIND: f64 = 12.0;
+const AHEAD: f64 = 4.0;
+/// Points of the surface.
+const POINTS: u32 = 800;
+/// Times at which the range of the heights is found.
+const LOOKS: u32 = 24;
+/// Air below the heights and above them, for tip and spring, relative to their span.
+const AIR: (f64, f64) = (0.12, 0.75);
+
+/// A run between two times.
+pub(super) struct Carving {
+    title: String,
+    document: RunDocument,
+    model: Model,
+    initial: InitialSurface,
+    trajectory: Trajectory,
+    times: [f64; 2],
+    x: Vec<f64>,
+    heights: [f64; 2],
+    /// Spring extension or velocity against time.
+    trail: CurveDocument,
+}
+
+impl Carving {
+    /// # Errors
+    /// The run has no dense history along its line, or is damaged.
+    pub(super) fn of(run: &RunDocument, shot: &Shot) -> Result<Self, FigureError> {
+        if run.parameters.stiffness_across.is_some() {
+            let why = "animations show a tip on its line: leave out --stiffness-across, or name the picture .svg, .png or .pdf";
+            return Err(FigureError::Still(why.into()));
+        }
+        if run.history.is_none() {
+            let why = "an animation is drawn from the history, which was left out: run it again with --history all";
+            return Err(FigureError::Still(why.into()));
+        }
+        let trajectory = run.trajectory()?;
+        let scenario = run.parameters.scenario()?;
+        let initial =
+            scenario.initial_surface().map_err(|e| FigureError::Damaged(e.to_string()))?;
+        let times = times(run, &trajectory, shot)?;
+        let (x, trail) = (positions(&trajectory, times), trail(&trajectory, times));
+        let mut carving = Self {
+            title: run_title(run),
+            document: run.clone(),
+            model: scenario.model,
+            initial,
+            trajectory,
+            times,
+            x,
+            heights: [0.0, 1.0],
+            trail,
+        };
+        carving.heights = carving.range()?;
+        Ok(carving)
+    }
+
+    /// u(x, t) at every x.
+    fn surface(&self, t: f64, x: &[f64]) -> Result<Vec<f64>, FigureError> {
+        let surface = Surface::new(&self.model, &self.initial, &self.trajectory);
+        let u = surface.heights(t, x).map_err(|e| FigureError::Damaged(e.to_string()))?;
+        Ok(u.to_vec())
+    }
+
+    /// Lowest and highest ordinate: of the surface, with air below it and above it.
+    fn range(&self) -> Result<[f64; 2], FigureError> {
+        let [from, to] = self.times;
+        let mut all: Vec<f64> = vec![];
+        for i in 0..=LOOKS {
+            let t = from + (to - from) * f64::from(i) / f64::from(LOOKS);
+            all.extend(extremes(self.surface(t, &self.x)?).into_iter().flat_map(|(a, b)| [a, b]));
+        }
+        let (low, high) = extremes(all).unwrap_or((0.0, 1.0));
+        let span = (high - low).max(1e-6 * NATURAL.unwrap_or(1.0));
+        Ok([low - AIR.0 * span, high + AIR.1 * span])
+    }
+
+    fn labels(&self) -> (&'static str, &'static str) {
+        if matches!(self.trajectory.support(), Support::None) { VELOCITY } else { LAG }
+    }
+}
+
+impl Scene for Carving {
+    fn still(&self) -> FigureDocument {
+        let model = self.document.parameters.model_parameters();
+        let mut figure = FigureDocument::new("carving", &self.title, vec![model]);
+        let mut ground = PanelDocument::new("", SURFACE);
+        let ends = self.x.first().zip(self.x.last());
+        ground.x_range = ends.map(|(first, last)| [*first, *last]);
+        ground.y_range = Some(self.heights);
+        let mut force = PanelDocument::new("", self.labels());
+        (force.natural, force.x_range) = (NATURAL, Some(self.times));
+        let mut whole = self.trail.clone();
+        whole.colour = Some(ColourName::Silver);
+        force.curves = vec![whole];
+        figure.panels = vec![ground, force];
+        figure
+    }
+
+    fn times(&self) -> [f64; 2] {
+        self.times
+    }
+
+    fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
+        let u = self.surface(t, &self.x)?;
+        let x0 = self.trajectory.x0(t);
+        let height = self.surface(t, &[x0])?[0];
+        let support = match self.trajectory.support() {
+            Support::None => None,
+            support => Some(support.position(t)),
+        };
+        let mut ground = PanelDocument::new("", SURFACE);
+        ground.curves = vec![CurveDocument::new(StyleName::Line, "", &self.x, &u)];
+        let mut force = PanelDocument::new("", self.labels());
+        let now = [quantity(&self.trajectory, t)];
+        let past = self.trail.x.partition_point(|at| *at < t);
+        let (mut x, mut y) = (self.trail.x[..past].to_vec(), self.trail.y[..past].to_vec());
+        x.push(t);
+        y.push(Some(now[0]));
+        let trail = CurveDocument { x, y, ..self.trail.clone() };
+        force.curves = vec![trail, CurveDocument::new(StyleName::Dots, "", &[t], &now)];
+        let (unit, note, panels) = ("Γ/k".into(), String::new(), vec![ground, force]);
+        Ok(Moment { t, unit, note, panels, tip: (x0, height), support })
+    }
+}
+
+/// The spring extension, or the velocity of a tip without a spring.
+fn quantity(trajectory: &Trajectory, t: f64) -> f64 {
+    match trajectory.support() {
+        Support::None => trajectory.velocity(t),
+        _ => trajectory.lag(t),
+    }
+}
+
+fn trail(trajectory: &Trajectory, times: [f64; 2]) -> CurveDocument {
+    let of = |step: &Step, t| match trajectory.support() {
+        Support::None => step.velocity(t),
+        support => step.lag(support, t),
+    };
+    Part::of(trajectory, Some(times)).line("", &of)
+}
+
+/// First and last time: as requested, or the last ripples.
+fn times(run: &RunDocument, trajectory: &Trajectory, shot: &Shot) -> Result<[f64; 2], FigureError> {
+    let (start, end) = (trajectory.start(), trajectory.end());
+    if let Some([from, to]) = shot.times {
+        let (first, last) = (from.max(start), to.min(end));
+        if first < last {
+            return Ok([first, last]);
+        }
+        return Err(FigureError::Still(format!(
+            "the run lasts from t = {start} to {end}, and the times {from} to {to} are outside of it"
+        )));
+    }
+    let velocity = (trajectory.x0(end) - trajectory.x0(start)).abs() / (end - start);
+    let path = PATH / velocity.max(1e-3);
+    let ripples = run.oscillation.as_ref().map(|o| {
+        let period = o.period;
+        (PERIODS.0 * period).min(path.max(PERIODS.1 * period))
+    });
+    Ok([start.max(end - ripples.unwrap_or(path)), end])
+}
+
+/// Positions from behind the tip to ahead of its support.
+fn positions(trajectory: &Trajectory, [from, to]: [f64; 2]) -> Vec<f64> {
+    let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(POINTS);
+    let tip = (0..=POINTS).map(|i| trajectory.x0(at(i)));
+    let support = (0..=POINTS).map(|i| match trajectory.support() {
+        Support::None => trajectory.x0(at(i)),
+        support => support.position(at(i)),
+    });
+    let (low, high) = extremes(tip.chain(support)).unwrap_or((0.0, 1.0));
+    let (low, high) = (low - BEHIND, high + AHEAD);
+    (0..=POINTS).map(|i| low + (high - low) * f64::from(i) / f64::from(POINTS)).collect()
+}

@@ -1,0 +1,193 @@
+//! A raster as a scene: the surface line by line with the tip, and the lag along the line.
+
+use super::height_scale::heights_within;
+use super::labels::{LAG, NATURAL};
+use super::tip::raster_title;
+use crate::axis::extremes;
+use crate::error::FigureError;
+use crate::scene::{Moment, Scene, Shot};
+use stickslip::{
+    ColourName, ColoursName, CurveDocument, FigureDocument, HeightMap, MapDocument, PanelDocument,
+    RasterDocument, StyleName,
+};
+use stickslip_raster::{Line, Plan};
+use stickslip_surface::carved;
+
+/// Largest number of columns and rows of the map: its pixels.
+const MOST: usize = 640;
+/// Points of the lag along a line.
+const POINTS: u32 = 400;
+const LABELS: (&str, &str) = ("x (σ)", "y (σ)");
+
+/// A raster between two times, counted from the start of the first line.
+pub(super) struct Growing {
+    title: String,
+    document: RasterDocument,
+    plan: Plan,
+    lines: Vec<Line>,
+    /// Start of each line, and the end of the last.
+    starts: Vec<f64>,
+    times: [f64; 2],
+    /// The surface after the last line.
+    whole: HeightMap,
+    colours: Option<[f64; 2]>,
+    lags: [f64; 2],
+    /// The surface after the lines before `done`.
+    u: Vec<Vec<f64>>,
+    done: usize,
+}
+
+impl Growing {
+    /// # Errors
+    /// The raster is damaged, or has no time in common with the request.
+    pub(super) fn of(raster: &RasterDocument, shot: &Shot) -> Result<Self, FigureError> {
+        let (plan, lines) = raster.scanned()?;
+        let duration = |n: usize| plan.duration(n);
+        let mut starts = vec![0.0];
+        starts.extend((0..lines.len()).scan(0.0, |end, n| {
+            *end += duration(n);
+            Some(*end)
+        }));
+        let end = starts.last().copied().unwrap_or_default();
+        let [from, to] = shot.times.unwrap_or([0.0, end]);
+        let times = [from.max(0.0), to.min(end)];
+        if times[0] >= times[1] {
+            return Err(FigureError::Still(format!(
+                "the raster lasts from t = 0 to {end}, and the times {from} to {to} are outside of it"
+            )));
+        }
+        let map = raster.height_map()?;
+        let whole = raster.heights(sparse(map.x), sparse(map.y))?;
+        let lag = |line: &Line| {
+            let end = line.trajectory().end();
+            (0..=POINTS).map(|i| line.lag(end * f64::from(i) / f64::from(POINTS))).collect()
+        };
+        let lags: Vec<f64> = lines.iter().flat_map(|line| -> Vec<f64> { lag(line) }).collect();
+        let (low, high) = extremes(lags).unwrap_or((0.0, 1.0));
+        let air = 0.06 * (high - low).max(1e-6 * NATURAL.unwrap_or(1.0));
+        Ok(Self {
+            title: raster_title(&raster.parameters),
+            document: raster.clone(),
+            colours: heights_within(&whole),
+            u: vec![vec![0.0; whole.x.len()]; whole.y.len()],
+            done: 0,
+            lags: [low - air, high + air],
+            plan,
+            lines,
+            starts,
+            times,
+            whole,
+        })
+    }
+
+    /// Adds the groove that line n has carved by a time since its start, to the surface of that start.
+    fn carve(&self, n: usize, t: f64, u: &mut [Vec<f64>]) {
+        let line = &self.lines[n];
+        let track = line.track();
+        let (mut positions, weights) = line.trajectory().residence(t);
+        positions.iter_mut().for_each(|x| *x = track.x(*x));
+        let model = &self.plan.law.model;
+        let left = model.wider().left_after(t);
+        if left < 1.0 {
+            u.iter_mut().flatten().for_each(|u| *u *= left);
+        }
+        let reach = self.plan.reach_across();
+        for layer in self.plan.footprint.layers() {
+            let along = carved(&layer.along, &positions, &weights, &self.whole.x);
+            for (row, y) in u.iter_mut().zip(&self.whole.y) {
+                if (y - track.y).abs() > reach {
+                    continue;
+                }
+                let height = -model.alpha() * layer.across.value(y - track.y);
+                row.iter_mut().zip(&along).for_each(|(u, along)| *u += height * along);
+            }
+        }
+    }
+
+    /// The surface at this time of line n.
+    fn surface(&mut self, n: usize, t: f64) -> Vec<Vec<f64>> {
+        let mut u = std::mem::take(&mut self.u);
+        if n < self.done {
+            self.done = 0;
+            u.iter_mut().flatten().for_each(|u| *u = 0.0);
+        }
+        for m in self.done..n {
+            self.carve(m, self.plan.duration(m), &mut u);
+        }
+        (self.u, self.done) = (u.clone(), n);
+        self.carve(n, t, &mut u);
+        u
+    }
+
+    fn map(&self, z: Vec<Vec<f64>>) -> MapDocument {
+        MapDocument {
+            x: self.whole.x.clone(),
+            y: self.whole.y.clone(),
+            z,
+            z_label: "u (kσ²/a)".into(),
+            colours: ColoursName::Cividis,
+            z_range: self.colours,
+        }
+    }
+}
+
+impl Scene for Growing {
+    fn still(&self) -> FigureDocument {
+        let model = self.document.parameters.model_parameters();
+        let mut figure = FigureDocument::new("growing", &self.title, vec![model]);
+        let mut surface = PanelDocument::new("", LABELS);
+        surface.map = Some(self.map(self.whole.u.clone()));
+        let mut lag = PanelDocument::new("", (LABELS.0, LAG.1));
+        let ends = self.whole.x.first().zip(self.whole.x.last());
+        lag.x_range = ends.map(|(first, last)| [*first, *last]);
+        (lag.natural, lag.y_range) = (NATURAL, Some(self.lags));
+        figure.panels = vec![surface, lag];
+        figure
+    }
+
+    fn times(&self) -> [f64; 2] {
+        self.times
+    }
+
+    fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
+        let last = self.lines.len() - 1;
+        let n = (self.starts.partition_point(|start| *start <= t).max(1) - 1).min(last);
+        let since = (t - self.starts[n]).clamp(0.0, self.plan.duration(n));
+        let mut surface = PanelDocument::new("", LABELS);
+        let u = self.surface(n, since);
+        surface.map = Some(self.map(u));
+        let (line, r) = (&self.lines[n], self.plan.law.model.r());
+        let track = line.track();
+        let mut lag = PanelDocument::new("", (LABELS.0, LAG.1));
+        if let Some(before) = n.checked_sub(1).map(|before| &self.lines[before]) {
+            let mut before = trace(before, before.trajectory().end(), r);
+            before.colour = Some(ColourName::Silver);
+            lag.curves.push(before);
+        }
+        let now = (track.x(r * since), line.lag(since));
+        lag.curves.push(trace(line, since, r));
+        lag.curves.push(CurveDocument::new(StyleName::Dots, "", &[now.0], &[now.1]));
+        Ok(Moment {
+            t,
+            unit: "Γ/k".into(),
+            note: format!("line {} of {}", n + 1, self.lines.len()),
+            panels: vec![surface, lag],
+            tip: (line.x0(since), track.y),
+            support: Some(now.0),
+        })
+    }
+}
+
+/// The lag along a line until this time, against the position of the support.
+fn trace(line: &Line, until: f64, r: f64) -> CurveDocument {
+    let at = |i: u32| until * f64::from(i) / f64::from(POINTS);
+    let x: Vec<f64> = (0..=POINTS).map(|i| line.track().x(r * at(i))).collect();
+    let lag: Vec<f64> = (0..=POINTS).map(|i| line.lag(at(i))).collect();
+    CurveDocument::new(StyleName::Line, "", &x, &lag)
+}
+
+/// At most [`MOST`] of these evenly spaced positions.
+fn sparse(all: Vec<f64>) -> Vec<f64> {
+    let every = all.len().div_ceil(MOST).max(1);
+    all.into_iter().step_by(every).collect()
+}

@@ -9,7 +9,7 @@ The judge of each is the same command, undisturbed, in a folder of its own. What
   run that was interrupted may end early, and then says so;
 - after a repetition in peace (--resume, where there is a checkpoint) the bytes are those of the judge, and so are the
   names in the folder: nothing is lost, nothing is left over, there or in TMPDIR;
-- no panic, no status that docs/robustness.md does not have, no process that outlives its command, memory below 512 MB.
+- no panic, no status that docs/reference/limits.md does not have, no process that outlives its command, memory below 512 MB.
 A full disk needs the right to mount (root); without it that fault is a limit on the size of files.
 """
 

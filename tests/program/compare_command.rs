@@ -152,7 +152,7 @@ fn unusable_options_are_refused_by_name() {
         ("--grid-until 37", ["--grid-until 37", "--until"]),
         ("--time-limit 0", ["--time-limit 0", "seconds"]),
         ("--tolerance 1", ["--tolerance 1", "1e-13"]),
-        ("--tip bessel", ["--tip bessel", "fades"]),
+        ("--tip bessel", ["--tip bessel", "decays"]),
         ("--pulse 1,2", ["--pulse 1,2", "A,T,W"]),
         ("--noise 1e-3 --noise-spacing 0", ["--noise 0.001 --noise-spacing 0", "above 0"]),
         ("--noise inf", ["--noise inf", "finite"]),

@@ -1,9 +1,8 @@
 //! A tip that is free to move across the lines.
 
 use crate::error::RasterError;
-use crate::plan::Plan;
 use stickslip_tip::planar::PlanarScenario;
-use stickslip_tip::{Force, Scenario};
+use stickslip_tip::{Footprint, Force, Scenario};
 
 /// Motion across the lines: y0' = -`u_y` + κ_y (`y_n` - y0) on line n.
 #[derive(Debug, Clone)]
@@ -25,19 +24,23 @@ impl Free {
 
     /// # Errors
     /// A parameter is out of range, or not available in two coordinates.
-    pub(crate) fn validate(&self, plan: &Plan, longest: Scenario) -> Result<(), RasterError> {
-        let scenario = self.scenario(plan, longest, (0, self.kick));
+    pub(crate) fn validate(
+        &self,
+        footprint: &Footprint,
+        longest: Scenario,
+    ) -> Result<(), RasterError> {
+        let scenario = self.scenario(footprint, longest, (0, self.kick));
         scenario.validate().map_err(|error| RasterError::of_free(0, error))
     }
 
     /// The run of line n, from its motion along the scan; the tip starts `off` its line.
     pub(crate) fn scenario(
         &self,
-        plan: &Plan,
+        footprint: &Footprint,
         along: Scenario,
         (n, off): (usize, f64),
     ) -> PlanarScenario {
-        let model = plan.law.model.clone().with_footprint(plan.footprint.clone());
+        let model = along.model.clone().with_footprint(footprint.clone());
         let force_across = if n == 0 { self.disturbance.clone() } else { Force::default() };
         let scenario = PlanarScenario::new(Scenario { model, ..along }, self.stiffness);
         PlanarScenario { kick_across: off, force_across, ..scenario }

@@ -101,7 +101,7 @@ impl Plan {
             Scenario { until: self.duration_of(self.area.longest()), ..self.line(0, (0.0, 0.0)) };
         longest.validate().map_err(|error| RasterError::Line { line: 1, error })?;
         match &self.free {
-            Some(free) => free.validate(self, longest),
+            Some(free) => free.validate(&self.footprint, longest),
             None => Ok(()),
         }
     }

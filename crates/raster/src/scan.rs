@@ -103,7 +103,7 @@ impl<'a> Scanning<'a> {
             Some(_) => 0.0,
         };
         let along = self.plan.line(n, self.begins(track));
-        let scenario = free.scenario(self.plan, along, (n, off));
+        let scenario = free.scenario(&self.plan.footprint, along, (n, off));
         loop {
             let earlier = self.grooves.around(&track);
             match run(&scenario, earlier.as_ref()) {

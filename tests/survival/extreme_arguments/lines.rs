@@ -52,7 +52,7 @@ const LINES: [&str; 23] = [
     "fit --onsets onsets.csv --tip gaussian",
 ];
 /// Has no numbers.
-const WITHOUT: [&str; 2] = ["schema", "help"];
+const WITHOUT: [&str; 3] = ["schema", "completions", "help"];
 
 /// By command, its options, each with what it takes.
 pub(super) struct Options(BTreeMap<String, Vec<(String, Kind)>>);

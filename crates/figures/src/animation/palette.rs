@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn few_colours_are_kept_and_many_are_met_closely() {
         let few: Vec<u8> = (0..=200).flat_map(|i| [i, 255 - i, 7]).collect();
-        let mut palette = Palette::of(&[few.clone()]);
+        let mut palette = Palette::of(std::slice::from_ref(&few));
         for colour in few.chunks_exact(3).map(|c| [c[0], c[1], c[2]]) {
             let index = usize::from(palette.indices(&[Some(colour)])[0]);
             assert_eq!(palette.bytes()[3 * index..3 * index + 3], colour);
@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(palette.indices(&[None]), [0]);
         let ramp: Vec<u8> =
             (0..=255_u8).flat_map(|r| (0..8).flat_map(move |g| [r, g, r])).collect();
-        let mut palette = Palette::of(&[ramp.clone()]);
+        let mut palette = Palette::of(std::slice::from_ref(&ramp));
         assert!(palette.bytes().len() <= 3 * 256);
         for colour in ramp.chunks_exact(3).map(|c| [c[0], c[1], c[2]]) {
             let index = usize::from(palette.indices(&[Some(colour)])[0]);

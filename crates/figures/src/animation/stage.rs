@@ -189,7 +189,7 @@ fn spring((from, y): (f64, f64), to: f64) -> Vec<(f64, f64)> {
     let count = 2 * WINDINGS;
     let corner = |i: u32| {
         let x = begin + (end - begin) * (f64::from(i) + 0.5) / f64::from(count);
-        (x, if i % 2 == 0 { y - WINDING } else { y + WINDING })
+        (x, if i.is_multiple_of(2) { y - WINDING } else { y + WINDING })
     };
     let corners = (0..count).map(corner);
     [(from, y), (begin, y)].into_iter().chain(corners).chain([(end, y), (to, y)]).collect()

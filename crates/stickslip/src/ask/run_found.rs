@@ -245,6 +245,7 @@ impl From<&RunDocument> for RunEnd {
             end: reached.unwrap_or(document.parameters.until),
             regime: found.regime,
             oscillation: found.oscillation.clone(),
+            snaking: found.snaking.clone(),
             creep: found.creep.clone(),
             drifting: found.drifting.clone(),
             transient: found.transient.clone(),

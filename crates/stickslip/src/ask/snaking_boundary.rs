@@ -110,15 +110,31 @@ impl Place {
     }
 }
 
+/// The values over which the boundary is computed.
+#[derive(Clone, Copy)]
+struct Line {
+    /// Name of the range.
+    name: &'static str,
+    ends: [f64; 2],
+    /// Whether κ_y varies, and not r.
+    over_stiffness: bool,
+    /// The other of the two.
+    fixed: f64,
+}
+
+impl Line {
+    /// (κ_y, r) at a value of the range.
+    fn at(self, value: f64) -> (f64, f64) {
+        if self.over_stiffness { (value, self.fixed) } else { (self.fixed, value) }
+    }
+}
+
 /// Steps of the bisection for a crossing, to the last bits of κ_y or r.
 const BISECTIONS: u32 = 48;
 
 impl SnakingBoundary {
-    /// The name of the range, its ends, and (κ_y, r) at a value of it.
-    fn range(
-        &self,
-    ) -> Result<(&'static str, [f64; 2], impl Fn(f64) -> (f64, f64) + use<>), Refused> {
-        let (stiffness, r) = (self.stiffness_across, self.r);
+    /// The range and the fixed value.
+    fn range(&self) -> Result<Line, Refused> {
         let (name, ends) = match (self.stiffness_range, self.r_range) {
             (Some(ends), None) => ("stiffness_range", ends),
             (None, Some(ends)) => ("r_range", ends),
@@ -131,26 +147,24 @@ impl SnakingBoundary {
                 return Err(Refused::whole("stiffness_range", why));
             }
         };
+        let (r, stiffness) = (("r", self.r), ("stiffness_across", self.stiffness_across));
         let over_stiffness = name == "stiffness_range";
-        let (held, other) = if over_stiffness { (r, stiffness) } else { (stiffness, r) };
-        let names = ["r", "stiffness_across"];
-        let [held_name, other_name] = if over_stiffness { names } else { [names[1], names[0]] };
-        if let Some(value) = other {
-            let why = format!("is what {{{name}}} is a range of: leave one of them out");
-            return Err(Refused::number(other_name, value, why));
+        let (fixed, varied) = if over_stiffness { (r, stiffness) } else { (stiffness, r) };
+        if let (varied, Some(value)) = varied {
+            let why = format!("varies over {{{name}}}: leave one of them out");
+            return Err(Refused::number(varied, value, why));
         }
-        let held =
-            held.ok_or_else(|| Refused::whole(held_name, "is needed: the value that is held"))?;
-        if !(held.is_finite() && held > 0.0) {
-            return Err(Refused::number(held_name, held, "must be a finite number above 0"));
+        let (parameter, value) = fixed;
+        let fixed = value.ok_or_else(|| Refused::whole(parameter, "is needed: its fixed value"))?;
+        if !(fixed.is_finite() && fixed > 0.0) {
+            return Err(Refused::number(parameter, fixed, "must be a finite number above 0"));
         }
-        let at = move |value: f64| if over_stiffness { (value, held) } else { (held, value) };
-        Ok((name, ends, at))
+        Ok(Line { name, ends, over_stiffness, fixed })
     }
 
     /// Rejects an invalid range, or too few or too many points.
     fn judged(&self) -> Result<(), Refused> {
-        let (name, [low, high], _) = self.range()?;
+        let Line { name, ends: [low, high], .. } = self.range()?;
         if !(high.is_finite() && 0.0 < low && low < high) {
             return Err(self
                 .refused(name, "must be two finite numbers above 0, the first below the second"));
@@ -224,12 +238,13 @@ impl Ask for SnakingBoundary {
     fn answer(&self, context: &Context) -> Result<(SnakingBoundaryFound, Vec<String>), Failure> {
         let law = self.law.dragged(&self.tip.0)?;
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
-        let (name, ends, split) = self.range()?;
+        let line = self.range()?;
+        let Line { name, ends, .. } = line;
         let failed = |error: StabilityError| match error {
             StabilityError::Stopped => Failure::Cancelled,
             error => self.refused(name, error).into(),
         };
-        let at = |value: f64| place(&footprint, law, split(value));
+        let at = |value: f64| place(&footprint, law, line.at(value));
         let (mut found, mut left_out) = (SnakingBoundaryFound::default(), vec![]);
         let mut before: Option<(f64, f64)> = None;
         for (n, value) in self.spacing.values(ends, self.points).into_iter().enumerate() {

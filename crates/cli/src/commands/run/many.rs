@@ -21,7 +21,7 @@ pub(crate) fn order_of(arguments: &RunArguments) -> Result<Order, Failure> {
     if let Some((option, _)) = written.into_iter().find(|(_, given)| *given) {
         return Err(Failure::input(option, "is not available for several runs at once"));
     }
-    order::order(arguments)
+    order::order(arguments, arguments.options.values()?)
 }
 
 /// Runs of all these orders, side by side where possible, in the same order.

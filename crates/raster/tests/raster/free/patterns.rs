@@ -1,6 +1,8 @@
 //! Patterns of rasters of a tip that is free to move across the lines, against figures of a prototype that shares no code with
 //! this project (exponentials by Hermite-Gauss layers, direct sums and a grid agree on them).
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 use super::lines::{footprint, scanned};
 use stickslip_raster::{Free, Path, Pattern, Plan, Regime, Written, pattern};
 use stickslip_tip::{Model, Wider};

@@ -157,6 +157,7 @@ pub(crate) enum Command {
     Figures(FiguresArguments),
     /// Print the JSON Schema of a document.
     Schema(SchemaArguments),
+    /// Print the completions of the command line for a shell.
     Completions(CompletionsArguments),
 }
 

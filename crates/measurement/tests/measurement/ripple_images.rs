@@ -144,7 +144,7 @@ fn noise_has_no_ripples() {
     assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
 }
 
-/// 200 images: see docs/experiment.md for what it prints.
+/// 200 images: prints how often the intervals contain the truth.
 #[test]
 #[ignore = "minutes"]
 fn study_of_200_images() {

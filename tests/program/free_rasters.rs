@@ -70,6 +70,22 @@ fn a_held_raster_says_nothing_of_motion_across() {
     }
 }
 
+/// Thresholds of a sweep are those of both coordinates, and so are its rasters.
+#[test]
+fn a_sweep_of_free_rasters_knows_trenches() {
+    let folder = Folder::new("free_sweep");
+    let line = "sweep raster --tip gaussian --r 1 --pitch 2 --alpha 0.3:1:2 --lines 40 --length 40";
+    let line = format!("{line} --tolerance 1e-5");
+    folder.prints(&format!("{line} --stiffness-across 1 -o free.json --plot free.svg"));
+    let free = folder.json("free.json");
+    validate(&schema(&folder, "raster-sweep"), &free);
+    assert_eq!(number(&free["parameters"]["stiffness_across"]), 1.0);
+    assert!((number(&free["points"][0]["critical_alpha"]) - 0.4913).abs() < 5.1e-5);
+    let regimes = [0, 1].map(|n: usize| free["points"][n]["regime"].clone());
+    assert_eq!(regimes, [Value::from("steady"), Value::from("bunched")]);
+    assert!((number(&free["points"][1]["pattern"]["wavelength"]) - 4.0).abs() < 0.1);
+}
+
 #[test]
 fn what_a_free_raster_does_not_know_is_refused_by_name() {
     let folder = Folder::new("free_refusals");
@@ -80,6 +96,10 @@ fn what_a_free_raster_does_not_know_is_refused_by_name() {
         (format!("{LINES} --kick-across 1"), ["--kick-across 1", "--stiffness-across"]),
         (format!("{free} --memory fft"), ["--stiffness-across 1", "the memory fft"]),
         (free.replace("raster", "compare"), ["--stiffness-across 1", "no grid"]),
+        (
+            "sweep raster --tip gaussian --r 1 --pitch 2 --alpha 1 --lines 9 --length 20 --stiffness-across 0".into(),
+            ["--stiffness-across 0", "above 0"],
+        ),
     ] {
         folder.refuses(&line, &words);
     }

@@ -57,6 +57,11 @@ pub(crate) struct RasterSweepArguments {
     )]
     pub(crate) path: PathName,
 
+    /// κ_y, the spring constant across the lines over that along them; above 0. Without it the tip cannot leave its
+    /// line.
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Across the scan")]
+    pub(crate) stiffness_across: Option<f64>,
+
     /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[arg(
         long,

@@ -12,7 +12,7 @@ use super::sheet::Sheet;
 use super::vector::{MOST_ANGLE, Vector};
 use super::wave::Wave;
 use super::window::Window;
-use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, depth, felt};
+use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, depth, felt, growth};
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
@@ -30,13 +30,11 @@ const STRAIGHT: f64 = 0.6;
 /// The pattern, if crests along the lines are the strongest wave of the surface; `None` otherwise.
 pub(super) fn bunched(plan: &Plan, lines: &[Line], window: &Window) -> Option<Written> {
     let (sheet, amplitude) = sheet(plan, lines, window);
-    let carved = depth::carved(plan, &lines[window.first..window.end], window.pitch);
+    let (carved, healed) = depth_and_healing(plan, lines, window);
     if sheet.amplitude() < FLAT * carved {
         return None;
     }
     let waves = trenches(&sheet, window.pitch)?;
-    let left = plan.law.model.wider().left_after(plan.duration(window.first));
-    let healed = left.powf(0.5 * (window.end - window.first) as f64);
     let changes = waves[0].changes(&sheet).map(|factor| factor * healed);
     let mut doubts = vec![];
     if changes.iter().any(|factor| factor.ln().abs() > SETTLED) {
@@ -63,6 +61,22 @@ pub(super) fn bunched(plan: &Plan, lines: &[Line], window: &Window) -> Option<Wr
         defects: local.defects(),
     };
     Some(Written { regime: Regime::Bunched, pattern: Some(pattern), doubts })
+}
+
+/// Growth of what differs between lines and is the same all along them, on a surface that is steady so far.
+pub(super) fn growing(plan: &Plan, lines: &[Line]) -> Option<Doubt> {
+    let window = Window::of(plan, lines.len()).ok()?;
+    let (sheet, _) = sheet(plan, lines, &window);
+    let rows = window.end - window.first;
+    growth(plan, &sheet.u, depth_and_healing(plan, lines, &window), (rows, lines.len()))
+}
+
+/// Mean carved depth, and the fraction of the relief of the first half of the lines that remains after the second half was
+/// scanned.
+fn depth_and_healing(plan: &Plan, lines: &[Line], window: &Window) -> (f64, f64) {
+    let carved = depth::carved(plan, &lines[window.first..window.end], window.pitch);
+    let left = plan.law.model.wider().left_after(plan.duration(window.first));
+    (carved, left.powf(0.5 * (window.end - window.first) as f64))
 }
 
 /// The wave of straight crests along lines one pitch apart, with its rivals; `None` if another wave is stronger.

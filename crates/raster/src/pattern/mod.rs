@@ -134,10 +134,16 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
         Err(why) => return unknown(doubts, why),
     };
     let seen = Seen::of(plan, &sheets, lines.len());
-    match seen {
+    let mut written = match seen {
         Ok(seen) => seen.written(doubts),
-        Err(why) => unknown(doubts, why),
+        Err(why) => return unknown(doubts, why),
+    };
+    let is_growing = |doubt: &Doubt| matches!(doubt, Doubt::Growing { .. });
+    let is_still = written.regime == Regime::Steady && !written.doubts.iter().any(is_growing);
+    if is_still && plan.free.is_some() {
+        written.doubts.extend(bunched::growing(plan, lines));
     }
+    written
 }
 
 /// The regime of one line.
@@ -320,12 +326,22 @@ impl Sheets {
 /// Growth of differences between lines, and the number of lines after which ripples would be visible.
 fn growing(plan: &Plan, sheets: &Sheets, lines: usize) -> Option<Doubt> {
     let unlike = sheets.surface.unlike();
-    let [before, after] = halves_of(&unlike);
-    let ratio = after / before * sheets.healed;
-    let is_seen = after > SEEN * plan.law.tolerance * sheets.depth;
+    growth(plan, &unlike, (sheets.depth, sheets.healed), (unlike.nrows(), lines))
+}
+
+/// Growth of these heights over so many rows, and the number of lines after which it would be visible.
+fn growth(
+    plan: &Plan,
+    heights: &ndarray::Array2<f64>,
+    (depth, healed): (f64, f64),
+    (rows, lines): (usize, usize),
+) -> Option<Doubt> {
+    let [before, after] = halves_of(heights);
+    let ratio = after / before * healed;
+    let is_seen = after > SEEN * plan.law.tolerance * depth;
     (is_seen && ratio > GROWS).then(|| {
-        let factor = ratio.powf(2.0 / unlike.nrows() as f64);
-        let more = (FLAT * sheets.depth / after).ln() / factor.ln();
+        let factor = ratio.powf(2.0 / rows as f64);
+        let more = (FLAT * depth / after).ln() / factor.ln();
         let more = more.clamp(lines as f64, 1e9);
         Doubt::Growing { factor, lines: lines + more as usize }
     })

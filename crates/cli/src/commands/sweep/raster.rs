@@ -17,7 +17,9 @@ use stickslip::{
     Document, PathName, Physical, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
     RasterSweepPoint,
 };
-use stickslip_raster::{Line, LineRegime, Path, Plan, Scanning, line_regime, pattern};
+use stickslip_raster::{
+    Free, Line, LineRegime, Path, Plan, RasterError, Scanning, line_regime, pattern,
+};
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
@@ -93,6 +95,7 @@ impl Grid {
             healing_time: law.healing_time,
             inertia: law.inertia,
             width_y,
+            stiffness_across: arguments.stiffness_across,
             path,
             pitch,
             alpha,
@@ -128,8 +131,14 @@ impl Grid {
         let model = model.map_err(|error| named(error.to_string()))?;
         let (footprint, path) = (self.footprint.clone(), Path::from(*path));
         let mut plan = Plan::new(footprint, model, path, pitch, *lines, *length);
+        plan.free = self.parameters.stiffness_across.map(Free::new);
         plan.law.tolerance = *tolerance;
-        plan.validate().map_err(|error| named(error.to_string()))?;
+        plan.validate().map_err(|error| match (&error, self.parameters.stiffness_across) {
+            (RasterError::Free { .. }, Some(stiffness)) => {
+                Failure::input(format!("--stiffness-across {}", Typed(stiffness)), error)
+            }
+            _ => named(error.to_string()),
+        })?;
         Ok(plan)
     }
 
@@ -160,7 +169,11 @@ impl Grid {
         let RasterSweepParameters { r, path, length, .. } = &self.parameters;
         let path = if *path == PathName::Zigzag { RasterPath::Zigzag } else { RasterPath::OneWay };
         let left = self.law.left_after(length / r);
-        let raster = Raster::new(&self.footprint, self.law, (*r, pitch), left);
+        let held = Raster::new(&self.footprint, self.law, (*r, pitch), left);
+        let raster = match self.parameters.stiffness_across {
+            None => held,
+            Some(stiffness) => held.and_then(|held| held.with_stiffness_across(stiffness)),
+        };
         let critical = raster.and_then(|raster| raster.critical(path));
         critical.ok().map(|at| at.alpha)
     }

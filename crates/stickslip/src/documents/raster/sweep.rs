@@ -48,6 +48,9 @@ pub struct RasterSweepParameters {
     pub inertia: Option<f64>,
     /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
     pub width_y: Option<f64>,
+    /// κ_y, the spring constant across the lines over that along them; absent if the tip is held on its lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<f64>,
     /// The path of the support from one line to the next.
     pub path: PathName,
     /// Distances of the lines, in σ.
@@ -89,7 +92,7 @@ pub struct RasterSweepPoint {
     pub pitch: f64,
     /// α, dimensionless.
     pub alpha: f64,
-    /// α above which ripples grow from line to line, by linear theory; null if it has no threshold.
+    /// α above which waves grow from line to line, by linear theory; null if it has no threshold.
     pub critical_alpha: Option<f64>,
     /// The regime of the surface; null if `error` is given.
     pub regime: Option<RasterRegimeName>,

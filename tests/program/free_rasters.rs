@@ -47,8 +47,8 @@ fn a_free_raster_is_that_of_the_library() {
     for ((row, column), u) in wanted.indexed_iter() {
         assert!((number(&surface["surfaces"][0]["u"][row][column]) - u).abs() < 1e-12);
     }
-    for name in ["a.csv", "a.npz", "a.gsf"] {
-        folder.prints(&format!("{line} --sigma 30nm -o {name}"));
+    for name in ["a.npz", "a.gsf", "a.csv --sigma 30nm"] {
+        folder.prints(&format!("{line} -o {name}"));
     }
     let csv = String::from_utf8(folder.read("a.csv")).unwrap();
     let head = csv.lines().find(|line| !line.starts_with('#')).unwrap();

@@ -133,11 +133,11 @@ impl Reference {
             let stages = self.stages(&method, h, (&support, way.y, since), &rates);
             rates = stages.rates;
             for (k, rate) in rates.iter().enumerate() {
-                let (spent, weight) = (h * method.b[k], stages.weights[k]);
+                let spent = h * method.b[k];
                 self.visits.push(Visit {
                     t: self.t + h * method.c[k],
                     at: stages.at[k],
-                    weight: spent * weight,
+                    weight: spent * stages.weights[k],
                 });
                 (0..2).for_each(|j| self.at[j] += spent * rate[j]);
                 let lost = stages.forces[k][0] - rate[0];

@@ -186,3 +186,44 @@ fn a_tip_that_is_held_would_be_found_out() {
     };
     assert!(apart(&free[1], &held[1]) > 1e-2 && apart(&free[1], &alone[1]) > 1e-2);
 }
+
+/// Largest difference of x0 and y0 between lines and motions of the reference.
+fn apart(lines: &[Line], motions: &[Vec<(f64, [f64; 2])>]) -> f64 {
+    let of = |(line, motion): (&Line, &Vec<(f64, [f64; 2])>)| {
+        let miss = |(t, at): &(f64, [f64; 2])| {
+            (line.x0(*t) - at[0]).abs().max((line.y0(*t) - at[1]).abs())
+        };
+        motion.iter().map(miss).fold(0.0, f64::max)
+    };
+    lines.iter().zip(motions).map(of).fold(0.0, f64::max)
+}
+
+/// Errors of lines on earlier lines follow the tolerance, and the reference is of its order.
+#[test]
+fn errors_of_lines_follow_the_tolerance() {
+    let (plan, law) = plain().plan();
+    let motions = |steps: usize| -> Vec<Vec<(f64, [f64; 2])>> {
+        let mut reference = Reference::new(law.clone());
+        ways(&plan, 0.0).iter().map(|way| reference.line(way, steps)).collect()
+    };
+    let finest = motions(120);
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let mut plan = plan.clone();
+        plan.law.tolerance = tolerance;
+        let error = apart(&scanned(&plan), &finest);
+        println!("{tolerance:e}: {error:.1e}");
+        assert!(error < 3.0 * tolerance, "{tolerance:e}: {error:e}");
+    }
+    let ends = |motions: &[Vec<(f64, [f64; 2])>]| -> Vec<[f64; 2]> {
+        motions.iter().filter_map(|motion| Some(motion.last()?.1)).collect()
+    };
+    let (exact, mut errors) = (ends(&finest), vec![]);
+    for steps in [30, 60] {
+        let found = ends(&motions(steps));
+        let pairs = found.iter().flatten().zip(exact.iter().flatten());
+        errors.push(pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max));
+    }
+    let order = f64::log2(errors[0] / errors[1]);
+    println!("{errors:?}, order {order:.2}");
+    assert!(order > 7.0, "{errors:?}");
+}

@@ -4,6 +4,7 @@ use crate::area::Area;
 use crate::error::RasterError;
 use crate::free::Free;
 use crate::path::{Path, Track};
+use stickslip_tip::planar::RowLattice;
 use stickslip_tip::{Footprint, Force, Model, Scenario, Start};
 
 /// Definition of a raster. Lengths in σ, times in Γ/k.
@@ -29,10 +30,8 @@ const MOST_WITHIN_REACH: f64 = 1e4;
 /// number, has sums, transforms and their workspace.
 const BYTES_OF_A_WAVE: f64 = 16.0;
 const BYTES_OF_THE_LATTICE: f64 = 320.0;
-/// The same for a tip that is free to move across: rows on which a line leaves anything, most of them shared with its
-/// neighbours; and the surface on some sixty rows, heights and slopes.
-const ROWS_OF_A_LINE: f64 = 3.0;
-const BYTES_OF_A_GROUND: f64 = 4000.0;
+/// The same of the surface about a line of a tip that is free to move across: heights and slopes on some sixty rows.
+const BYTES_OF_ROWS: f64 = 4000.0;
 const MOST_MEMORY: f64 = 1e9;
 /// Largest number of lattice points of a line.
 const MOST_POINTS: f64 = 1e7;
@@ -117,15 +116,24 @@ impl Plan {
         let period = high - low + 6.0 * self.reach_along() + 4.0 * outside;
         let waves = period * self.band() / std::f64::consts::TAU;
         let rows = if self.path == Path::Repeat { 1 } else { self.lines() };
-        let (each, lattice) = match self.free {
-            None => (1.0, BYTES_OF_THE_LATTICE),
-            Some(_) => (ROWS_OF_A_LINE, BYTES_OF_A_GROUND * self.footprint.layers().len() as f64),
+        let (stored, lattice) = match self.free {
+            None => (rows as f64, BYTES_OF_THE_LATTICE),
+            Some(_) => (self.rows(), BYTES_OF_ROWS * self.footprint.layers().len() as f64),
         };
-        let bytes = waves * (BYTES_OF_A_WAVE * each * rows as f64 + lattice);
+        let bytes = waves * (BYTES_OF_A_WAVE * stored + lattice);
         if bytes <= MOST_MEMORY {
             return Ok(());
         }
         Err(RasterError::Memory { lines: rows, extent: high - low + 2.0 * outside, bytes })
+    }
+
+    /// Number of rows on which a tip that is free to move across leaves anything, if it remains near its lines.
+    fn rows(&self) -> f64 {
+        let y = (0..self.lines()).map(|n| self.track(n).y);
+        let ends =
+            y.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        let (spacing, reach) = (RowLattice::of(&self.footprint).y(1), 2.0 * self.reach_across());
+        (ends.1 - ends.0 + reach).min(reach * self.lines() as f64) / spacing
     }
 
     /// Number of lines.

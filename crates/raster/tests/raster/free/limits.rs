@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use super::lines::{footprint, scanned};
-use stickslip_raster::{Free, Line, Path, Plan, RasterError, Scanned, Scanning, volume};
+use stickslip_raster::{Area, Free, Line, Path, Plan, RasterError, Scanned, Scanning, volume};
 use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{Footprint, Gaussian2d, MemoryChoice, Model, Wider};
 
@@ -90,6 +90,11 @@ fn free_rasters_that_cannot_be_are_refused() {
         let error = of(refused(&plan(stiffness, Path::OneWay)));
         assert!(matches!(error, PlanarError::Stiffness(_)), "{error}");
     }
+    // Lines far apart share no rows.
+    let mut large = plan(1.0, Path::OneWay);
+    large.area = Area::Rectangle { pitch: 30.0, lines: 3000, length: 1000.0 };
+    assert!(matches!(refused(&large), RasterError::Memory { .. }));
+    assert!(Scanning::new(&Plan { free: None, ..large }).is_ok());
     let kicked = plan(1.0, Path::OneWay).with_free(Free { kick: f64::NAN, ..Free::new(1.0) });
     assert!(matches!(of(refused(&kicked)), PlanarError::Kick(_)));
     let mut by_fft = plan(1.0, Path::OneWay);

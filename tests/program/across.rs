@@ -169,6 +169,7 @@ fn what_has_no_theory_across_is_refused_with_advice() {
             "stability --r 1 --pitch 1 --depth-limit 3 --stiffness-across 1",
             ["--depth-limit", "corner"],
         ),
+        ("boundary --r-range 1:2:3 --width-y 1", ["--width-y", "--pitch-range"]),
         (
             "boundary --pitch-range 1:2:3 --r 1 --stiffness-across 0",
             ["--stiffness-across 0", "above 0"],

@@ -63,9 +63,10 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 17] = [
+const OTHERS: [(&str, &str); 18] = [
     ("stability", "stability --r 1"),
     ("walking", "stability --no-spring --alpha=-1"),
+    ("walker", "run --walker --alpha=-3 --rotation 0.3 --until 20"),
     ("boundary", "boundary --r-range 0.05,3 --points 20"),
     ("compare", "compare --alpha 1.2 --r 1 --kick 0.05 --pulse 1,20,1 --until 30"),
     ("response", "response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60"),

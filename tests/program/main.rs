@@ -50,6 +50,7 @@ mod tip_command;
 mod units_command;
 mod verification;
 mod verified_lines;
+mod walkers;
 mod walls;
 mod wider_commands;
 mod wider_law;

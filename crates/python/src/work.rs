@@ -56,16 +56,18 @@ pub(crate) fn call(
 /// A command: its words, and the files that it finds in memory.
 type Command = (Vec<String>, Vec<(String, Given)>);
 
+/// The documents of several runs, or why there is none.
+type Runs = Vec<(Option<Document>, Option<String>)>;
+
 /// Carries out several commands `run` together. The document of each, None where its run failed, with why it did; and
 /// the lines that were said, each with the number of its run.
 #[pyfunction]
 #[pyo3(signature = (commands, progress=None))]
-#[expect(clippy::type_complexity, reason = "a tuple for Python")]
 pub(crate) fn call_runs(
     py: Python<'_>,
     commands: Vec<Command>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<(Vec<(Option<Document>, Option<String>)>, Vec<(usize, String)>)> {
+) -> PyResult<(Runs, Vec<(usize, String)>)> {
     let command = |(words, supplies): Command| {
         let supplies = supplies.into_iter();
         let supplies = supplies.map(|(name, given)| Ok((name.into(), supply(py, given)?)));
@@ -81,9 +83,10 @@ pub(crate) fn call_runs(
         Some(Err((number, refusal))) => return Err(raised(of_run(number, refusal))),
         None => return Err(raised(panicked())),
     };
-    let heard = hosts.iter().enumerate().flat_map(|(number, host)| {
-        host.heard().into_iter().map(move |line| (number, line))
-    });
+    let heard = hosts
+        .iter()
+        .enumerate()
+        .flat_map(|(number, host)| host.heard().into_iter().map(move |line| (number, line)));
     let run = |run: Result<Made, Refusal>| match run {
         Ok(made) => (Some(Document::new(py, made)), None),
         Err(Refusal::Input(said) | Refusal::Run(said) | Refusal::Stopped(said)) => {
@@ -134,9 +137,7 @@ fn idle() -> MutexGuard<'static, (u32, Vec<Sender<Work>>)> {
 
 /// Starts the work, in a thread that is there already, if one is: a new one costs half a millisecond, most of it for
 /// memory of its own.
-fn begin<T: Send + 'static>(
-    work: impl FnOnce() -> T + Send + 'static,
-) -> PyResult<Receiver<T>> {
+fn begin<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> PyResult<Receiver<T>> {
     let (answer, receiver) = channel();
     let work = move || {
         // Nobody hears it who has gone.

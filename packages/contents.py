@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What a program or a Python package is made of: the notices that its parts ask for, and a list for machines.
 
-    packages/contents.py PACKAGE TARGET FOLDER [--manifest-path Cargo.toml]
+    packages/contents.py PACKAGE TARGET FOLDER [--manifest-path Cargo.toml] [--node node_modules/NAME]
 
-writes FOLDER/THIRD-PARTY-NOTICES.txt, with the licence texts of every crate that PACKAGE links to for TARGET and of the
-fonts within them, and FOLDER/PACKAGE.cdx.json, a CycloneDX list with versions, checksums and who needs whom. Both
+writes FOLDER/THIRD-PARTY-NOTICES.txt, with the licence texts of every crate that PACKAGE links to for TARGET, of the
+fonts within them and of each package of Node that is named, and FOLDER/PACKAGE.cdx.json, a CycloneDX list with versions, checksums and who needs whom. Both
 follow from the lock file alone: the same sources give the same bytes. A crate without a licence text is an error.
 """
 
@@ -47,6 +47,13 @@ def linked(known, package):
     return {i: packages[i] for i in sorted(needs, key=lambda i: order(packages[i]))}, needs, first
 
 
+def of_node(folder):
+    """A package of Node, as Cargo would describe it."""
+    about = json.loads((folder / "package.json").read_text())
+    return {"name": about["name"], "version": about["version"], "license": about["license"], "registry": "npm",
+            "manifest_path": str(folder / "package.json")}
+
+
 def order(package):
     return package["name"], package["version"]
 
@@ -60,7 +67,7 @@ def texts(package):
     """Licence texts in the folder of a crate, by their path in it."""
     folder = pathlib.Path(package["manifest_path"]).parent
     found = {}
-    for path in sorted(folder.rglob("*")):
+    for path in sorted(p for p in folder.rglob("*") if "node_modules" not in p.relative_to(folder).parts):
         if path.is_file() and TEXTS.fullmatch(path.name) and path.suffix not in CODE:
             text = path.read_text(errors="replace").replace("\r\n", "\n").strip()
             if text and text not in found.values():
@@ -101,16 +108,17 @@ def component(package, checksums):
 
 
 def reference(package):
-    return f"pkg:cargo/{package['name']}@{package['version']}"
+    return f"pkg:{package.get('registry', 'cargo')}/{package['name']}@{package['version']}"
 
 
-def bill(packages, needs, first, checksums, target):
-    """The list of parts as CycloneDX 1.5."""
+def bill(packages, needs, first, more, checksums, target):
+    """The list of parts as CycloneDX 1.5; `more` are those beside the crates."""
     made = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", "0")), datetime.timezone.utc)
     parts = [component(p, checksums) for i, p in packages.items() if i != first]
+    parts += [component(p, checksums) for p in more]
     needed = [{"ref": reference(p), "dependsOn": [reference(packages[n]) for n in needs[i]]} for i, p in packages.items()]
     own = component(packages[first], checksums) | {"type": "application"}
-    number = uuid.uuid5(uuid.NAMESPACE_URL, json.dumps([target, own, needed], sort_keys=True))
+    number = uuid.uuid5(uuid.NAMESPACE_URL, json.dumps([target, own, parts, needed], sort_keys=True))
     return {"bomFormat": "CycloneDX", "specVersion": "1.5", "serialNumber": f"urn:uuid:{number}", "version": 1,
             "metadata": {"timestamp": made.strftime("%Y-%m-%dT%H:%M:%SZ"), "component": own},
             "components": parts, "dependencies": needed}
@@ -122,16 +130,18 @@ def main():
     reader.add_argument("target")
     reader.add_argument("folder", type=pathlib.Path)
     reader.add_argument("--manifest-path", default=str(ROOT / "Cargo.toml"))
+    reader.add_argument("--node", type=pathlib.Path, action="append", default=[])
     asked = reader.parse_args()
     known = metadata(asked.manifest_path, asked.target)
     packages, needs, first = linked(known, asked.package)
     lock = tomllib.loads((pathlib.Path(known["workspace_root"]) / "Cargo.lock").read_text())
     checksums = {order(p): p["checksum"] for p in lock["package"] if "checksum" in p}
     rust = subprocess.run([os.environ.get("RUSTC", "rustc"), "--version"], check=True, text=True, stdout=subprocess.PIPE)
-    others = [p for p in packages.values() if p["source"] is not None]
+    more = [of_node(folder) for folder in asked.node]
+    others = [p for p in packages.values() if p["source"] is not None] + more
     asked.folder.mkdir(parents=True, exist_ok=True)
     (asked.folder / "THIRD-PARTY-NOTICES.txt").write_text(notices(others, rust.stdout.split()[1]))
-    parts = json.dumps(bill(packages, needs, first, checksums, asked.target), indent=1)
+    parts = json.dumps(bill(packages, needs, first, more, checksums, asked.target), indent=1)
     (asked.folder / f"{asked.package}.cdx.json").write_text(parts + "\n")
 
 

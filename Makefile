@@ -22,7 +22,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 
 .DEFAULT_GOAL := help
 .PHONY: help run test test-python test-slurm wheel packages deny alone instructions survive judge check wasm outputs bench work-precision \
-	reference timings figures peers fuzz doc install site test-site dist clean
+	reference timings figures peers fuzz doc install site test-site dist reproducible clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -125,6 +125,9 @@ test-site: ## the page in a Chromium beside the program, and every link of the b
 
 dist: ## for Linux, in target/dist: archives and .deb for x86-64 and arm64 with man pages, completions and notices; lists of parts; checksums
 	.ci/dist
+
+reproducible: ## are the packages of two clones the same bytes? builds them twice
+	.ci/reproducible x86_64
 
 clean: ## remove what building made
 	$(CARGO) clean

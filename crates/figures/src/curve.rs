@@ -17,6 +17,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) x: &'a Axis,
     pub(crate) y: &'a Axis,
     pub(crate) at: Rect,
+    /// Whether lines have a light edge, which keeps them visible on any colour.
+    pub(crate) haloed: bool,
 }
 
 impl Frame<'_> {
@@ -45,6 +47,9 @@ impl Frame<'_> {
                         continue;
                     }
                     let path = if curve.smooth { smooth(&stretch) } else { polyline(&stretch) };
+                    if self.haloed {
+                        svg.path(&path, Paint::stroke("#ffffff", width + 3.0));
+                    }
                     svg.path(&path, Paint { dashes, ..Paint::stroke(pen.colour, width) });
                 }
             }
@@ -199,7 +204,7 @@ mod tests {
         let (x, y) = (axis(0.0, 10.0), axis(0.0, 1.0));
         let at = Rect { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
         let mut svg = Svg::default();
-        Frame { x: &x, y: &y, at }.draw(curve, 1, &mut svg);
+        Frame { x: &x, y: &y, at, haloed: false }.draw(curve, 1, &mut svg);
         svg.finish((100.0, 100.0), ("100".into(), "100".into()))
     }
 

@@ -5,13 +5,15 @@ use crate::colours::{at, hex};
 use crate::error::FigureError;
 use crate::picture::data_url;
 use crate::style::{INK, LABEL_SIZE, TICK_SIZE};
-use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::svg::{Anchor, Paint, Rect, Svg, Text, polyline};
 use crate::text::width;
 use stickslip::{ColoursName, MapDocument, ScaleName};
 
 const BAR_GAP: f64 = 16.0;
 const BAR: f64 = 18.0;
 const BAR_STEPS: usize = 128;
+/// Height of the triangle at an end of the bar, which says that there are values beyond it.
+const BEYOND: f64 = 11.0;
 
 /// A map, its visible part, and its scale of heights.
 pub(crate) struct Map<'a> {
@@ -20,6 +22,8 @@ pub(crate) struct Map<'a> {
     columns: (usize, usize),
     rows: (usize, usize),
     scale: Axis,
+    /// Whether there are lower and higher values than the scale has.
+    clipped: (bool, bool),
 }
 
 impl<'a> Map<'a> {
@@ -36,7 +40,11 @@ impl<'a> Map<'a> {
             }
             (None, _) => Axis::fit(heights, FIT),
         };
-        Self { document, columns, rows, scale }
+        let shown = document.z[rows.0..rows.1].iter().flat_map(|row| &row[columns.0..columns.1]);
+        let (low, high) = extremes(shown.copied()).unwrap_or((scale.low, scale.high));
+        let least = LEAST_CLIPPED * (scale.high - scale.low);
+        let clipped = (low < scale.low - least, high > scale.high + least);
+        Self { document, columns, rows, scale, clipped }
     }
 
     /// The edges of the visible part, half a cell beyond the first and the last centre.
@@ -63,6 +71,19 @@ impl<'a> Map<'a> {
         Ok(())
     }
 
+    /// Draws a triangle at each end of the bar beyond which there are values.
+    fn draw_ends(&self, bar: Rect, svg: &mut Svg) {
+        let middle = 0.5 * (bar.left + bar.right);
+        let (below, above) = self.clipped;
+        let ends = [(below, bar.bottom, BEYOND, 0.0), (above, bar.top, -BEYOND, 1.0)];
+        for (_, y, height, part) in ends.into_iter().filter(|end| end.0) {
+            let corners = [(bar.left, y), (middle, y + height), (bar.right, y)];
+            let colour = hex(at(self.document.colours, part));
+            let paint = Paint { fill: Some(&colour), ..Paint::stroke(INK, 1.0) };
+            svg.path(&(polyline(&corners) + "Z"), paint);
+        }
+    }
+
     /// Draws the bar and its numbers, to the right of the axes.
     pub(crate) fn draw_bar(&self, axes: Rect, svg: &mut Svg) {
         let left = axes.right + BAR_GAP;
@@ -76,6 +97,7 @@ impl<'a> Map<'a> {
             svg.rect(Rect { top, bottom, ..bar }, Paint::fill(&colour));
         }
         svg.rect(bar, Paint::stroke(INK, 1.0));
+        self.draw_ends(bar, svg);
         for (value, label) in self.scale.labelled() {
             let y = bar.bottom - bar.height() * self.scale.part(value).unwrap_or(0.0);
             svg.segment((bar.right, y), (bar.right + 5.0, y), Paint::stroke(INK, 1.0));
@@ -88,6 +110,9 @@ impl<'a> Map<'a> {
         svg.text(Text { x, y, label, size, anchor, upright: true });
     }
 }
+
+/// Part of the scale by which values have to be beyond it to be marked.
+const LEAST_CLIPPED: f64 = 1e-3;
 
 const FIT: Fit = Fit { scale: ScaleName::Linear, padding: 0.0, natural: 0.0, ticks: 5.0 };
 

@@ -14,9 +14,9 @@ use stickslip::{ArrowName, ColourName, PanelDocument};
 /// Space to the right of the axes, for half of the last tick label.
 const MARGIN_RIGHT: f64 = 28.0;
 /// Space above the axes without a legend.
-const MARGIN_TOP: f64 = 16.0;
+pub(crate) const MARGIN_TOP: f64 = 16.0;
 /// Space below the axes, for tick labels and axis label.
-const MARGIN_BOTTOM: f64 = 54.0;
+pub(crate) const MARGIN_BOTTOM: f64 = 54.0;
 const HEADING_LINE: f64 = 1.5 * LABEL_SIZE;
 /// Approximate distance of the ticks, horizontal and vertical.
 const TICK_DISTANCE: (f64, f64) = (95.0, 52.0);
@@ -66,25 +66,33 @@ impl<'a> Panel<'a> {
         HEADING_LINE * lines + Legend::of(self.document, right - left).height()
     }
 
-    /// The axes of the panel within `space`, between `left` and `right`.
-    pub(crate) fn frame(&self, space: Rect, (left, right): (f64, f64)) -> Frame<'_> {
-        let top = space.top + MARGIN_TOP + self.head((left, right));
-        let bottom = (space.bottom - MARGIN_BOTTOM).max(top + 10.0);
-        Frame { x: &self.x, y: &self.y, at: Rect { left, right, top, bottom } }
+    /// Height over width of the axes, if one scale serves both: they are positions on the surface, in one unit.
+    pub(crate) fn aspect(&self) -> Option<f64> {
+        let parts = |label: &'a str| label.strip_suffix(')')?.rsplit_once(" (");
+        let (x, y) = (parts(&self.document.x_label)?, parts(&self.document.y_label)?);
+        let is_surface = matches!((x.0, y.0), ("x" | "support at x", "y") | ("x₀", "y₀"));
+        let aspect = (self.y.high - self.y.low) / (self.x.high - self.x.low);
+        (is_surface && x.1 == y.1 && aspect.is_finite() && aspect > 0.0).then_some(aspect)
     }
 
-    /// Draws the panel within `space`, its axes between `left` and `right`.
+    /// The axes of the panel at this place.
+    pub(crate) fn frame(&self, at: Rect) -> Frame<'_> {
+        Frame { x: &self.x, y: &self.y, at, haloed: self.document.cells.is_some() }
+    }
+
+    /// Draws the panel within `space`, its heading between `left` and `right`, above its axes.
     pub(crate) fn draw(
         &self,
         space: Rect,
         (left, right): (f64, f64),
+        at: Rect,
         svg: &mut Svg,
     ) -> Result<(), FigureError> {
         let legend = Legend::of(self.document, right - left);
         let heading = self.heading(right - left);
-        let legend_top = space.top + MARGIN_TOP + HEADING_LINE * heading.len() as f64;
-        let frame = self.frame(space, (left, right));
-        let at = frame.at;
+        let legend_top = at.top - legend.height();
+        let heading_top = legend_top - HEADING_LINE * heading.len() as f64;
+        let frame = self.frame(at);
         if let Some(map) = &self.map {
             map.draw(at, svg)?;
         }
@@ -105,7 +113,7 @@ impl<'a> Panel<'a> {
         self.labels(space, at, svg);
         for (i, label) in heading.iter().enumerate() {
             let (x, size, anchor) = (left, LABEL_SIZE, Anchor::Start);
-            let y = space.top + MARGIN_TOP + HEADING_LINE * i as f64 + 0.65 * size;
+            let y = heading_top + HEADING_LINE * i as f64 + 0.65 * size;
             svg.text(Text { x, y, label, size, anchor, upright: false });
         }
         legend.draw(left, legend_top, svg);
@@ -154,10 +162,14 @@ impl<'a> Panel<'a> {
     fn ticks(&self, frame: Frame, svg: &mut Svg) {
         let (at, ink, size) = (frame.at, Paint::stroke(INK, 1.0), TICK_SIZE);
         let length = |label: &Option<String>| if label.is_some() { 5.0 } else { 3.0 };
+        let mut free = f64::NEG_INFINITY;
         for tick in &self.x.ticks {
             let Some(x) = self.x_of(tick.value, at) else { continue };
             svg.segment((x, at.bottom), (x, at.bottom + length(&tick.label)), ink);
-            if let Some(label) = &tick.label {
+            // A number that would run into the one before is left out.
+            let half = tick.label.as_ref().map_or(0.0, |label| 0.5 * width(label, size));
+            if let Some(label) = tick.label.as_ref().filter(|_| x - half >= free) {
+                free = x + half + 0.3 * size;
                 let y = at.bottom + 8.0 + 0.9 * size;
                 svg.text(Text { x, y, label, size, anchor: Anchor::Middle, upright: false });
             }
@@ -197,7 +209,7 @@ impl<'a> Panel<'a> {
             let (from, to) = (frame.at.left + half, frame.at.right - half);
             let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };
             let shown = if from < to { wanted.clamp(from, to) } else { x };
-            if note.arrow.is_some() {
+            if note.arrow.is_some() || self.document.cells.is_some() {
                 let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
                 let (left, right) = (shown - half, shown + half);
                 svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);

@@ -3,7 +3,7 @@
 #[cfg(feature = "animation")]
 use crate::curve::Frame;
 use crate::error::FigureError;
-use crate::panel::Panel;
+use crate::panel::{MARGIN_BOTTOM, MARGIN_TOP, Panel};
 use crate::size::Size;
 use crate::style::TITLE_SIZE;
 use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
@@ -19,8 +19,10 @@ const ALONE: f64 = 0.6;
 const SHARED: f64 = 0.3;
 const CELLS: f64 = 0.69;
 const HEIGHTS: (f64, f64) = (230.0, 640.0);
-/// Limits of the same ratio for a map, whose height otherwise follows from its own ratio of height to width.
-const MAPS: (f64, f64) = (0.25, 0.47);
+/// The same ratio for a map whose axes have no scale in common.
+const MAP: f64 = 0.4;
+/// Limits of the sides of axes that have one; a map is stretched only if it is longer than their ratio.
+const AXES: (f64, f64) = (70.0, 600.0);
 
 /// A panel with its columns: the first, and one past the last.
 struct Placed<'a> {
@@ -55,11 +57,12 @@ pub(crate) struct Sheet<'a> {
     panels: Vec<Laid<'a>>,
 }
 
-/// A panel with its space, and the left and right ends of its axes.
+/// A panel with its space, the left and right ends of its column's axes, and its own axes.
 struct Laid<'a> {
     panel: Panel<'a>,
     space: Rect,
     between: (f64, f64),
+    axes: Rect,
 }
 
 impl<'a> Sheet<'a> {
@@ -68,21 +71,28 @@ impl<'a> Sheet<'a> {
         let asked = figure.columns.clamp(1, 12);
         let columns = if width < NARROWEST * asked as f64 { 1 } else { asked };
         let rows = rows(figure, columns, width);
-        let sides = sides(&rows, columns, width);
-        let between = |placed: &Placed| (sides[placed.columns.0].0, sides[placed.columns.1 - 1].1);
-        let height_of =
-            |placed: &Placed| placed.height + (placed.panel.head(between(placed)) - 24.0).max(0.0);
         let title = wrapped(&figure.title, TITLE_SIZE, 0.94 * width);
         let head = if title.is_empty() { 0.0 } else { 8.0 + TITLE_LINE * title.len() as f64 };
         let column = width / columns as f64;
+        let ends = |row: &Vec<Placed>| -> Vec<(f64, f64)> {
+            row.iter().map(|placed| between(placed, &rows, column)).collect()
+        };
+        let ends: Vec<Vec<(f64, f64)>> = rows.iter().map(ends).collect();
         let (mut top, mut panels) = (head, vec![]);
-        for row in rows {
-            let bottom = top + row.iter().map(height_of).fold(0.0, f64::max);
-            for placed in row {
+        for (row, ends) in rows.into_iter().zip(ends) {
+            // One height for all headings, so that panels side by side have axes of one size.
+            let both = || row.iter().zip(&ends);
+            let heading = both().map(|(p, ends)| p.panel.head(*ends)).fold(0.0, f64::max);
+            let sizes: Vec<(f64, f64)> = both().map(|(p, ends)| axes(p, *ends, heading)).collect();
+            let highest = sizes.iter().map(|size| size.1).fold(0.0, f64::max);
+            let bottom = top + MARGIN_TOP + heading + highest + MARGIN_BOTTOM;
+            for ((placed, (across, up)), between) in row.into_iter().zip(sizes).zip(ends) {
                 let (left, right) =
                     (column * placed.columns.0 as f64, column * placed.columns.1 as f64);
-                let (space, between) = (Rect { left, right, top, bottom }, between(&placed));
-                panels.push(Laid { panel: placed.panel, space, between });
+                let space = Rect { left, right, top, bottom };
+                let (left, top) = (between.0, top + MARGIN_TOP + heading);
+                let axes = Rect { left, right: left + across, top, bottom: top + up };
+                panels.push(Laid { panel: placed.panel, space, between, axes });
             }
             top = bottom;
         }
@@ -95,13 +105,13 @@ impl<'a> Sheet<'a> {
             let (label, size, anchor) = (line.as_str(), TITLE_SIZE, Anchor::Middle);
             svg.text(Text { x, y, label, size, anchor, upright: false });
         }
-        self.panels.iter().try_for_each(|laid| laid.panel.draw(laid.space, laid.between, svg))
+        self.panels.iter().try_for_each(|p| p.panel.draw(p.space, p.between, p.axes, svg))
     }
 
     /// The axes of each panel.
     #[cfg(feature = "animation")]
     pub(crate) fn frames(&self) -> Vec<Frame<'_>> {
-        self.panels.iter().map(|laid| laid.panel.frame(laid.space, laid.between)).collect()
+        self.panels.iter().map(|laid| laid.panel.frame(laid.axes)).collect()
     }
 }
 
@@ -127,17 +137,10 @@ fn rows(figure: &FigureDocument, columns: usize, width: f64) -> Vec<Vec<Placed<'
     rows
 }
 
+/// Height of a panel whose axes have no scale in common.
 fn height(panel: &PanelDocument, width: f64, alone: bool) -> f64 {
     let part = match (&panel.map, &panel.cells) {
-        (Some(map), _) => {
-            let length = |v: &[f64]| match (v.first(), v.last()) {
-                (Some(first), Some(last)) => (last - first).abs(),
-                _ => 1.0,
-            };
-            let aspect = length(&map.y) / length(&map.x);
-            let (least, most) = MAPS;
-            if aspect.is_finite() { (0.75 * aspect).clamp(least, most) } else { least }
-        }
+        (Some(_), _) => MAP,
         (_, Some(_)) => CELLS,
         _ if alone => ALONE,
         _ => SHARED,
@@ -145,15 +148,27 @@ fn height(panel: &PanelDocument, width: f64, alone: bool) -> f64 {
     (part * width + 24.0).clamp(HEIGHTS.0, HEIGHTS.1)
 }
 
-/// Left and right ends of the axes in each column, the same in all rows.
-fn sides(rows: &[Vec<Placed>], columns: usize, width: f64) -> Vec<(f64, f64)> {
-    let column = width / columns as f64;
-    let all = || rows.iter().flatten();
-    let side = |i: usize| {
-        let starting = all().filter(|p| p.columns.0 == i).map(|p| p.panel.margin_left());
-        let ending = all().filter(|p| p.columns.1 == i + 1).map(|p| p.panel.margin_right());
-        let (left, right) = (starting.fold(0.0, f64::max), ending.fold(0.0, f64::max));
-        (column * i as f64 + left, column * (i + 1) as f64 - right)
-    };
-    (0..columns).map(side).collect()
+/// Width and height of the axes of a panel between the ends of its column, below a heading of this height: one scale
+/// for x and y, if both are positions on the surface.
+fn axes(placed: &Placed, (left, right): (f64, f64), heading: f64) -> (f64, f64) {
+    let across = right - left;
+    match placed.panel.aspect() {
+        Some(aspect) => {
+            let up = (aspect * across).clamp(AXES.0, AXES.1);
+            (across.min(up / aspect).max(AXES.0), up)
+        }
+        None => {
+            let least = (24.0 - heading).max(0.0);
+            (across, (placed.height - 24.0 - MARGIN_TOP - MARGIN_BOTTOM + least).max(10.0))
+        }
+    }
+}
+
+/// Left and right ends of the axes of a panel: panels of one span have the same margins, hence axes of one width.
+fn between(placed: &Placed, rows: &[Vec<Placed>], column: f64) -> (f64, f64) {
+    let span = |p: &Placed| p.columns.1 - p.columns.0;
+    let alike = || rows.iter().flatten().filter(|other| span(other) == span(placed));
+    let left = alike().map(|p| p.panel.margin_left()).fold(0.0, f64::max);
+    let right = alike().map(|p| p.panel.margin_right()).fold(0.0, f64::max);
+    (column * placed.columns.0 as f64 + left, column * placed.columns.1 as f64 - right)
 }

@@ -2,8 +2,8 @@
 
 use crate::{FigureFormat, Size, View, draw, of, saved, svg};
 use stickslip::{
-    ColourName, CurveDocument, FigureDocument, ModelParameters, PanelDocument, Run, RunDocument,
-    ScaleName, StyleName,
+    CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, MapDocument,
+    ModelParameters, PanelDocument, Run, RunDocument, ScaleName, StyleName,
 };
 use stickslip_tip::{Model, TipFunction};
 
@@ -71,6 +71,81 @@ fn panels_fill_rows_by_their_spans() {
     let in_a_grid = height(&grid);
     grid.columns = 1;
     assert!(in_a_grid < 0.6 * height(&grid), "two rows instead of four");
+}
+
+/// The places of all images: x, y, width, height.
+fn images(picture: &str) -> Vec<[f64; 4]> {
+    let number = |text: &str, name: &str| -> f64 {
+        let rest = text.split_once(&format!(" {name}=\"")).unwrap().1;
+        rest.split_once('"').unwrap().0.parse().unwrap()
+    };
+    let elements = picture.split("<image").skip(1);
+    elements.map(|text| ["x", "y", "width", "height"].map(|name| number(text, name))).collect()
+}
+
+fn map_panel(heading: &str, labels: (&str, &str), (across, up): (usize, usize)) -> PanelDocument {
+    let of = |count: usize| (0..count).map(|i| i as f64).collect::<Vec<f64>>();
+    let z = (0..up).map(|j| (0..across).map(|i| (i * j) as f64).collect()).collect();
+    let (x, y, colours) = (of(across), of(up), ColoursName::Cividis);
+    let map = MapDocument { x, y, z, z_label: "u".into(), colours, z_range: None };
+    PanelDocument { map: Some(map), ..PanelDocument::new(heading, labels) }
+}
+
+#[test]
+fn a_surface_has_one_scale_for_both_of_its_axes() {
+    for (across, up) in [(20, 10), (10, 10), (10, 30), (60, 12)] {
+        let panel = map_panel("", ("x (nm)", "y (nm)"), (across, up));
+        let picture = svg(&figure(vec![panel]), &Size::default()).unwrap();
+        let [_, _, width, height] = images(&picture)[0];
+        let wanted = across as f64 / up as f64;
+        assert!((width / height - wanted).abs() < 1e-3 * wanted, "{across} {up}: {width} {height}");
+    }
+    // Passes have no scale in common with a length.
+    let passes = map_panel("", ("x (σ)", "pass"), (10, 30));
+    let picture = svg(&figure(vec![passes]), &Size::default()).unwrap();
+    let [_, _, width, height] = images(&picture)[0];
+    assert!(width > height);
+}
+
+#[test]
+fn panels_of_a_pair_are_of_one_size_whatever_their_headings() {
+    let long =
+        "ripples of a heading that is wrapped into some lines because it is so long: coherence 1";
+    let one = map_panel(long, ("x (σ)", "y (σ)"), (30, 20));
+    let mut other = map_panel("short", ("support at x (σ)", "y (σ)"), (30, 20));
+    // Longer numbers beside the bar.
+    other.map.as_mut().unwrap().z[3][3] = 123_456.0;
+    let mut pair = figure(vec![one, other]);
+    pair.columns = 2;
+    let [a, b] = images(&svg(&pair, &Size::default()).unwrap())[..] else { panic!() };
+    assert_eq!(a[1..], b[1..]);
+}
+
+#[test]
+fn the_bar_of_a_map_says_at_which_end_colours_are_clipped() {
+    let triangles = |range: Option<[f64; 2]>| {
+        let mut panel = map_panel("", ("x (σ)", "y (σ)"), (5, 5));
+        panel.map.as_mut().unwrap().z_range = range;
+        let picture = svg(&figure(vec![panel]), &Size::default()).unwrap();
+        let bar = picture.rsplit_once("<image").unwrap().1;
+        bar.lines().filter(|line| line.contains("Z\"") && line.contains("fill=\"#")).count()
+    };
+    let counts = [None, Some([0.0, 16.0]), Some([2.0, 16.0]), Some([0.0, 9.0]), Some([3.0, 9.0])];
+    assert_eq!(counts.map(triangles), [0, 0, 1, 1, 2]);
+}
+
+#[test]
+fn lines_over_cells_have_a_light_edge() {
+    let mut panel = panel(&[0.0, 2.0], &[0.0, 2.0]);
+    let edges = |panel: &PanelDocument| {
+        let picture = svg(&figure(vec![panel.clone()]), &Size::default()).unwrap();
+        picture.matches("stroke=\"#ffffff\"").count()
+    };
+    assert_eq!(edges(&panel), 0);
+    let (kinds, names) = (vec![vec![Some(0); 3]; 3], vec!["trapped".into()]);
+    let (x, y, colours) = (vec![0.0, 1.0, 2.0], vec![0.0, 1.0, 2.0], vec![ColourName::Black]);
+    panel.cells = Some(CellsDocument { x, y, kinds, names, colours });
+    assert_eq!(edges(&panel), 1);
 }
 
 #[test]

@@ -21,7 +21,7 @@ impl Drawn for BoundaryDocument {
             let message = "steady motion is stable for every α at each of these r";
             return Err(FigureError::Nothing(message.into()));
         }
-        let title = format!("Where steady motion is stable, {}", law_name(&any(self)));
+        let title = format!("Stability of steady motion, {}", law_name(&any(self)));
         let mut figure = FigureDocument::new("boundary", &title, models(self));
         let scale = scale(self);
         let mut panel = PanelDocument::new("", (R, ALPHA));
@@ -63,7 +63,7 @@ impl Drawn for BoundaryDocument {
 /// # Errors
 /// None of the points of the boundary has a criticality.
 pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
-    let title = format!("What is born at the boundary, {}", law_name(&any(document)));
+    let title = format!("Oscillation at onset, {}", law_name(&any(document)));
     let mut figure = FigureDocument::new("criticality", &title, models(document));
     let slopes = &document.onset.amplitude_squared_slope;
     let excess: Vec<f64> = slopes

@@ -1,6 +1,7 @@
 //! Figure of a comparison: both motions, and their difference.
 
 use super::drawn::{Drawn, View};
+use super::labels::{LAG, LAG_OF_STEADY_SUPPORT};
 use super::tip::model_name;
 use crate::error::FigureError;
 use stickslip::{
@@ -16,7 +17,7 @@ impl Drawn for CompareDocument {
             self.t.iter().zip(x0).map(|(t, x)| model.r * t - x).collect()
         };
         let (closed, grid) = (lag(&self.closed.x0), lag(&self.grid.x0));
-        let mut motions = PanelDocument::new("", ("t (Γ/k)", "rt − x₀ (σ)"));
+        let mut motions = PanelDocument::new("", (LAG.0, LAG_OF_STEADY_SUPPORT));
         motions.curves = vec![
             CurveDocument::new(StyleName::Line, "closed equation", &self.t, &closed),
             CurveDocument::new(StyleName::Dashed, "grid", &self.t, &grid),

@@ -3,10 +3,11 @@
 use super::dense::Part;
 use super::drawn::{Drawn, View};
 use super::labels::{L, NATURAL, SURFACE, VELOCITY};
-use super::run::against;
+use super::quantity::Quantity;
+use super::run::{against, steady_level, support_level};
 use super::tip::model_name;
 use crate::error::FigureError;
-use crate::number::{seven_digits, short};
+use crate::number::seven_digits;
 use stickslip::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable};
 use stickslip_surface::Surface;
 use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_weights};
@@ -28,7 +29,8 @@ impl Drawn for CycleDocument {
         let parameters = question.model_parameters();
         let stable = if self.stable { "stable" } else { "unstable" };
         let name = model_name(&parameters);
-        let title = format!("{name}: {stable} cycle, T = {}", seven_digits(self.period));
+        let period = Quantity::new(self.period, "Γ/k").said(&seven_digits(self.period));
+        let title = format!("{name}: {stable} cycle, T = {period}");
         let mut figure = FigureDocument::new("cycle", &title, vec![parameters]);
         let (r, steady) = (model.r(), model.steady_l());
         let motion = self.history.under(*model.wider(), Support::Moving(r))?;
@@ -37,8 +39,8 @@ impl Drawn for CycleDocument {
         let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
         let ripple = ripple(&model, &motion)?;
         figure.panels = vec![
-            against(L, l, Some(&(steady, format!("steady state, l₀ = {}", short(steady))))),
-            against(VELOCITY, velocity, Some(&(r, format!("support, r = {}", short(r))))),
+            against(L, l, Some(&steady_level(steady))),
+            against(VELOCITY, velocity, Some(&support_level(r))),
         ];
         figure.panels.extend(ripple);
         Ok(figure)

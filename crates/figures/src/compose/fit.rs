@@ -65,7 +65,7 @@ fn symbol(name: &str) -> &str {
         "width" => "σ",
         "beta" => "β",
         "depth_limit" => "b",
-        "healing_time" => "T",
+        "healing_time" => "T_h",
         "inertia" => "M",
         "alpha_per_load" => "α/load",
         "r_per_velocity" => "r/velocity",

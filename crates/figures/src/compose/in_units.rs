@@ -3,6 +3,8 @@
 use super::View;
 #[cfg(feature = "animation")]
 use super::labels::L;
+use super::labels::{LAG, LAG_OF_STEADY_SUPPORT, SPRING, SPRING_FORCE};
+use super::quantity::settle;
 #[cfg(feature = "animation")]
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
@@ -17,6 +19,9 @@ struct Axis {
 
 impl Axis {
     fn of(label: &str, scales: &KnownScales) -> Self {
+        // The extension of the spring in σ is its force in kσ, which is what an instrument measures.
+        let is_extension = [LAG.1, LAG_OF_STEADY_SUPPORT, SPRING].contains(&label);
+        let label = if is_extension && scales.force.is_some() { SPRING_FORCE } else { label };
         scaled(label, scales).unwrap_or_else(|| Self { factor: 1.0, label: label.into() })
     }
 
@@ -56,6 +61,7 @@ pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View)
 /// The figure in nm, s and nN, as far as the scales are known.
 pub(super) fn in_units(mut figure: FigureDocument, scales: &KnownScales) -> FigureDocument {
     figure.panels.iter_mut().for_each(|panel| convert(panel, scales));
+    settle(&mut figure, Some(scales));
     figure
 }
 
@@ -96,16 +102,16 @@ pub(super) fn times_of(times: [f64; 2], scales: &KnownScales) -> [f64; 2] {
     times.map(|t| t / Axis::of(L.0, scales).factor)
 }
 
-/// A scene in nm, s and nN, as far as the scales are known.
+/// A scene in nm, s and nN, as far as the scales are known, or else in the model's units.
 #[cfg(feature = "animation")]
 pub(super) struct InUnits {
     scene: Box<dyn Scene>,
-    scales: KnownScales,
+    scales: Option<KnownScales>,
 }
 
 #[cfg(feature = "animation")]
 impl InUnits {
-    pub(super) fn new(scene: Box<dyn Scene>, scales: KnownScales) -> Self {
+    pub(super) fn new(scene: Box<dyn Scene>, scales: Option<KnownScales>) -> Self {
         Self { scene, scales }
     }
 }
@@ -113,25 +119,33 @@ impl InUnits {
 #[cfg(feature = "animation")]
 impl Scene for InUnits {
     fn still(&self) -> FigureDocument {
-        in_units(self.scene.still(), &self.scales)
+        let mut figure = self.scene.still();
+        match &self.scales {
+            Some(scales) => in_units(figure, scales),
+            None => {
+                settle(&mut figure, None);
+                figure
+            }
+        }
     }
 
     fn times(&self) -> [f64; 2] {
-        self.scene.times().map(|t| t * Axis::of(L.0, &self.scales).factor)
+        let Some(scales) = &self.scales else { return self.scene.times() };
+        self.scene.times().map(|t| t * Axis::of(L.0, scales).factor)
     }
 
     fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
-        let time = Axis::of(L.0, &self.scales);
+        let Some(scales) = &self.scales else { return self.scene.moment(t) };
+        let time = Axis::of(L.0, scales);
         let mut moment = self.scene.moment(t / time.factor)?;
         let unit = time.label.trim_end_matches(')').rsplit_once('(');
         (moment.t, moment.unit) = (t, unit.map_or(String::new(), |(_, unit)| unit.into()));
         if let Some(first) = moment.panels.first() {
-            let axes =
-                (Axis::of(&first.x_label, &self.scales), Axis::of(&first.y_label, &self.scales));
+            let axes = (Axis::of(&first.x_label, scales), Axis::of(&first.y_label, scales));
             moment.tip = (moment.tip.0 * axes.0.factor, moment.tip.1 * axes.1.factor);
             moment.support = moment.support.map(|x| x * axes.0.factor);
         }
-        moment.panels.iter_mut().for_each(|panel| convert(panel, &self.scales));
+        moment.panels.iter_mut().for_each(|panel| convert(panel, scales));
         Ok(moment)
     }
 }

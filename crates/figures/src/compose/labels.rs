@@ -10,6 +10,11 @@ pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
 pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
 /// Labels of the spring extension against time, for a support on a path: the lateral force.
 pub(super) const LAG: (&str, &str) = ("t (Γ/k)", "R − x₀ (σ)");
+/// The same for a support of constant velocity, and in a map.
+pub(super) const LAG_OF_STEADY_SUPPORT: &str = "rt − x₀ (σ)";
+pub(super) const SPRING: &str = "lag (σ)";
+/// The label of all three where the scale of forces is known.
+pub(super) const SPRING_FORCE: &str = "lateral force (kσ)";
 /// Labels of the position of a tip without a spring.
 pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
 /// Label of the position of the support.

@@ -15,6 +15,7 @@ mod height_scale;
 mod in_units;
 mod labels;
 mod measured_tip;
+mod quantity;
 mod raster;
 mod raster_stability;
 mod raster_sweep;
@@ -35,6 +36,7 @@ use crate::scene::{Scene, Shot};
 #[cfg(feature = "animation")]
 use in_units::InUnits;
 use in_units::{asked_of, in_units};
+use quantity::settle;
 use serde::Serialize;
 use std::io::Read;
 use stickslip::{
@@ -55,7 +57,11 @@ pub use sweep::judge_sweep;
 /// The document is damaged, or contains nothing to draw.
 pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
     let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
-    let Some(scales) = known else { return shown(document, view) };
+    let Some(scales) = known else {
+        let mut figure = shown(document, view)?;
+        settle(&mut figure, None);
+        return Ok(figure);
+    };
     let mut view = *view;
     if view.x_range.or(view.y_range).is_some() {
         let whole = shown(document, &View::default())?;
@@ -74,10 +80,12 @@ pub fn scene_of<D: Drawn + ?Sized>(
     shot: &Shot,
 ) -> Result<Box<dyn Scene>, FigureError> {
     let known = shot.scales.or_else(|| document.physical().map(|physical| physical.scales));
-    let Some(scales) = known else { return document.scene(shot) };
-    let times = shot.times.map(|times| in_units::times_of(times, &scales));
+    let times = match (shot.times, &known) {
+        (Some(times), Some(scales)) => Some(in_units::times_of(times, scales)),
+        (times, _) => times,
+    };
     let scene = document.scene(&Shot { times, ..*shot })?;
-    Ok(Box::new(InUnits::new(scene, scales)))
+    Ok(Box::new(InUnits::new(scene, known)))
 }
 
 /// The figure in the model's units.
@@ -234,12 +242,15 @@ impl Taker for Boxed {
 /// # Errors
 /// The document is damaged, or contains no onset.
 pub fn onset_of(document: &BoundaryDocument, view: &View) -> Result<FigureDocument, FigureError> {
-    let figure = boundary::onset_of(document)?;
+    let mut figure = boundary::onset_of(document)?;
     let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
-    Ok(match known {
-        Some(scales) => in_units(figure, &scales),
-        None => figure,
-    })
+    match known {
+        Some(scales) => Ok(in_units(figure, &scales)),
+        None => {
+            settle(&mut figure, None);
+            Ok(figure)
+        }
+    }
 }
 
 impl Drawn for FigureDocument {

@@ -4,6 +4,8 @@ use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
 use super::height_scale::heights_within;
+use super::labels::SPRING;
+use super::quantity::Quantity;
 use super::tip::raster_title;
 use crate::error::FigureError;
 use crate::number::short;
@@ -68,7 +70,7 @@ impl Drawn for RasterCompareDocument {
         if is_even(&map.x) && is_even(&map.y) {
             let mut surface = PanelDocument::new("closed equation", ("x (σ)", "y (σ)"));
             surface.map = Some(heights(map));
-            let mut difference = PanelDocument::new("less that of the grid", ("x (σ)", "y (σ)"));
+            let mut difference = PanelDocument::new("difference from the grid", ("x (σ)", "y (σ)"));
             let z_label = "Δu (kσ²/a)".into();
             difference.map =
                 Some(MapDocument { z_label, colours: ColoursName::BlueRed, ..heights(apart) });
@@ -126,6 +128,9 @@ fn heading(document: &RasterDocument) -> String {
     let regime = document.regime;
     let Some(p) = &document.pattern else { return regime.to_string() };
     let [length, angle] = p.in_words();
+    let length = length.zip(p.wavelength).map(|(plain, value)| {
+        Quantity { value, error: p.wavelength_error, unit: "σ" }.said(&plain)
+    });
     let coherence = format!("coherence {:.3}", p.coherence_same_way.unwrap_or(p.coherence));
     let wave = match (length, angle) {
         (Some(length), Some(angle)) => Some(format!("{length} at {angle}")),
@@ -273,7 +278,7 @@ fn lags(document: &RasterDocument, x: Vec<f64>) -> Result<PanelDocument, FigureE
         if is_even { line.track().y } else { n as f64 + 1.0 }
     };
     let y = lines.iter().enumerate().map(y).collect();
-    let (z_label, colours) = ("lag (σ)".into(), ColoursName::Grey);
+    let (z_label, colours) = (SPRING.into(), ColoursName::Grey);
     panel.map = Some(MapDocument { x, y, z, z_label, colours, z_range: None });
     Ok(panel)
 }

@@ -1,7 +1,8 @@
 //! Figure of the growth of ripples from line to line.
 
 use super::drawn::{Drawn, View};
-use super::tip::{model_name, tip_name};
+use super::quantity::Quantity;
+use super::tip::{model_name, terms_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
@@ -21,7 +22,10 @@ impl Drawn for RasterStabilityDocument {
             return Err(FigureError::Nothing(message.into()));
         };
         let lines = match self.parameters.pitch {
-            Some(pitch) => format!("lines {} σ apart", short(pitch)),
+            Some(pitch) => {
+                let pitch = Quantity::new(pitch, "σ").said(&format!("{} σ", short(pitch)));
+                format!("lines {pitch} apart")
+            }
             None => "one line repeated".into(),
         };
         let across = self.parameters.stiffness_across;
@@ -45,15 +49,9 @@ impl Drawn for RasterStabilityDocument {
 impl Drawn for RasterBoundaryDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
-        let wider = [
-            (", b = ", parameters.law.depth_limit),
-            (", T = ", parameters.law.healing_time),
-            (", M = ", parameters.law.inertia),
-            (", κ_y = ", parameters.stiffness_across),
-        ];
-        let wider =
-            wider.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
-        let law = wider.collect::<String>();
+        let across = parameters.stiffness_across;
+        let across = across.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+        let law = terms_name(&parameters.law) + &across;
         let title =
             format!("{}, r = {}{law}", tip_name(&(&parameters.tip.0).into()), short(parameters.r));
         let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);

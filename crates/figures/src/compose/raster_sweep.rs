@@ -1,6 +1,7 @@
 //! Figure of a raster sweep: regimes over pitch and α, or wavelength, angle and coherence of the ripples.
 
 use super::drawn::{Drawn, View};
+use super::quantity::Quantity;
 use super::tip::tip_name;
 use crate::cells::{ascending, edges};
 use crate::error::FigureError;
@@ -50,10 +51,13 @@ fn title(document: &RasterSweepDocument) -> String {
         PathName::Zigzag => "zigzag",
         PathName::OneWay | PathName::Repeat => "one-way",
     };
-    let limit = parameters.depth_limit.map_or(String::new(), |b| format!(", b = {}", short(b)));
-    let (tip, r, length) =
-        (tip_name(&parameters.tip), short(parameters.r), short(parameters.length));
-    format!("{tip}, r = {r}{limit}, {path}, {} lines of {length} σ", parameters.lines)
+    let limit = parameters
+        .depth_limit
+        .map_or(String::new(), |b| format!(", b = {}", Quantity::new(b, "kσ²/a").said(&short(b))));
+    let length = Quantity::new(parameters.length, "σ");
+    let length = length.said(&format!("{} σ", short(parameters.length)));
+    let (tip, r) = (tip_name(&parameters.tip), short(parameters.r));
+    format!("{tip}, r = {r}{limit}, {path}, {} lines of {length}", parameters.lines)
 }
 
 /// A cell for each point, with the crest angle of ripples and pits, and the threshold of linear theory.

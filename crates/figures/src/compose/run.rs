@@ -7,6 +7,7 @@ use super::carving::Carving;
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
 use super::labels::{FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
+use super::quantity::Quantity as Said;
 use super::tip::run_title;
 use crate::error::FigureError;
 use crate::number::short;
@@ -48,7 +49,7 @@ impl Drawn for RunDocument {
         let first = |step: &Step, t: f64| step.followed(support, t);
         let (labels, name) = match support {
             Support::Moving(_) => (L, "l(t)"),
-            Support::Path(_) => (LAG, "R(t) - x₀(t)"),
+            Support::Path(_) => (LAG, "R(t) − x₀(t)"),
             Support::None => (POSITION, "x₀(t)"),
         };
         let shown = Shown::of(self, part, &first);
@@ -108,7 +109,9 @@ impl<'a> Shown<'a> {
         level: Option<Level>,
     ) -> Row {
         let Some(length) = self.detail else {
-            return (against(labels, self.part.line(name, of), level.as_ref()), None);
+            let mut panel = against(labels, self.part.line(name, of), level.as_ref());
+            panel.x_range = Some(self.part.span.into());
+            return (panel, None);
         };
         let name = format!("{name}, lowest to highest");
         let band = self.part.envelope(&name, of, self.oscillations);
@@ -116,7 +119,9 @@ impl<'a> Shown<'a> {
         let nameless = level.as_ref().map(|(value, _)| (*value, String::new()));
         let mut detail = against(labels, end.line("at the end", of), nameless.as_ref());
         detail.x_range = Some([end.span.0, end.span.1]);
-        (against(labels, band, level.as_ref()), Some(detail))
+        let mut whole = against(labels, band, level.as_ref());
+        whole.x_range = Some(self.part.span.into());
+        (whole, Some(detail))
     }
 }
 
@@ -126,14 +131,25 @@ pub(super) type Level = (f64, String);
 /// The level l0, if the support moves steadily.
 fn steady(run: &RunDocument) -> Option<Level> {
     let steady = run.steady_state.as_ref().filter(|_| run.parameters.support_path.is_none())?;
-    Some((steady.l, format!("steady state, l₀ = {}", short(steady.l))))
+    Some(steady_level(steady.l))
 }
 
 /// The level r, if the support moves steadily.
 fn dragged(run: &RunDocument) -> Option<Level> {
     let moves = run.parameters.support_path.is_none() && !run.parameters.law.no_spring;
     let r = run.parameters.r.unwrap_or_default();
-    moves.then(|| (r, format!("support, r = {}", short(r))))
+    moves.then(|| support_level(r))
+}
+
+/// The level l0 of steady motion.
+pub(super) fn steady_level(l: f64) -> Level {
+    (l, format!("steady state, l₀ = {}", Said::new(l, "σ").said(&short(l))))
+}
+
+/// The velocity of the support.
+pub(super) fn support_level(r: f64) -> Level {
+    let velocity = Said::new(r, "kσ/Γ").said(&format!("r = {}", short(r)));
+    (r, format!("support, {velocity}"))
 }
 
 /// The lag against the position of a support on a path: the friction loop.
@@ -183,7 +199,7 @@ fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
     let curve = |name, y| CurveDocument::new(StyleName::Line, name, &samples.t, y);
     let first = match (&samples.l, &samples.lag) {
         (Some(l), _) => (L, curve("l(t), samples", l)),
-        (None, Some(lag)) => (LAG, curve("R(t) - x₀(t), samples", lag)),
+        (None, Some(lag)) => (LAG, curve("R(t) − x₀(t), samples", lag)),
         (None, None) => (POSITION, curve("x₀(t), samples", &samples.x0)),
     };
     let velocity = curve("ẋ₀(t), samples", &samples.velocity);

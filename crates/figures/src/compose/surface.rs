@@ -2,6 +2,7 @@
 
 use super::drawn::{Drawn, View};
 use super::labels::{NATURAL, SURFACE};
+use super::quantity::Quantity;
 use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
@@ -110,5 +111,5 @@ fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
 
 /// A label such as "t = 457".
 fn time(t: f64) -> String {
-    format!("t = {}", short(t))
+    format!("t = {}", Quantity::new(t, "Γ/k").said(&short(t)))
 }

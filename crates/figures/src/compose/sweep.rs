@@ -31,7 +31,7 @@ pub fn judge_sweep(parameters: &SweepParameters) -> Result<(), FigureError> {
 impl Drawn for SweepDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         judge_sweep(&self.parameters)?;
-        let title = format!("What the tip settles into, {}", fixed(&self.parameters));
+        let title = format!("Regimes of motion, {}", fixed(&self.parameters));
         let mut figure = FigureDocument::new("sweep", &title, models(&self.parameters));
         figure.panels = match varied(&self.parameters).as_slice() {
             [slow, fast] => vec![cells::panel(self, *slow, *fast)],

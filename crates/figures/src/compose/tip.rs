@@ -1,8 +1,10 @@
 //! Names of tips and models in titles.
 
+use super::quantity::Quantity;
 use crate::number::{seven_digits, short};
 use stickslip::{
-    GaussianDocument, ModelParameters, PathName, Raster, RunDocument, TipDocument, to_its_digits,
+    GaussianDocument, Law, ModelParameters, PathName, Raster, RunDocument, TipDocument,
+    to_its_digits,
 };
 
 /// Largest difference of numbers that count as equal.
@@ -31,10 +33,13 @@ pub(crate) fn run_title(run: &RunDocument) -> String {
     let motion = run.oscillation.as_ref().map_or(String::new(), |o| {
         let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
         let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
-        format!(", T = {period}")
+        let quantity = Quantity { value: o.period, error: o.period_error, unit: "Γ/k" };
+        format!(", T = {}", quantity.said(&period))
     });
     let swing = run.snaking.as_ref().map_or(String::new(), |swing| {
-        format!(", T = {}", to_its_digits(swing.period, swing.period_error))
+        let (value, error) = (swing.period, Some(swing.period_error));
+        let period = to_its_digits(swing.period, swing.period_error);
+        format!(", T = {}", Quantity { value, error, unit: "Γ/k" }.said(&period))
     });
     let stiffness = run.parameters.stiffness_across;
     let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
@@ -47,7 +52,9 @@ pub(crate) fn raster_title(parameters: &Raster) -> String {
 }
 
 fn path_name(parameters: &Raster) -> String {
-    let pitch = parameters.pitch.map_or(String::new(), |pitch| format!(", pitch {}", short(pitch)));
+    let pitch = parameters.pitch.map_or(String::new(), |pitch| {
+        format!(", pitch {}", Quantity::new(pitch, "σ").said(&short(pitch)))
+    });
     let path = match parameters.path {
         PathName::OneWay => "one-way",
         PathName::Zigzag => "zigzag",
@@ -63,10 +70,21 @@ pub(crate) fn law_name(model: &ModelParameters) -> String {
 }
 
 fn wider_name(model: &ModelParameters) -> String {
-    let wider =
-        [("b", model.law.depth_limit), ("T", model.law.healing_time), ("M", model.law.inertia)];
-    let there = wider.into_iter().filter_map(|(name, value)| Some((name, value?)));
-    there.map(|(name, value)| format!(", {name} = {}", seven_digits(value))).collect()
+    terms_name(&model.law)
+}
+
+/// The terms of the extended model, such as ", b = 3, T_h = 50".
+pub(crate) fn terms_name(law: &Law) -> String {
+    let wider = [
+        ("b", law.depth_limit, "kσ²/a"),
+        ("T_h", law.healing_time, "Γ/k"),
+        ("M", law.inertia, "Γ²/k"),
+    ];
+    let there = wider.into_iter().filter_map(|(name, value, unit)| Some((name, value?, unit)));
+    let said = |(name, value, unit): (&str, f64, &'static str)| {
+        format!(", {name} = {}", Quantity::new(value, unit).said(&seven_digits(value)))
+    };
+    there.map(said).collect()
 }
 
 fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
@@ -82,8 +100,10 @@ fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
         }
         // A table is made of many.
         many if many.len() > 9 => "f of a table".into(),
-        many => {
-            format!("f = sum of {} Gaussian{}", many.len(), if many.len() == 1 { "" } else { "s" })
+        some => {
+            // As `stickslip tip` counts them: a pair on either side of the middle as one.
+            let count = some.iter().filter(|g| g.center >= 0.0).count();
+            format!("f = sum of {count} Gaussian{}", if count == 1 { "" } else { "s" })
         }
     }
 }
@@ -137,6 +157,6 @@ mod tests {
         assert_eq!(name(&TipFunction::Bessel), "f = J₀(x)");
         let lobe = |amplitude, center| Gaussian { amplitude, center, width: 0.7 };
         let sum = vec![lobe(1.0, 0.0), lobe(0.3, -1.5), lobe(0.3, 1.5)];
-        assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 3 Gaussians");
+        assert_eq!(name(&TipFunction::gaussian_sum(sum).unwrap()), "f = sum of 2 Gaussians");
     }
 }

@@ -1,6 +1,7 @@
 //! Figure of the growth exponents of steady walks, in the complex plane.
 
 use super::drawn::{Drawn, View};
+use super::quantity::Quantity;
 use super::stability::exponents;
 use super::tip::model_name;
 use crate::error::FigureError;
@@ -17,7 +18,10 @@ impl Drawn for WalkingDocument {
         let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {
             let state = if walk.stable { "stable" } else { "unstable" };
-            let name = format!("v = {:.6}: {state}", walk.speed);
+            let name = format!(
+                "v = {}: {state}",
+                Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed))
+            );
             exponents(&name, &walk.roots, walk.certificate.largest_error)
         };
         figure.panels = self.walks.iter().map(panel).collect();

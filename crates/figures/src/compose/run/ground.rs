@@ -2,6 +2,7 @@
 
 use crate::axis::extremes;
 use crate::compose::labels::{NATURAL, SURFACE};
+use crate::compose::quantity::Quantity;
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName};
@@ -44,7 +45,7 @@ impl Ground<'_> {
             let before = self.heights(self.start, &x)?;
             panel.curves.push(CurveDocument::new(StyleName::Dotted, "at the start", &x, &before));
         }
-        let name = format!("u(x, t = {})", short(self.end));
+        let name = format!("u(x, t = {})", time(self.end));
         panel.curves.push(CurveDocument::new(StyleName::Line, &name, &x, &u));
         self.fit(&mut panel, &x, &u, ripples);
         Ok(panel)
@@ -75,7 +76,7 @@ impl Ground<'_> {
             .zip(behind_u.chunks(per_column))
             .map(|(x, u)| of(x, u))
             .collect();
-        let name = format!("u(x, t = {}), lowest to highest", short(self.end));
+        let name = format!("u(x, t = {}), lowest to highest", time(self.end));
         if spacing < wavelength / 6.0 && !columns.is_empty() {
             let mut x: Vec<f64> = columns.iter().map(|c| c.0).collect();
             let last = x.len() - 1;
@@ -118,14 +119,14 @@ impl Ground<'_> {
         if count >= FEW && span < LEAST_PART * (high - low) && span > 1e-6 * natural {
             (from, to) = (ripples.0 - 0.35 * span, ripples.1 + 0.35 * span);
             let beyond = |value: f64, y: f64, arrow| {
-                let text = format!("{} at the tip", short(value));
+                let text = format!("{} at the tip", height(value));
                 NoteDocument { arrow: Some(arrow), ..NoteDocument::new(&text, (self.tip, y)) }
             };
             if low < from {
                 panel.notes.push(beyond(low, from + 0.12 * (to - from), ArrowName::Down));
             }
             if high > to {
-                let text = format!("{} ahead", short(high));
+                let text = format!("{} ahead", height(high));
                 let y = to - 0.12 * (to - from);
                 let note = NoteDocument {
                     arrow: Some(ArrowName::Up),
@@ -142,6 +143,15 @@ impl Ground<'_> {
         mark.colour = Some(ColourName::Grey);
         panel.curves.insert(0, mark);
     }
+}
+
+/// A time, and a height, for a text.
+fn time(t: f64) -> String {
+    Quantity::new(t, "Γ/k").said(&short(t))
+}
+
+fn height(u: f64) -> String {
+    Quantity::new(u, "kσ²/a").said(&short(u))
 }
 
 fn points((low, high): (f64, f64)) -> Vec<f64> {

@@ -6,18 +6,22 @@ use crate::axis::extremes;
 use crate::compose::labels::WIDE;
 use stickslip::{CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint};
 
-/// Two panels of dots.
+/// A quantity of a point.
+type Measure = fn(&SweepPoint) -> Option<f64>;
+
+/// Panels of dots, one for each quantity that any point has; the first one if none has any.
 pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
-    let panel = |label, value: fn(&SweepPoint) -> Option<f64>| panel(document, axis, label, value);
-    vec![panel("amplitude of x₀ (σ)", |p| p.amplitude_x0), panel("period (Γ/k)", |p| p.period)]
+    let measures: [(&str, Measure); 2] =
+        [("amplitude of x₀ (σ)", |p| p.amplitude_x0), ("period (Γ/k)", |p| p.period)];
+    let is_there =
+        |(_, value): &(&str, Measure)| document.points.iter().any(|p| value(p).is_some());
+    let count = measures.iter().filter(|measure| is_there(measure)).count();
+    let shown = measures.into_iter().filter(|measure| count == 0 || is_there(measure));
+    let panel = |(label, value): (&str, Measure)| panel(document, axis, label, value);
+    shown.take(count.max(1)).map(panel).collect()
 }
 
-fn panel(
-    document: &SweepDocument,
-    axis: Varied,
-    label: &str,
-    value: fn(&SweepPoint) -> Option<f64>,
-) -> PanelDocument {
+fn panel(document: &SweepDocument, axis: Varied, label: &str, value: Measure) -> PanelDocument {
     let mut panel = PanelDocument::new("", (axis.label, label));
     let values = document.points.iter().filter_map(value).filter(|v| v.is_finite());
     let positive = extremes(values.clone().filter(|v| *v > 0.0));

@@ -186,20 +186,25 @@ pub(crate) fn asked<Q: Ask, K: Questions>(
 where
     Document<Q>: Product + Drawn,
 {
-    refuse_strangers::<Q>(&values, chosen_by)?;
+    refuse_strangers::<Q, K>(options, &values, chosen_by)?;
     let question: Q = parameter::question(values)?;
     answer(question, place, options.tip.tip_file.as_deref())
 }
 
-/// Rejects parameters that do not belong to `Q`; `chosen_by` is the option that selects this question.
+/// Rejects options that do not belong to `Q`; `chosen_by` is the option that selects this question.
 ///
 /// # Errors
-/// A parameter does not belong to `Q`.
-pub(crate) fn refuse_strangers<Q: Question>(
+/// An option does not belong to `Q`.
+pub(crate) fn refuse_strangers<Q: Question, K: Questions>(
+    _: &Options<K>,
     values: &Map<String, Value>,
     chosen_by: &str,
 ) -> Result<(), Failure> {
     let Some(name) = parameter::stranger::<Q>(values) else { return Ok(()) };
+    if K::parameters().iter().all(|parameter| parameter.name != name) {
+        // No parameter of any question: that is said where the question is made.
+        return Ok(());
+    }
     let named = format!("{} {}", option(name), parameter::typed(&values[name]));
     Err(Failure::input(named, format!("has no meaning with {chosen_by}: leave one of them out")))
 }

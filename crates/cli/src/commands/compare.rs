@@ -109,7 +109,11 @@ fn run_of(
     scales: Option<&KnownScales>,
 ) -> Result<(Run, Scenario), Failure> {
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
-    refuse_strangers::<Run>(&values, "a run: --lines N or --area FILE make it a raster")?;
+    refuse_strangers::<Run, _>(
+        options,
+        &values,
+        "a run: --lines N or --area FILE make it a raster",
+    )?;
     let run: Run = parameter::question(values)?;
     if let Some(stiffness) = run.stiffness_across {
         let message = "there is no grid for a tip that gives way across the scan: leave it out";

@@ -588,6 +588,26 @@ impl Run {
 /// condition, on the tolerance or on a disturbance.
 pub type RunDocument = Document<Run>;
 
+impl From<&RunDocument> for RunEnd {
+    /// The result of the run in a document.
+    fn from(document: &RunDocument) -> Self {
+        let found = &document.answer;
+        let reached = found.history.as_ref().and_then(|history| history.t.last().copied());
+        Self {
+            end: reached.unwrap_or(document.parameters.until),
+            regime: found.regime,
+            oscillation: found.oscillation.clone(),
+            snaking: found.snaking.clone(),
+            creep: found.creep.clone(),
+            drifting: found.drifting.clone(),
+            transient: found.transient.clone(),
+            remarks: document.remarks.clone(),
+            interrupted: found.interrupted,
+            work: found.work.clone(),
+        }
+    }
+}
+
 impl Question for Run {
     const FORMAT: &'static str = "stickslip/run";
     type Answer = RunFound;

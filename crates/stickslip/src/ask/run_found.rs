@@ -2,8 +2,8 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{
-    CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, RunDocument,
-    SteadyState, SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
+    CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
+    SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -232,26 +232,6 @@ impl RunEnd {
             remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
             interrupted: false,
             work,
-        }
-    }
-}
-
-impl From<&RunDocument> for RunEnd {
-    /// The result of the run in a document.
-    fn from(document: &RunDocument) -> Self {
-        let found = &document.answer;
-        let reached = found.history.as_ref().and_then(|history| history.t.last().copied());
-        Self {
-            end: reached.unwrap_or(document.parameters.until),
-            regime: found.regime,
-            oscillation: found.oscillation.clone(),
-            snaking: found.snaking.clone(),
-            creep: found.creep.clone(),
-            drifting: found.drifting.clone(),
-            transient: found.transient.clone(),
-            remarks: document.remarks.clone(),
-            interrupted: found.interrupted,
-            work: found.work.clone(),
         }
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
     let values = options.values()?;
-    refuse_strangers::<Raster>(&values, "a raster (--lines or --area)")?;
+    refuse_strangers::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let (parameters, plan) =

@@ -21,7 +21,7 @@ pub(super) fn order(
 ) -> Result<Order, Failure> {
     let format = format(arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
-    refuse_strangers::<Run>(&values, "a tip on its line, without --walker")?;
+    refuse_strangers::<Run, _>(options, &values, "a tip on its line, without --walker")?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales = scales(&arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let files = files(arguments);

@@ -17,7 +17,7 @@ pub(super) fn run(arguments: &RunArguments, values: Map<String, Value>) -> Resul
     let format = order::format(arguments)?;
     judge(arguments, format)?;
     order::judge_files(arguments)?;
-    refuse_strangers::<Walker>(&values, "--walker")?;
+    refuse_strangers::<Walker, _>(&arguments.options, &values, "--walker")?;
     let mut question: Walker = parameter::question(values)?;
     let typed = &arguments.disturbance.pulse;
     if !typed.is_empty() {

@@ -43,6 +43,38 @@ fn a_point_that_is_a_run_is_what_run_says_to_the_last_bit() {
     assert_eq!([0, 1, 2, 3].map(seeds).map(|seed| seed as u8), [1, 2, 3, 1], "seeds vary fastest");
 }
 
+/// Runs that share vector lanes: bytes depend neither on threads nor on parts, and regimes and numbers are those of `run`
+/// within its tolerance.
+#[test]
+fn runs_side_by_side_do_not_depend_on_their_company() {
+    let folder = Folder::new("sweep_side_by_side");
+    let line = "sweep --alpha 0.9:1.3:11 --r 1 --kick 0.05 --until 150";
+    folder.prints(&format!("{line} --threads 1 -o one.json"));
+    folder.prints(&format!("{line} --threads 2 -o two.json"));
+    assert_eq!(folder.read("one.json"), folder.read("two.json"));
+    for part in 1..=3 {
+        folder.prints(&format!("{line} --shard {part}/3 -o part-{part}.json"));
+    }
+    folder.prints("sweep merge part-3.json part-1.json part-2.json -o merged.json");
+    assert_eq!(folder.read("one.json"), folder.read("merged.json"));
+    let document: Value = serde_json::from_slice(&folder.read("one.json")).unwrap();
+    for point in points(&document).iter().step_by(3) {
+        let run = format!("run --alpha {} --r 1 --kick 0.05 --until 150", point["alpha"]);
+        let alone = folder.prints_json(&run);
+        assert_eq!(point["regime"], alone["regime"], "{run}");
+        let l: Vec<f64> = alone["samples"]["l"].as_array().unwrap()[1000..]
+            .iter()
+            .map(|l| l.as_f64().unwrap())
+            .collect();
+        let (mean, _) = definitions(&l);
+        assert!((point["mean_l"].as_f64().unwrap() - mean).abs() < 1e-3, "{run}");
+        if let Some(period) = point["period"].as_f64() {
+            let alone = alone["oscillation"]["period"].as_f64().unwrap();
+            assert!((period - alone).abs() < 1e-7, "{run}: {period} {alone}");
+        }
+    }
+}
+
 #[test]
 fn what_a_tip_settles_into_over_the_law_and_the_width_is_that_of_single_sweeps() {
     let folder = Folder::new("sweep_law");

@@ -19,6 +19,7 @@
 //! ```
 
 mod fit;
+mod friction_loop;
 mod image;
 mod interval;
 mod judge;
@@ -32,9 +33,10 @@ pub use fit::{
     Alternative, Data, DataError, Fit, FitError, FitRequest, FittedNumber, Judged, Name, Part,
     Scan, Shape, Track, Values, fit,
 };
+pub use friction_loop::{FrictionLoop, LoopError, LoopNumbers};
 pub use image::{Across, Image, ImageError};
 pub use interval::Estimate;
 pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};
 pub use ripples::{RippleError, RippleRequest, Ripples, ripples};
-pub use tip::{Candidate, Fitted, MeasuredTip, Request, TipError, tip};
+pub use tip::{Candidate, Fitted, MeasuredTip, Request, Sides, TipError, sides, tip};

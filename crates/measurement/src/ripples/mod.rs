@@ -11,7 +11,7 @@ use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
 use crate::least_squares::{Residuals, differences, minimum};
 use nalgebra::{Cholesky, DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
 use std::f64::consts::TAU;
 use stickslip_tip::TipFunction;
 use thiserror::Error;
@@ -58,10 +58,9 @@ pub struct Ripples {
     pub forward: bool,
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
-    /// χ² of the model, and its degrees of freedom.
-    pub chi_squared: f64,
-    /// Degrees of freedom of that.
-    pub freedom: f64,
+    /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
+    /// [`Ripples::LEAST_MISFIT`] the model does not explain them, and α and r have no intervals.
+    pub misfit: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the rows, that the wave explains.
@@ -80,6 +79,12 @@ pub enum RippleError {
     /// No wave is stronger than the noise.
     #[error("no ripples stand out of the noise")]
     Nothing,
+    /// Amplitude or phase of the wave change across the image.
+    #[error(
+        "the ripples are not uniform: give a part of the image where they have settled, away from the first lines and from the edge \
+         where the lines begin"
+    )]
+    NotUniform,
     /// The model has no settled pattern like that.
     #[error(
         "the model has no settled ripples with a wavelength of {wavelength:.4} σ and crests at {angle:.1}° for lines {pitch:.4} σ \
@@ -95,8 +100,35 @@ pub enum RippleError {
     },
 }
 
-/// Least number of standard deviations by which the first harmonic stands out.
+/// Least F of the wave against white noise: the strongest of 10⁵ waves of noise alone has about 3.
+const LEAST_STRENGTH: f64 = 15.0;
+/// Least number of standard deviations, by the scatter of the blocks of the image, of the first harmonic.
 const STANDS_OUT: f64 = 5.0;
+impl Ripples {
+    /// Least probability of χ² at which the model is said to explain the ripples.
+    pub const LEAST_MISFIT: f64 = 0.005;
+
+    /// Warnings about the result.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let mut remarks = vec![];
+        if self.misfit < Self::LEAST_MISFIT {
+            remarks.push(format!(
+                "the model does not explain these ripples (probability {:.1e}): they are not settled or not uniform in this image, \
+                 the lines were scanned to and fro, or σ, pitch or footprint are others",
+                self.misfit
+            ));
+        }
+        if self.amplitude.value < 2.0 * self.residual {
+            remarks.push(format!(
+                "the residual, {:.2e}, is more than half of the amplitude, {:.2e}",
+                self.residual, self.amplitude.value
+            ));
+        }
+        remarks
+    }
+}
+
 /// Degrees of freedom of the errors: those of the blocks of the image.
 const BLOCK_FREEDOM: f64 = 15.0;
 /// First values of the swing of θ'.
@@ -117,10 +149,12 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
             "needs σ, width across and pitch above 0, and a footprint that fades",
         ))?;
     let wave = Wave::of(image)?;
-    let first = wave.harmonic(1);
-    let error = (wave.covariance[(2, 2)] + wave.covariance[(3, 3)]).sqrt();
-    if first.norm() < STANDS_OUT * error {
+    if wave.strength < LEAST_STRENGTH {
         return Err(RippleError::Nothing);
+    }
+    let error = (wave.covariance[(2, 2)] + wave.covariance[(3, 3)]).sqrt();
+    if wave.harmonic(1).norm() < STANDS_OUT * error {
+        return Err(RippleError::NotUniform);
     }
     let ways = [(true, true), (true, false), (false, true), (false, false)];
     let admitted = ways.into_iter().filter(|(forward, upward)| {
@@ -129,7 +163,7 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     });
     let found =
         admitted.filter_map(|way| Problem::new(&lines, &wave, request.sigma, way)?.solved());
-    let best = found.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
+    let best = found.max_by(|a, b| a.misfit.total_cmp(&b.misfit));
     best.ok_or_else(|| RippleError::NoPattern {
         wavelength: TAU / wave.q().hypot(wave.kappa()) / request.sigma,
         angle: crest_angle(wave.q(), wave.kappa()),
@@ -219,7 +253,9 @@ impl<'a> Problem<'a> {
         let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
         let jacobian = DMatrix::from_columns(&columns);
         let freedom = (UNKNOWNS - columns.len()) as f64;
-        let covariance = jacobian.tr_mul(&jacobian).try_inverse()? * (best.sum / freedom).max(1.0);
+        let more = best.sum / freedom;
+        let covariance = jacobian.tr_mul(&jacobian).try_inverse()? * more.max(1.0);
+        let misfit = FisherSnedecor::new(freedom, BLOCK_FREEDOM).map_or(0.0, |law| law.sf(more));
         let at = &best.parameters;
         let found = self.pattern(at)?;
         let log_alpha = |i: usize| {
@@ -251,8 +287,7 @@ impl<'a> Problem<'a> {
             neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
             forward,
             upward,
-            chi_squared: best.sum,
-            freedom,
+            misfit,
             residual: self.wave.residual,
             explained: self.wave.explained,
         })

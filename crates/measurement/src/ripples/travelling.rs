@@ -192,7 +192,7 @@ impl Lines {
                 1.0 / r + 2.0 * sum
             })
             .collect();
-        if slowness.iter().any(|s| s.is_nan() || *s <= 0.0) {
+        if !slowness.iter().all(|s| *s > 0.0) {
             return None;
         }
         let inverse = self.harmonics(&slowness.iter().map(|s| 1.0 / s).collect::<Vec<f64>>());
@@ -262,12 +262,8 @@ impl Lines {
             -c * (at.alpha * self.tip.fourier(k * at.q) * lines)
         };
         let heights = at.c.iter().enumerate().map(height).collect();
-        (at.alpha > 0.0 && at.q > 0.0).then_some(Travelling {
-            alpha: at.alpha,
-            q: at.q,
-            heights,
-            unknowns: at,
-        })
+        let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
+        (found.alpha > 0.0 && found.q > 0.0).then_some(found)
     }
 }
 

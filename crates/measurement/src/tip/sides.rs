@@ -1,0 +1,147 @@
+//! Footprints of a tip that is not symmetric, one for each direction of motion.
+//!
+//! A tip that moves forward meets only the surface before it: in the history integral f'(x0(t) - x0(t')) has an argument
+//! of one sign, and the leading half of f counts alone. So the motion forward is that of the even footprint
+//! f(|x|), and the motion backward that of f(-|x|). An even fit to the whole profile has the mean of both, which moves
+//! neither way. What earlier lines of a raster leave, and a tip that retreats, feel both halves.
+
+use super::{MeasuredTip, Request, TipError, tip};
+use crate::Profile;
+use crate::least_squares::{Residuals, differences, minimum};
+use crate::projection::project;
+
+/// The footprints of either direction, with the same σ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sides {
+    /// The half at positions above the apex: for motion towards larger positions.
+    pub forward: MeasuredTip,
+    /// The half at positions below the apex: for motion towards smaller positions.
+    pub backward: MeasuredTip,
+    /// Position of the apex, in the unit of the profile.
+    pub apex: f64,
+}
+
+/// Parts of the profile at either end that count as ground.
+const ENDS: f64 = 0.15;
+/// Height relative to the apex above which rows determine its position.
+const HIGH: f64 = 0.5;
+/// Fewest rows for a fit of the apex, and the step of its parameters.
+const FEWEST: usize = 8;
+const STEP: f64 = 1e-6;
+
+/// Fits both halves of a profile, each as an even footprint about the apex.
+///
+/// The ground is a line through both ends of the profile; the apex is that of a Gaussian with two
+/// widths through the rows above half of its height, or the given centre. Every row counts once: those of a half are taken alternately as rows at
+/// positive and negative distance, so that the offset of the half is determined too. σ is the mean of both widths unless it is
+/// given.
+///
+/// # Errors
+/// As [`tip`], for either half.
+pub fn sides(profile: &Profile, request: &Request) -> Result<Sides, TipError> {
+    let height = above_ground(profile);
+    let apex = request.centre.or_else(|| position(profile.x(), &height)).ok_or_else(nothing)?;
+    let half = |sign: f64| half(profile.x(), &height, apex, sign);
+    let (before, behind) = (half(1.0).ok_or_else(nothing)?, half(-1.0).ok_or_else(nothing)?);
+    let centred = Request { centre: Some(0.0), ..*request };
+    let sigma = match request.sigma {
+        Some(sigma) => sigma,
+        None => {
+            let quick = Request { resamples: 0, ..centred };
+            0.5 * (tip(&before, &quick)?.sigma.value + tip(&behind, &quick)?.sigma.value)
+        }
+    };
+    let known = Request { sigma: Some(sigma), ..centred };
+    Ok(Sides { forward: tip(&before, &known)?, backward: tip(&behind, &known)?, apex })
+}
+
+fn nothing() -> TipError {
+    TipError::Nothing { residual: 0.0, variation: 0.0 }
+}
+
+impl Sides {
+    /// The difference of the thresholds of both directions, relative to their mean: hidden by an even fit.
+    #[must_use]
+    pub fn asymmetry(&self) -> f64 {
+        let [forward, backward] = [&self.forward, &self.backward].map(|t| t.critical_alpha.value);
+        2.0 * (forward - backward) / (forward + backward)
+    }
+
+    /// Warnings about the result.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let [forward, backward] = [&self.forward, &self.backward];
+        let apart = (forward.apex - backward.apex).abs();
+        let noise = f64::hypot(forward.residual, backward.residual);
+        let mut remarks = vec![];
+        if apart > 3.0 * noise {
+            remarks.push(format!(
+                "the halves have different heights at the apex, {:.3e} and {:.3e}: give the centre, or look at the profile",
+                forward.apex, backward.apex
+            ));
+        }
+        let named = [("forward", forward), ("backward", backward)];
+        remarks.extend(named.into_iter().flat_map(|(name, half)| {
+            half.remarks().into_iter().map(move |remark| format!("{name}: {remark}"))
+        }));
+        remarks
+    }
+}
+
+/// Heights above the line through both ends.
+fn above_ground(profile: &Profile) -> Vec<f64> {
+    let (first, last) = profile.ends();
+    let margin = ENDS * (last - first);
+    let is_end = |x: f64| x < first + margin || x > last - margin;
+    let (x, f): (Vec<f64>, Vec<f64>) =
+        profile.x().iter().zip(profile.f()).filter(|(x, _)| is_end(**x)).unzip();
+    let line = project(&[vec![1.0; x.len()], x], &f).map_or(vec![0.0; 2], |p| p.coefficients);
+    profile.x().iter().zip(profile.f()).map(|(x, f)| f - line[0] - line[1] * x).collect()
+}
+
+/// Position of the apex.
+fn position(x: &[f64], height: &[f64]) -> Option<f64> {
+    let top = (0..x.len()).max_by(|a, b| height[*a].abs().total_cmp(&height[*b].abs()))?;
+    let is_high = |i: &usize| height[*i] / height[top] > HIGH;
+    // Only those next to it: a lobe may be high too.
+    let first = (0..=top).rev().take_while(is_high).last()?;
+    let last = (top..x.len()).take_while(is_high).last()?;
+    if last - first < FEWEST {
+        return Some(x[top]);
+    }
+    let scale = 0.5 * (x[last] - x[first]);
+    let rows = (first..=last).map(|i| ((x[i] - x[top]) / scale, height[i] / height[top])).collect();
+    let found = minimum(&TwoWidths { rows }, &[1.0, 0.0, 0.0, 0.0])?;
+    Some(x[top] + scale * found.parameters[1])
+}
+
+/// A exp(-(x - c)²/(2w²)) with a width for either side: A, c, ln w above and ln w below c.
+struct TwoWidths {
+    rows: Vec<(f64, f64)>,
+}
+
+impl Residuals for TwoWidths {
+    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let [height, centre, above, below] = *parameters else { return None };
+        let off = |(x, f): &(f64, f64)| {
+            let away = x - centre;
+            let width = if away > 0.0 { above } else { below };
+            height * (-0.5 * (away / width.exp()).powi(2)).exp() - f
+        };
+        Some(self.rows.iter().map(off).collect())
+    }
+
+    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
+        differences(self, (here, parameters), STEP)
+    }
+}
+
+/// The rows on one side of the apex, alternately on either side of 0.
+fn half(x: &[f64], height: &[f64], apex: f64, sign: f64) -> Option<Profile> {
+    let rows = x.iter().zip(height).map(|(x, f)| (sign * (x - apex), *f));
+    let mut rows: Vec<(f64, f64)> = rows.filter(|(x, _)| *x >= 0.0).collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let sided = rows.into_iter().enumerate();
+    let (x, f) = sided.map(|(i, (x, f))| (if i % 2 == 0 { x } else { -x }, f)).unzip();
+    Profile::new(x, f).ok()
+}

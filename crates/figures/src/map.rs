@@ -98,9 +98,15 @@ impl<'a> Map<'a> {
         }
         svg.rect(bar, Paint::stroke(INK, 1.0));
         self.draw_ends(bar, svg);
+        let mut free = f64::INFINITY;
         for (value, label) in self.scale.labelled() {
             let y = bar.bottom - bar.height() * self.scale.part(value).unwrap_or(0.0);
             svg.segment((bar.right, y), (bar.right + 5.0, y), Paint::stroke(INK, 1.0));
+            // A number that would run into the one below is left out.
+            if y > free {
+                continue;
+            }
+            free = y - 1.2 * TICK_SIZE;
             let (x, y, size) = (bar.right + 9.0, y + 0.35 * TICK_SIZE, TICK_SIZE);
             svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
         }

@@ -12,6 +12,8 @@ use stickslip::{FigureDocument, PanelDocument};
 
 /// Smallest width of a column; with less, panels are placed below each other.
 const NARROWEST: f64 = 240.0;
+/// The same for maps, which have a bar beside them.
+const NARROWEST_MAP: f64 = 340.0;
 const TITLE_LINE: f64 = 1.4 * TITLE_SIZE;
 /// Height of a panel over the width of the figure: for a single panel, for one of several, and for one with cells;
 /// and the limits of all these.
@@ -69,7 +71,9 @@ impl<'a> Sheet<'a> {
     /// The figure at this width, in units.
     pub(crate) fn of(figure: &'a FigureDocument, width: f64) -> Self {
         let asked = figure.columns.clamp(1, 12);
-        let columns = if width < NARROWEST * asked as f64 { 1 } else { asked };
+        let has_map = figure.panels.iter().any(|panel| panel.map.is_some());
+        let narrowest = if has_map { NARROWEST_MAP } else { NARROWEST };
+        let columns = if width < narrowest * asked as f64 { 1 } else { asked };
         let rows = rows(figure, columns, width);
         let title = wrapped(&figure.title, TITLE_SIZE, 0.94 * width);
         let head = if title.is_empty() { 0.0 } else { 8.0 + TITLE_LINE * title.len() as f64 };

@@ -119,6 +119,10 @@ fn panels_of_a_pair_are_of_one_size_whatever_their_headings() {
     pair.columns = 2;
     let [a, b] = images(&svg(&pair, &Size::default()).unwrap())[..] else { panic!() };
     assert_eq!(a[1..], b[1..]);
+    // On a narrow page one is below the other, as large as the page allows.
+    let narrow = Size::new(Some("85mm".parse().unwrap()), None).unwrap();
+    let [a, b] = images(&svg(&pair, &narrow).unwrap())[..] else { panic!() };
+    assert!(b[1] > a[1] + a[3] && a[2] > 250.0, "{a:?} {b:?}");
 }
 
 #[test]

@@ -227,6 +227,7 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
     t.sort_by(f64::total_cmp);
     let value: Vec<f64> = t.iter().map(|t| force.value(*t)).collect();
     let mut panel = PanelDocument::new("", FORCE);
+    panel.x_range = Some([from, to]);
     panel.curves = vec![CurveDocument::new(StyleName::Line, "external force", &t, &value)];
     Some(panel)
 }

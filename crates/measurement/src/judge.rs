@@ -82,7 +82,7 @@ fn fitted((x, f): (&[f64], &[f64])) -> Option<f64> {
     let (centre, sigma) = (Some(0.0), Some(1.0));
     let found =
         tip(&profile, &Request { centre, sigma, resamples: 0, ..Request::default() }).ok()?;
-    // α is told for f(0) = 1.
+    // α refers to f(0) = 1.
     (found.apex > 0.0).then(|| found.critical_alpha.value / found.apex)
 }
 

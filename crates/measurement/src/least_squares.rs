@@ -59,8 +59,8 @@ const FAILED: f64 = 10.0;
 /// Largest number of evaluations per parameter.
 const PATIENCE: usize = 40;
 
-/// The local minimum of the sum of squares found from `start`; `None` outside of the domain, or if the work is told
-/// to [`stop`].
+/// The local minimum of the sum of squares found from `start`; `None` outside of the domain, or if the work is
+/// [cancelled](stop).
 pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
     if stop::is_asked() {
         return None;

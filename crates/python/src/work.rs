@@ -15,7 +15,7 @@ use stickslip_cli::hosted::{self, Host, Made, Refusal, Supply};
 
 /// Between two looks at the signals and the progress.
 const LOOK: Duration = Duration::from_millis(40);
-/// For work to end that was told to; what does not hear goes on by itself, and nobody waits for it.
+/// Time for cancelled work to end; work that takes longer continues by itself, and nobody waits for it.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// As a main thread has.
 const STACK: usize = 8 << 20;
@@ -28,8 +28,8 @@ pub(crate) enum Given {
     Document(Py<Document>),
 }
 
-/// Carries out a command: its words, the files that it finds in memory, and who is told how far it has come, by part
-/// (None where the end is not known) and words. What it has made, if anything, and the lines that it has said.
+/// Runs a command with its words and the files that it finds in memory; `progress` is called with the fraction done (None
+/// where the end is not known) and a count. Returns the result, if there is one, and the messages.
 #[pyfunction]
 #[pyo3(signature = (words, supplies, progress=None))]
 pub(crate) fn call(
@@ -168,7 +168,7 @@ fn work_on(first: Work) {
     }
 }
 
-/// Waits for the answer; None if the work panicked. The error is Python's, Ctrl-C say, and the work was told to stop.
+/// Waits for the answer; None if the work panicked. The error is Python's, such as Ctrl-C, and the work is cancelled.
 fn wait<T: Send>(
     py: Python<'_>,
     answer: &mut Receiver<T>,

@@ -57,7 +57,7 @@ impl<'a> Scanning<'a> {
         relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
     }
 
-    /// Scans the next line; `None` after the last one, or if the work is told to [`stop`], in which case the
+    /// Scans the next line; `None` after the last one, or if the work is [cancelled](stop), in which case the
     /// unfinished line is lost.
     ///
     /// # Errors
@@ -77,7 +77,7 @@ impl<'a> Scanning<'a> {
         Ok(self.lines.last())
     }
 
-    /// Line n of a tip that is held on it; `None` if the work is told to stop.
+    /// Line n of a tip that is held on it; `None` if the work is cancelled.
     fn held_line(&mut self, n: usize) -> Result<Option<Line>, RasterError> {
         let track = self.plan.track(n);
         let surface = self.surface_ahead();
@@ -94,7 +94,7 @@ impl<'a> Scanning<'a> {
         Ok(Some(Line::new(track, &scenario.model, steps, running.work())))
     }
 
-    /// Line n of a tip that is free to move across; `None` if the work is told to stop.
+    /// Line n of a tip that is free to move across; `None` if the work is cancelled.
     fn free_line(&mut self, n: usize, free: &Free) -> Result<Option<Line>, RasterError> {
         let track = self.plan.track(n);
         let off = match self.lines.last() {
@@ -135,7 +135,7 @@ impl<'a> Scanning<'a> {
     }
 }
 
-/// The steps of a line over these grooves; `None` if the work is told to stop.
+/// The steps of a line over these grooves; `None` if the work is cancelled.
 fn run(
     scenario: &PlanarScenario,
     earlier: Option<&EarlierGrooves>,

@@ -140,7 +140,7 @@ impl HalfPlane {
     }
 }
 
-/// The half-plane right of a line, with at least `count` zeros if so many exist.
+/// The half-plane right of a line, with at least `count` zeros if they exist.
 pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if let Some(left) = h.left_of_all() {
         return HalfPlane::counted(h, left)?.spectrum(h);

@@ -14,7 +14,7 @@ pub(crate) const TOLERANCE: f64 = 1e-8;
 /// Heights in a width of the tip along a line; two rows to a pitch.
 const COLUMNS: f64 = 4.0;
 const ROWS: usize = 2;
-/// A line changes rows within so many widths across: e^{-18} of its depth is left there.
+/// Distance in widths across within which a line changes rows: e^{-18} of its depth is left there.
 const REACH: f64 = 6.0;
 
 /// Lengths in σ.

@@ -226,7 +226,7 @@ fn ends(c: f64, (q, kappa): (f64, f64), (x, y): (&[f64; 2], &[f64; 2])) -> Optio
     Some([first, last])
 }
 
-/// The paths of the tip over the surface, of all lines or of every so many.
+/// The paths of the tip over the surface, of all lines or of evenly spaced ones.
 fn paths(document: &RasterDocument) -> Result<CurveDocument, FigureError> {
     let (_, lines) = document.scanned()?;
     let every = lines.len().div_ceil(MOST_PATHS);

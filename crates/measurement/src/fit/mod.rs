@@ -78,7 +78,7 @@ pub enum FitError {
         "no motion of this footprint resembles the data for any r from 0.15 to 3 and α from 1.01 to 1.6 αc: are the ripples settled, and is the footprint that of the tip that made them?"
     )]
     NoStart,
-    /// The work was told to [`stop`].
+    /// The work was [cancelled](stop).
     #[error("the fit was interrupted")]
     Stopped,
 }

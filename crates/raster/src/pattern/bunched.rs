@@ -97,7 +97,7 @@ struct Measured {
 }
 
 impl Measured {
-    /// Measures the first of these waves, from so many lines of this length. Its amplitude and phase are averaged across
+    /// Measures the first of these waves, from this number of lines of this length. Its amplitude and phase are averaged across
     /// the trenches: x and y are exchanged.
     fn of(sheet: &Sheet, waves: &[Wave], is_settled: bool, (lines, length): (usize, f64)) -> Self {
         let exchanged = sheet.exchanged();

@@ -329,7 +329,7 @@ fn growing(plan: &Plan, sheets: &Sheets, lines: usize) -> Option<Doubt> {
     growth(plan, &unlike, (sheets.depth, sheets.healed), (unlike.nrows(), lines))
 }
 
-/// Growth of these heights over so many rows, and the number of lines after which it would be visible.
+/// Growth of these heights over this number of rows, and the number of lines after which it would be visible.
 fn growth(
     plan: &Plan,
     heights: &ndarray::Array2<f64>,

@@ -10,7 +10,7 @@ use stickslip_tip::Gaussian;
 const PANEL_NODES: usize = 32;
 /// |Λ + band| times half a panel's width that 32 nodes integrate to round-off.
 const PANEL_PHASE: f64 = 17.0;
-/// e^{-Λy} at the start of a panel is that of every so many, times one of so many.
+/// e^{-Λy} at the start of a panel is the product of a coarse and a fine factor.
 const PANELS_PER_EXPONENTIAL: usize = 16;
 /// Panels that are summed side by side.
 const LANES: usize = 4;
@@ -89,7 +89,7 @@ struct Starts {
 
 type AllStarts = [Starts; PANELS_PER_EXPONENTIAL / LANES];
 
-/// Both sums of so many panels each, over x from where the first of them starts, for nodes at `offsets` within a panel
+/// Both sums of this number of panels each, over x from where the first of them starts, for nodes at `offsets` within a panel
 /// and e^{-Λx} there.
 ///
 /// Compiled for wider vectors too: lanes do not know of each other.

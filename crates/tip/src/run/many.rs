@@ -8,7 +8,7 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Runs of all these scenarios, each as by [`run`] and in the order of the scenarios: see [`run_each`].
+/// Runs of all these scenarios, each as by [`run`](super::run) and in the order of the scenarios: see [`run_each`].
 #[must_use]
 pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
     let mut runs: Vec<_> = scenarios.iter().map(|_| None).collect();
@@ -21,8 +21,8 @@ pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
 ///
 /// Some motions are integrated together in SIMD lanes, in less than half of the time ([`Run::side_by_side`]). They
 /// must have one footprint, one tolerance, the basic model, the memory `auto` or `modes`, and no force, noise or
-/// profile. They are as accurate as the runs of [`run`] but differ in the last bits; they do not depend on the other
-/// scenarios. [`run`] integrates all other scenarios, and those that become too stiff during the run.
+/// profile. They are as accurate as the runs of [`run`](super::run) but differ in the last bits; they do not depend on the other
+/// scenarios. [`run`](super::run) integrates all other scenarios, and those that become too stiff during the run.
 ///
 /// ```
 /// use stickslip_tip::{Model, Scenario, TipFunction, run_each};

@@ -37,7 +37,7 @@ pub struct WalkerRun {
 /// expected, the run is repeated with more of them.
 ///
 /// # Errors
-/// A parameter out of range; a step lost in round-off; a memory longer than directions can be had for.
+/// A parameter out of range; a step lost in round-off; a memory too long for the available number of directions.
 pub fn run(scenario: &WalkerScenario) -> Result<WalkerRun, WalkerError> {
     run_observed(scenario, |_, _| ControlFlow::Continue(()))
 }

@@ -76,7 +76,7 @@ pub enum WalkerError {
     /// A force that is a function of time has no series.
     #[error("a walker takes forces as pulses or tables, not as functions of time")]
     Force,
-    /// The memory is longer than directions can be had for.
+    /// The memory is too long for the available number of directions.
     #[error(
         "at t = {t} the walker moves by {range} within the memory of its field, farther than 8192 directions can resolve"
     )]

@@ -106,7 +106,7 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
             let done = scanning.lines().len() as f64;
             too_slow(clock, done, plan.lines(), limit).map_or(Ok(()), Err)?;
         }
-        // A scan that is told to end has no next line either.
+        // A cancelled scan has no next line either.
         stopped().map_or(Ok(()), Err)?;
         let seconds = clock.elapsed().as_secs_f64();
         Ok((scanning.into_lines(), seconds))

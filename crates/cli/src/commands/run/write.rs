@@ -64,7 +64,7 @@ pub(super) fn all(
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
     let reached = signal.map(|_| end.end);
     if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
-        // Beside a file they are told with what was found.
+        // Beside a file they are printed with the result.
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
     let steps = integrated.record.steps.take();

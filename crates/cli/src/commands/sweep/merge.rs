@@ -70,7 +70,7 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
 fn judge_parts(shards: &[ShardDocument]) -> Result<(), Failure> {
     let Some(of) = shards.first().map(|shard| shard.of) else { return Ok(()) };
     let there: HashSet<usize> = shards.iter().map(|shard| shard.index).collect();
-    // What is there twice, or of another division, is told point by point.
+    // Points that occur twice, or in another division, are reported one by one.
     let is_odd = there.len() < shards.len() || shards.iter().any(|shard| shard.of != of);
     if is_odd || there.len() >= of {
         return Ok(());

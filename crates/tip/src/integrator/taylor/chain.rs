@@ -149,7 +149,7 @@ impl Chain {
         self.weights.set(0, self.weight[MOST_ORDER - 1]);
         self.height.set(0, -self.rows[0][0]);
         self.rate = [0.0; MOST_ORDER];
-        // Of each row so many as the order needs: ever fewer groups of lanes.
+        // Each row as far as the order needs it: ever fewer groups of lanes.
         let k = self.rows_of::<7>(0, acting);
         let k = self.rows_of::<6>(k, acting);
         let k = self.rows_of::<5>(k, acting);
@@ -160,7 +160,7 @@ impl Chain {
         self.advance(k, acting);
     }
 
-    /// Rows that need so many groups, from that after k on; how far they go.
+    /// The rows after k that need this number of groups, and where they end.
     #[inline(always)]
     fn rows_of<const GROUPS: usize>(&mut self, mut k: usize, acting: &Acting) -> usize {
         let needed = self.order - 1 + self.slope;

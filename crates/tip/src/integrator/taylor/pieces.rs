@@ -133,7 +133,7 @@ pub(crate) struct Nodes {
 static NODES_OF: LazyLock<[Nodes; MOST_PIECES]> =
     LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
 
-/// Of a step in so many pieces.
+/// Of a step in this number of pieces.
 pub(crate) fn nodes(pieces: usize) -> &'static Nodes {
     &NODES_OF[pieces - 1]
 }

@@ -25,7 +25,7 @@ pub(crate) struct Switch {
 /// What a step of collocation costs, over one by series; with inertia, where it takes more iterations.
 const COST: f64 = 4.0;
 const COST_WITH_INERTIA: f64 = 8.0;
-/// How far a series of order p gets where the groove is stiff: so many times p/K.
+/// Reach of a series of order p where the groove is stiff, in units of p/K.
 const REACH: f64 = 0.25;
 /// Steps of collocation before it is judged: their lengths grow from one to the next.
 const TRIAL: u64 = 8;
@@ -37,7 +37,7 @@ impl Switch {
         Self::at_cost(if has_inertia { COST_WITH_INERTIA } else { COST })
     }
 
-    /// Where a step of collocation costs so many by series.
+    /// Cost of a step of collocation, in steps by series.
     pub(crate) fn at_cost(cost: f64) -> Self {
         let (patience, _) = PATIENCE;
         Self { cost, collocation: false, wait: patience, patience, in_series: false }

@@ -1,4 +1,4 @@
-//! What a memory is told of a long step: where the tip was, and for how long.
+//! The content of a long step for a memory: where the tip was, and for how long.
 
 use super::values::{BLOCK, Block, Table};
 use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
@@ -45,7 +45,7 @@ pub(crate) struct Visits {
     wave: f64,
 }
 
-/// A step lasts at most so many healing times, over the largest phase that a rule is accurate for.
+/// Largest length of a step in healing times, over the largest phase for which a rule is accurate.
 const MOST_HEALING: f64 = 0.5;
 
 impl Visits {
@@ -65,7 +65,7 @@ impl Visits {
         Self { farthest, wave }
     }
 
-    /// The rule for a step that leads so far and lasts so many healing times; `None` if that is too much for any.
+    /// The rule for a step over this distance and this number of healing times; `None` if no rule suffices.
     pub(crate) fn rule(&self, moved: f64, healing: f64) -> Option<&'static Rule> {
         let waning = healing / self.wave;
         let far = (moved * moved + waning * waning).sqrt();
@@ -73,13 +73,13 @@ impl Visits {
         Some(rule(index))
     }
 
-    /// The farthest that a step of so many healing times may lead.
+    /// The largest distance of a step of this number of healing times.
     pub(crate) fn farthest(&self, healing: f64) -> f64 {
         let most = self.farthest[COUNTS.len() - 1];
         (most * most - (healing / self.wave).powi(2)).max(0.0).sqrt()
     }
 
-    /// A step lasts at most so many healing times.
+    /// Largest length of a step, in healing times.
     pub(crate) fn most_healing(&self) -> f64 {
         MOST_HEALING * self.wave * self.farthest[COUNTS.len() - 1]
     }
@@ -90,7 +90,7 @@ pub(crate) fn last() -> &'static Rule {
     rule(COUNTS.len() - 1)
 }
 
-/// What is left of these weights at the end of a step, of so many healing times.
+/// The undecayed part of these weights at the end of a step of this number of healing times.
 pub(crate) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
     if times <= LARGEST {
         fade_side_by_side(nodes, times, weights);

@@ -120,7 +120,7 @@ impl Fit {
             reached = reached.min(fit.certificate.slope);
             lattices = true;
         }
-        // Where no lattice is fine enough, what can be had is what the pencil gives.
+        // Where no lattice is fine enough, the exponentials of the pencil are the best available.
         if !lattices && let Some(fit) = pencil(MORE_SAMPLES, &mut reached) {
             return Ok(fit);
         }

@@ -14,7 +14,7 @@ pub(super) struct Retreats {
     pub(super) farthest_back: f64,
 }
 
-/// At first the lattice takes up what may be seen from so many reaches behind the tip: few retreats are longer.
+/// The lattice first contains the visits within this number of reaches behind the tip: few retreats are longer.
 const NEAR: f64 = 4.0;
 
 impl Retreats {

@@ -72,7 +72,7 @@ struct Limits {
     /// How far a piece may lead, and a step.
     limited: f64,
     longest: f64,
-    /// How far from its middle all exponentials are told by polynomials.
+    /// Distance from its middle up to which polynomials represent all exponentials.
     expanded: f64,
     /// How far behind its farthest point a tip may look, and where a step may begin.
     retreat: f64,

@@ -223,7 +223,7 @@ struct Stretch {
     nodes: (usize, usize),
 }
 
-/// A step is no longer than so many stretches.
+/// Largest length of a step, in stretches.
 pub(super) const MOST_STRETCHES: usize = 8;
 
 impl Stretch {

@@ -121,7 +121,7 @@ site: ## the book and the page to play with, in target/site (needs node and a st
 
 test-site: ## the page in a Chromium beside the program, and every link of the book; pictures in target/site-shots
 	.ci/site
-	cd crates/web && node --test test/crew.test.mjs test/site.test.mjs test/page.test.mjs
+	cd crates/web && node --test test/crew.test.mjs test/parameters.test.mjs test/site.test.mjs test/page.test.mjs
 
 dist: ## for Linux, in target/dist: archives and .deb for x86-64 and arm64 with man pages, completions and notices; lists of parts; checksums
 	.ci/dist

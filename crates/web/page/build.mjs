@@ -3,7 +3,7 @@
 import { build } from 'esbuild';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { createHash } from 'node:crypto';
 import { gzipSync } from 'node:zlib';
 
@@ -20,7 +20,7 @@ async function script(entry) {
     format: 'iife',
     target: 'es2022',
     // The module is handed over as bytes, never looked for beside the script.
-    define: { 'import.meta.url': '""' },
+    define: { 'import.meta.url': '""', DECLARED: questions },
   });
   return outputFiles[0].text;
 }
@@ -28,10 +28,16 @@ async function script(entry) {
 /** A text within <script> must not end it. */
 const within = (text) => text.replaceAll('</script', '<\\/script');
 
+/** What the questions declare, from the module itself. */
+const bytes = await readFile(join(made, 'stickslip_web_bg.wasm'));
+const { initSync, declared } = await import(pathToFileURL(join(made, 'stickslip_web.js')));
+initSync({ module: bytes });
+const questions = declared();
+
 const style = await readFile(join(here, '../node_modules/uplot/dist/uPlot.min.css'), 'utf8');
 const parts = {
   css: style + (await readFile(join(here, 'page.css'), 'utf8')),
-  module: gzipSync(await readFile(join(made, 'stickslip_web_bg.wasm')), { level: 9 }).toString('base64'),
+  module: gzipSync(bytes, { level: 9 }).toString('base64'),
   worker: within(await script('worker.js')),
   main: within(await script('main.js')),
 };

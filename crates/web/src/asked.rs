@@ -1,4 +1,4 @@
-//! What is asked for: the sliders of the page.
+//! The parameters of the page's sliders, as questions of the libraries.
 
 use crate::refusal::Refusal;
 use serde::Deserialize;
@@ -18,6 +18,15 @@ pub(crate) struct Asked {
     pub(crate) depth_limit: Option<f64>,
     /// T
     pub(crate) healing_time: Option<f64>,
+    /// M
+    #[serde(default)]
+    pub(crate) inertia: Option<f64>,
+    /// κ_y; absent for a tip that is held on its line.
+    #[serde(default)]
+    pub(crate) stiffness_across: Option<f64>,
+    /// Counts only with κ_y.
+    #[serde(default)]
+    pub(crate) kick_across: f64,
     pub(crate) start: StartName,
     pub(crate) kick: f64,
     pub(crate) until: f64,
@@ -37,18 +46,25 @@ impl Asked {
     }
 
     pub(crate) fn wider(&self) -> Wider {
-        let Self { depth_limit, healing_time, .. } = *self;
-        Wider { depth_limit, healing_time, ..Wider::default() }
+        let Self { depth_limit, healing_time, inertia, .. } = *self;
+        Wider { depth_limit, healing_time, inertia, ..Wider::default() }
     }
 
     pub(crate) fn model(&self) -> Result<Model, Refusal> {
         Ok(Model::under(self.wider(), self.tip()?, self.alpha, self.r)?)
     }
 
+    /// The initial distance from the line, of a tip that can leave it.
+    pub(crate) fn pushed_across(&self) -> Option<f64> {
+        let is_pushed = self.stiffness_across.is_some() && self.kick_across.abs() > 0.0;
+        is_pushed.then_some(self.kick_across)
+    }
+
     /// The run to these parameters.
     pub(crate) fn run(&self) -> Result<Run, Refusal> {
         let (start, kick, law) = (Some(self.start), self.kick, self.wider().into());
+        let (stiffness_across, kick_across) = (self.stiffness_across, self.pushed_across());
         let run = Run::new(Tip(self.tip()?), Indentation::given(self.alpha), self.r, self.until);
-        Ok(Run { start, kick, law, ..run })
+        Ok(Run { start, kick, law, stiffness_across, kick_across, ..run })
     }
 }

@@ -4,6 +4,7 @@
 //! program writes (`stickslip`), and each has the command line that makes the same.
 
 mod asked;
+mod declared;
 mod limits;
 mod line;
 mod linear;
@@ -12,6 +13,7 @@ mod motion;
 mod periodic;
 mod refusal;
 mod scan;
+mod walk;
 
 use asked::Asked;
 use motion::Motion;
@@ -57,14 +59,14 @@ impl Tip {
         motion.map(Self).map_err(|refusal| told(&refusal))
     }
 
-    /// t, l, x0', the lag R - x0, and x0 at the times that the program takes by default: five columns, one after
+    /// t, l, x0', the lag R - x0, x0 and y0 at the times that the program takes by default: six columns, one after
     /// the other.
     #[must_use]
     pub fn samples(&self) -> Vec<f64> {
         self.0.columns()
     }
 
-    /// u(x,t) at `count` points from `from` to `to`.
+    /// u at time t at `count` points from `from` to `to` along the scan, at the y of the tip.
     ///
     /// # Errors
     /// t outside of the run, an x that is no number.
@@ -72,7 +74,7 @@ impl Tip {
         self.0.heights(t, (from, to), count).map_err(|refusal| told(&refusal))
     }
 
-    /// x0 and the position of the support at t.
+    /// x0, the position of the support, and y0 at t.
     #[must_use]
     pub fn positions(&self, t: f64) -> Vec<f64> {
         self.0.positions(t).to_vec()
@@ -174,4 +176,32 @@ pub fn raster(asked: &str, scan: &str, on_line: &js_sys::Function) -> Result<Str
 pub fn raster_command(asked: &str, scan: &str) -> Result<String, JsError> {
     let scan = scan::Scan::read(scan).map_err(|refusal| told(&refusal))?;
     Ok(line::raster(&read(asked)?, &scan))
+}
+
+/// The document of a walker, whose parameters are those of the question, with its command line.
+///
+/// # Errors
+/// A parameter out of range, or a run that fails.
+#[wasm_bindgen]
+pub fn walker(asked: &str) -> Result<String, JsError> {
+    json(walk::walker(asked, js_sys::Date::now))
+}
+
+/// The command line that makes the same walker.
+///
+/// # Errors
+/// What is no set of parameters.
+#[wasm_bindgen]
+pub fn walker_command(asked: &str) -> Result<String, JsError> {
+    let given = serde_json::from_str(asked).map_err(|error| told(&Refusal::Json(error)))?;
+    Ok(line::walker(&given))
+}
+
+/// The parameters that the questions `run`, `raster` and `walker` declare.
+///
+/// # Errors
+/// None that is known.
+#[wasm_bindgen]
+pub fn declared() -> Result<String, JsError> {
+    json(Ok(declared::questions()))
 }

@@ -4,8 +4,8 @@ use crate::asked::Asked;
 use crate::refusal::Refusal;
 use serde::Serialize;
 use stickslip::{
-    Ask, ComplexDocument, Context, CriticalDocument, Indentation, OnsetKindName, Stability,
-    SteadyState, Tip,
+    Ask, ComplexDocument, Context, CriticalDocument, Indentation, OnsetKindName, SnakingDocument,
+    Stability, SteadyState, Tip,
 };
 
 /// Exponents that the page lists.
@@ -23,6 +23,8 @@ pub(crate) struct Linear {
     /// λ by falling real part, in k/Γ.
     roots: Vec<ComplexDocument>,
     steady: Option<SteadyState>,
+    /// Where a tip that can leave its line begins to snake; null if it never does, or is held.
+    snaking: Option<SnakingDocument>,
     /// Why something is null.
     remarks: Vec<String>,
 }
@@ -32,6 +34,7 @@ pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {
         indentation: Indentation::given(asked.alpha),
         law: asked.wider().into(),
         roots: Some(ROOTS),
+        stiffness_across: asked.stiffness_across,
         ..Stability::new(Tip(asked.tip()?), asked.r)
     };
     let found = question.ask(&Context::default())?;
@@ -41,6 +44,7 @@ pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {
         stable: (kind != Some(OnsetKindName::NonSmooth)).then_some(found.stable),
         roots: found.roots.clone(),
         steady: SteadyState::of(&asked.model()?),
+        snaking: found.snaking.flatten(),
         remarks: found.remarks.clone(),
         critical: found.answer.critical,
     })

@@ -1,62 +1,58 @@
 //! The run: its samples, the surface at any time of it, and its document.
 
 use crate::asked::Asked;
-use crate::limits::{MOST_MILLISECONDS, MOST_TIME};
+use crate::limits::{MOST_TIME, Patience};
 use crate::refusal::Refusal;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use stickslip::{Ask, Context, RunDocument};
-use stickslip_surface::Surface;
+use stickslip::{Ask, RunDocument};
+use stickslip_surface::{Surface, SurfaceAcross};
+use stickslip_tip::planar::{self, PlanarScenario};
 use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 
 /// A run with its history.
 pub(crate) struct Motion {
     document: RunDocument,
-    scenario: Scenario,
-    initial: InitialSurface,
-    trajectory: Trajectory,
+    way: Way,
+}
+
+/// The motion of a tip that is held on its line, or of one that is not.
+enum Way {
+    Along { scenario: Box<Scenario>, initial: InitialSurface, trajectory: Trajectory },
+    Across { scenario: Box<PlanarScenario>, trajectory: planar::Trajectory },
 }
 
 impl Motion {
-    /// Makes the run, as far as it comes in [`MOST_MILLISECONDS`]; `now` is the time in milliseconds.
+    /// Makes the run, as far as it comes before the page's patience ends; `now` is the time in milliseconds.
     pub(crate) fn of(asked: &Asked, now: fn() -> f64) -> Result<Self, Refusal> {
         if asked.until > MOST_TIME {
             return Err(Refusal::TooLong(asked.until));
         }
-        let (began, cut_off) = (now(), Arc::new(AtomicBool::new(false)));
-        let flag = Arc::clone(&cut_off);
-        let watch = move |_, _: &str| {
-            if now() - began > MOST_MILLISECONDS {
-                flag.store(true, Ordering::Relaxed);
-            }
-        };
-        let context = Context::cancelled_by(cut_off).watched_by(watch);
-        let mut document = asked.run()?.ask(&context)?;
-        document.work.seconds = (now() - began) / 1e3;
-        let scenario = document.parameters.scenario()?;
-        let initial = scenario.initial_surface()?;
-        let trajectory = document.trajectory()?;
-        Ok(Self { document, scenario, initial, trajectory })
+        let patience = Patience::from(now);
+        let mut document = asked.run()?.ask(&patience.context())?;
+        document.work.seconds = patience.seconds();
+        let way = Way::of(&document)?;
+        Ok(Self { document, way })
     }
 
     /// The time reached by a run that was cut off.
     pub(crate) fn cut_off(&self) -> Option<f64> {
-        self.document.interrupted.then(|| self.trajectory.end())
+        self.document.interrupted.then(|| self.way.span().1)
     }
 
-    /// t, l, x0', the lag and x0 of the samples, one column after the other.
+    /// t, l, x0', the lag, x0 and y0 of the samples, one column after the other.
     pub(crate) fn columns(&self) -> Vec<f64> {
         let samples = &self.document.samples;
-        let none = || vec![f64::NAN; samples.t.len()];
-        let there = |column: &Option<Vec<f64>>| column.clone().unwrap_or_else(none);
-        let (l, lag) = (there(&samples.l), there(&samples.lag));
-        [&samples.t, &l, &samples.velocity, &lag, &samples.x0]
+        let there = |column: &Option<Vec<f64>>, missing: f64| {
+            column.clone().unwrap_or_else(|| vec![missing; samples.t.len()])
+        };
+        let (l, lag) = (there(&samples.l, f64::NAN), there(&samples.lag, f64::NAN));
+        [&samples.t, &l, &samples.velocity, &lag, &samples.x0, &there(&samples.y0, 0.0)]
             .into_iter()
             .flatten()
             .copied()
             .collect()
     }
 
+    /// u at `count` points along the scan, at the y of the tip.
     pub(crate) fn heights(
         &self,
         t: f64,
@@ -65,16 +61,55 @@ impl Motion {
     ) -> Result<Vec<f64>, Refusal> {
         let spacing = (to - from) / count.max(2).saturating_sub(1) as f64;
         let x: Vec<f64> = (0..count).map(|i| from + spacing * i as f64).collect();
-        let t = t.clamp(self.trajectory.start(), self.trajectory.end());
-        let surface = Surface::new(&self.scenario.model, &self.initial, &self.trajectory);
-        Ok(surface.heights(t, &x)?.to_vec())
+        let (start, end) = self.way.span();
+        self.way.heights(t.clamp(start, end), &x)
     }
 
-    pub(crate) fn positions(&self, t: f64) -> [f64; 2] {
-        [self.trajectory.x0(t), self.trajectory.support().position(t)]
+    /// x0, the position of the support, and y0.
+    pub(crate) fn positions(&self, t: f64) -> [f64; 3] {
+        match &self.way {
+            Way::Along { trajectory, .. } => {
+                [trajectory.x0(t), trajectory.support().position(t), 0.0]
+            }
+            Way::Across { trajectory, .. } => {
+                [trajectory.x0(t), trajectory.support().position(t), trajectory.y0(t)]
+            }
+        }
     }
 
     pub(crate) fn document(&self) -> &RunDocument {
         &self.document
+    }
+}
+
+impl Way {
+    fn of(document: &RunDocument) -> Result<Self, Refusal> {
+        if document.parameters.stiffness_across.is_some() {
+            let (scenario, trajectory) = document.trajectory_across()?;
+            return Ok(Self::Across { scenario: Box::new(scenario), trajectory });
+        }
+        let scenario = Box::new(document.parameters.scenario()?);
+        let initial = scenario.initial_surface()?;
+        Ok(Self::Along { scenario, initial, trajectory: document.trajectory()? })
+    }
+
+    fn span(&self) -> (f64, f64) {
+        match self {
+            Self::Along { trajectory, .. } => (trajectory.start(), trajectory.end()),
+            Self::Across { trajectory, .. } => (trajectory.start(), trajectory.end()),
+        }
+    }
+
+    fn heights(&self, t: f64, x: &[f64]) -> Result<Vec<f64>, Refusal> {
+        Ok(match self {
+            Self::Along { scenario, initial, trajectory } => {
+                Surface::new(&scenario.model, initial, trajectory).heights(t, x)?.to_vec()
+            }
+            Self::Across { scenario, trajectory } => {
+                let image =
+                    SurfaceAcross::new(scenario, trajectory)?.image(t, x, &[trajectory.y0(t)])?;
+                image.into_iter().collect()
+            }
+        })
     }
 }

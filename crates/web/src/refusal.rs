@@ -5,6 +5,7 @@ use stickslip_cycles::CycleError;
 use stickslip_raster::RasterError;
 use stickslip_stability::StabilityError;
 use stickslip_surface::SurfaceError;
+use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{ModelError, RunError, TipFunctionError};
 use thiserror::Error;
 
@@ -25,6 +26,8 @@ pub(crate) enum Refusal {
     Model(#[from] ModelError),
     #[error(transparent)]
     Run(#[from] RunError),
+    #[error(transparent)]
+    Across(#[from] PlanarError),
     #[error(transparent)]
     Surface(#[from] SurfaceError),
     #[error(transparent)]

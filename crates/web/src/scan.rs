@@ -4,9 +4,10 @@ use crate::asked::Asked;
 use crate::limits::MOST_LINES;
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
-use stickslip::{PathName, PatternDocument, RasterRegimeName};
-use stickslip_raster::{Path, Plan, Scanned, Scanning, pattern};
-use stickslip_tip::{Footprint, Scenario};
+use stickslip::{
+    Indentation, MemoryName, PathName, PatternDocument, Raster, RasterRegimeName, Sampling, Tip,
+};
+use stickslip_raster::{Plan, Scanned, Scanning, pattern};
 
 /// Error of each line. A picture needs less, but transforms round differently here and there, and a step that one takes and the
 /// other repeats changes a pattern by a part of it: to 1e-9 no more than this.
@@ -16,6 +17,8 @@ const COLUMNS: f64 = 4.0;
 const ROWS: usize = 2;
 /// Distance in widths across within which a line changes rows: e^{-18} of its depth is left there.
 const REACH: f64 = 6.0;
+/// A tip that can leave its line stays within so many widths of it while a spring holds it, as far as a picture shows.
+const AWAY: f64 = 4.0;
 
 /// Lengths in σ.
 #[derive(Debug, Deserialize)]
@@ -53,11 +56,25 @@ fn plan(asked: &Asked, scan: &Scan) -> Result<Plan, Refusal> {
     if scan.lines > MOST_LINES {
         return Err(Refusal::TooManyLines(scan.lines));
     }
-    let footprint = Footprint::separable(asked.tip()?, asked.width)?;
-    let (path, model) = (Path::from(scan.path), asked.model()?);
-    let mut plan = Plan::new(footprint, model, path, scan.pitch, scan.lines, scan.length);
-    plan.law = Scenario { tolerance: TOLERANCE, ..plan.law };
-    Ok(plan)
+    let question = Raster {
+        tip: Tip(asked.tip()?),
+        indentation: Indentation::given(asked.alpha),
+        r: asked.r,
+        law: asked.wider().into(),
+        width_y: None,
+        path: scan.path,
+        pitch: (scan.path != PathName::Repeat).then_some(scan.pitch),
+        lines: scan.lines,
+        length: scan.length,
+        area: None,
+        pulses: vec![],
+        tolerance: TOLERANCE,
+        memory: MemoryName::Auto,
+        stiffness_across: asked.stiffness_across,
+        kick_across: asked.pushed_across(),
+        sampling: Sampling::default(),
+    };
+    Ok(question.prepared()?)
 }
 
 /// Scans; hands over, after each line, its number from 1, the first row that it changed, the columns and the heights.
@@ -72,7 +89,7 @@ pub(crate) fn raster(
     while scanning.next_line()?.is_some() {
         let lines = scanning.lines();
         // Of these alone anything is to be seen in the rows that the last has changed.
-        let near = &lines[lines.len().saturating_sub(2 * view.lines_within_reach)..];
+        let near = &lines[lines.len().saturating_sub(view.lines_that_count())..];
         let (first, y) = view.rows(lines.len());
         let heights = Scanned::new(&plan, near).heights(&view.x, &y);
         on_line(lines.len(), first, view.x.len(), heights.as_slice().unwrap_or_default());
@@ -87,6 +104,8 @@ pub(crate) fn raster(
 
 /// What is shown of the surface.
 struct View {
+    /// Of lines that coincide each gives one row: the groove after it.
+    is_repeated: bool,
     x: Vec<f64>,
     row: f64,
     lines_within_reach: usize,
@@ -96,12 +115,23 @@ impl View {
     fn new(asked: &Asked, scan: &Scan) -> Self {
         let columns = (COLUMNS * scan.length / asked.width).ceil().clamp(2.0, 600.0);
         let x = (0..=columns as usize).map(|i| scan.length * i as f64 / columns).collect();
-        let within = (REACH * asked.width / scan.pitch).ceil().clamp(1.0, MOST_LINES as f64);
-        Self { x, row: scan.pitch / ROWS as f64, lines_within_reach: within as usize }
+        let away = asked.stiffness_across.map_or(0.0, |_| AWAY);
+        let within =
+            ((REACH + away) * asked.width / scan.pitch).ceil().clamp(1.0, MOST_LINES as f64);
+        let is_repeated = scan.path == PathName::Repeat;
+        Self { is_repeated, x, row: scan.pitch / ROWS as f64, lines_within_reach: within as usize }
+    }
+
+    /// How many of the latest lines are to be seen in rows that the last has changed.
+    fn lines_that_count(&self) -> usize {
+        if self.is_repeated { MOST_LINES } else { 2 * self.lines_within_reach }
     }
 
     /// Those that a line, counted from 1, changes behind it: number of the first, and where they lie.
     fn rows(&self, line: usize) -> (usize, Vec<f64>) {
+        if self.is_repeated {
+            return (line - 1, vec![0.0]);
+        }
         let end = ROWS * (line - 1) + 1;
         let first = end.saturating_sub(ROWS * self.lines_within_reach + 1);
         (first, (first..end).map(|n| self.row * n as f64).collect())

@@ -24,7 +24,7 @@ const close = (a, b, tolerance, what) =>
 async function difference(page) {
   const { samples } = document(await command(page));
   const columns = await page.evaluate(() => window.stickslip.columns().map((column) => [...column]));
-  const names = ['t', 'l', 'velocity', 'lag', 'x0'];
+  const names = ['t', 'l', 'velocity', 'lag', 'x0', ...(samples.y0 ? ['y0'] : [])];
   assert.equal(columns[0].length, samples.t.length);
   const largest = (name, n) => Math.max(...samples[name].map((value, i) => Math.abs(value - columns[n][i])));
   return Object.fromEntries(names.map((name, n) => [name, largest(name, n)]));
@@ -97,7 +97,7 @@ test('cycles and their multipliers are those of the program, to 1e-9', { skip },
 
 test('every slider moves the tip, by keys too, and takes any number', { skip }, async () => {
   const { page, noted } = await open(browser);
-  for (const box of ['depth_limit', 'healing_time']) await page.locator(`#${box}-there`).check();
+  for (const box of ['depth_limit', 'healing_time', 'inertia', 'stiffness_across']) await page.locator(`#${box}-there`).check();
   await settled(page);
   for (const slider of await page.locator('#sliders input[type=range]').all()) {
     const id = await slider.getAttribute('id');
@@ -116,7 +116,7 @@ test('every slider moves the tip, by keys too, and takes any number', { skip }, 
   await page.locator('#start').selectOption('flat');
   await settled(page);
   const off = await difference(page);
-  assert.ok(off.l <= 1e-9, `with b, T and a flat start l differs by ${off.l}`);
+  assert.ok(off.l <= 1e-9, `with b, T, M, κ_y and a flat start l differs by ${off.l}`);
   assert.deepEqual(noted, []);
   await page.context().close();
 });
@@ -239,6 +239,37 @@ test('a raster grows, can be stopped, and ends as the program ends it', { skip }
   await page.locator('#lines-number').fill('1000');
   await page.locator('#scan').click();
   await page.locator('#raster-told').filter({ hasText: /up to 400 lines/ }).waitFor();
+  assert.deepEqual(noted, []);
+  await page.context().close();
+});
+
+test('a walker goes round as the program says', { skip }, async () => {
+  const { page, noted } = await open(browser, {}, '#alpha=1.2&r=1&walker_rotation=0.3&show=walkers');
+  await page.waitForFunction(() => document.getElementById('walker-told').dataset.found, null, { timeout: 60_000 });
+  const found = JSON.parse(await page.locator('#walker-told').getAttribute('data-found'));
+  const { regime, circle, orbits } = document(await page.locator('#walker-command').innerText());
+  assert.deepEqual([found.regime, regime], ['circling', 'circling']);
+  for (const key of ['radius', 'omega']) {
+    close(found.circle[key], circle[key], 1e-9, key);
+    close(found.orbits[0][key], orbits[0][key], 1e-9, `${key} of theory`);
+  }
+  await page.locator('#walkers').screenshot({ path: join(shots, 'walker.png') });
+  assert.deepEqual(noted, []);
+  await page.context().close();
+});
+
+test('the tour goes its five steps, to the motions that it names', { skip }, async () => {
+  const { page, noted } = await open(browser);
+  const next = page.locator('#tour-next');
+  for (const regime of ['steady', 'steady', 'stick-slip', null, 'snaking']) {
+    await next.click();
+    await page.waitForFunction(() => window.stickslip.wish() === Number(document.body.dataset.settled), null, { timeout: 60_000 });
+    if (regime) assert.equal(await fact(page, 'regime'), regime);
+    else await page.locator('#raster-told').filter({ hasText: /Line [2-9]|lines\. ripples/ }).waitFor();
+  }
+  assert.ok(await next.isHidden());
+  assert.ok(await page.locator('#chart-y').isVisible());
+  await page.screenshot({ path: join(shots, 'tour.png'), fullPage: true });
   assert.deepEqual(noted, []);
   await page.context().close();
 });

@@ -20,6 +20,6 @@ export const run = (...words) => execFileSync(binary, words, { encoding: 'utf8' 
 
 /** The model's options of a command line of a run. */
 export function model(line) {
-  const options = line.match(/--(tip|beta|width|alpha|r|depth-limit|healing-time) \S+/g);
+  const options = line.match(/--(tip|beta|width|alpha|r|depth-limit|healing-time|inertia) \S+/g);
   return options.join(' ');
 }

@@ -1,4 +1,4 @@
-// l, velocity and lateral force against time.
+// l, velocity, lateral force, and the distance from the line against time.
 import uPlot from 'uplot';
 import { colour } from './theme.js';
 
@@ -6,6 +6,7 @@ const CHARTS = [
   { id: 'chart-l', column: 1, label: 'l (σ)', says: 'l, the lag beyond steady drag' },
   { id: 'chart-v', column: 2, label: "x₀′ (kσ/Γ)", says: 'velocity of the tip' },
   { id: 'chart-f', column: 3, label: 'force (kσ)', says: 'lateral force, the extension of the spring' },
+  { id: 'chart-y', column: 5, label: 'y0 (σ)', says: 'y0, the distance of the tip from its line', ofFree: true },
 ];
 const HEIGHT = 150;
 
@@ -37,7 +38,7 @@ export function charts(picked) {
   function make() {
     plots.forEach((plot) => plot.destroy());
     plots = CHARTS.map((chart) => {
-      const plot = new uPlot(options(chart, host(chart).clientWidth), data(chart.column), host(chart));
+      const plot = new uPlot(options(chart, host(CHARTS[0]).clientWidth), data(chart.column), host(chart));
       const mark = document.createElement('div');
       mark.className = 'now';
       plot.over.append(mark);
@@ -45,14 +46,14 @@ export function charts(picked) {
       return plot;
     });
   }
-  new ResizeObserver(() => {
-    CHARTS.forEach((chart, n) => plots[n]?.setSize({ width: host(chart).clientWidth, height: HEIGHT }));
-  }).observe(host(CHARTS[0]));
+  const fit = () => CHARTS.forEach((chart, n) => plots[n]?.setSize({ width: host(CHARTS[0]).clientWidth, height: HEIGHT }));
+  new ResizeObserver(fit).observe(host(CHARTS[0]));
 
   return {
-    /** Columns of equal length, t first. */
-    draw(found) {
+    /** Columns of equal length, t first. `isFree`: the tip can leave its line. */
+    draw(found, isFree) {
       columns = found;
+      for (const chart of CHARTS) host(chart).hidden = Boolean(chart.ofFree) && !isFree;
       if (plots.length === 0) make();
       else CHARTS.forEach((chart, n) => plots[n].setData(data(chart.column)));
     },

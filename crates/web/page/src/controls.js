@@ -31,17 +31,18 @@ export function sliders(host, list, changed) {
 }
 
 function row(host, slider, changed) {
-  const { name, sign, says, optional } = slider;
+  const { name, sign, says, unit, optional, description } = slider;
   const { min, max, step, place, value } = scale(slider);
   const box = document.createElement('div');
   box.className = 'row';
   box.innerHTML = `
-    <label for="${name}"><i>${sign}</i> ${says}</label>
+    <label for="${name}"><i>${sign.replace(/_(.)/, '<sub>$1</sub>')}</i> ${says}${unit ? `, ${unit}` : ''}</label>
     ${optional ? `<label class="there"><input type="checkbox" id="${name}-there"> on</label>` : ''}
     <input type="text" inputmode="decimal" id="${name}-number" aria-label="${says}, ${sign}: number"
       aria-describedby="${name}-why" autocomplete="off" spellcheck="false">
     <input type="range" id="${name}" min="${min}" max="${max}" step="${step}">
     <p class="why" id="${name}-why" hidden></p>`;
+  if (description) box.title = description;
   host.append(box);
   const at = (id) => box.querySelector(`#${id}`);
   const [range, field, there, why] = [at(name), at(`${name}-number`), at(`${name}-there`), at(`${name}-why`)];

@@ -14,7 +14,7 @@ export function prepare(text, base64) {
 /** A newer wish waits so long for an older one to end by itself. */
 const PATIENCE = 1000; // ms
 /** What ends a wish. */
-const ENDS = new Set(['settled', 'mapped', 'scanned', 'refused']);
+const ENDS = new Set(['settled', 'mapped', 'scanned', 'walked', 'refused']);
 
 /**
  * A worker that answers by `on[kind](message)`. `end` stops it in the middle of anything. Of wishes with an `id` the newest

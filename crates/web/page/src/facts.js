@@ -30,19 +30,23 @@ export function facts(host) {
       if (!found) return put('fact-stable', why);
       number('fact-critical', found.critical?.alpha);
       if (!found.critical) put('fact-critical', 'none: steady motion has no onset here');
+      number('fact-snaking', found.snaking?.alpha);
       number('fact-omega', found.critical?.omega, 'k/Γ');
       number('fact-trapping', found.trapping);
       number('fact-steady', found.steady?.l, 'σ');
-      put('fact-stable', found.stable === null ? 'no linear law decides' : found.stable ? 'yes' : 'no');
+      const along = found.snaking ? ', along the scan' : '';
+      put('fact-stable', found.stable === null ? 'no linear law decides' : (found.stable ? 'yes' : 'no') + along);
       put('fact-roots', upper(found.roots).join(', ') || found.remarks.join('; ') || '–', found.roots);
     },
     judged({ found, why }) {
       if (!found) return put('fact-regime', why);
-      const { regime, oscillation: o, transient } = found;
+      const { regime, transient, snaking } = found;
+      const o = found.oscillation ?? snaking;
       const going = transient?.towards ? `, towards ${transient.towards}` : '';
       put('fact-regime', regime + going, regime);
       known('fact-period', o?.period, o?.period_error, UNITS.period);
       known('fact-amplitude', o?.amplitude_x0, o?.amplitude_x0_error, UNITS.amplitude);
+      known('fact-swing', snaking?.amplitude_y0, snaking?.amplitude_y0_error, UNITS.amplitude);
       put('fact-remarks', found.remarks.join('; ') || 'none');
     },
     cycle({ found, why }) {

@@ -8,7 +8,9 @@ import { raster } from './raster.js';
 import { scene } from './scene.js';
 import { theme } from './theme.js';
 import { PRESETS } from './presets.js';
-import { SLIDERS, SCAN_SLIDERS, address, fromAddress, usual } from './parameters.js';
+import { tour } from './tour.js';
+import { walker } from './walker.js';
+import { SLIDERS, SCAN_SLIDERS, WALKER_SLIDERS, address, fromAddress, usual, walkerOf } from './parameters.js';
 import precomputed from '../map.json';
 
 const at = (id) => document.getElementById(id);
@@ -19,6 +21,7 @@ let state = usual();
 let wish = 0; // number of the latest run asked for
 let since = 0; // when it was
 let latest = null; // its columns
+let isFree = false; // whether its tip can leave the line
 let command = '';
 let cut; // the time at which the run was cut off, if it was
 const cutOff = () => `Cut off at t = ${cut.toPrecision(6)}: the page computes for 4 seconds, the command below goes on.`;
@@ -50,6 +53,7 @@ const picture = scene(
   { canvas: at('scene'), time: at('time'), speed: at('speed'), play: at('play'), clock: at('clock') },
   live.ask,
   (t) => latest && plots.now(t),
+  () => isFree,
 );
 const map = phase(
   { canvas: at('map'), told: at('map-told'), legend: at('legend'), zoomIn: at('zoom-in'), zoomOut: at('zoom-out'), whole: at('zoom-whole') },
@@ -60,13 +64,16 @@ const map = phase(
 const mapper = hire({ boundary: map.boundary, column: map.column, mapped: map.mapped, refused: map.refused });
 const rows = sliders(at('sliders'), SLIDERS, (name, value) => set('run', name, value));
 const scanRows = sliders(at('scan-sliders'), SCAN_SLIDERS, (name, value) => set('scan', name, value));
+const walkRows = sliders(at('walker-sliders'), WALKER_SLIDERS, (name, value) => set('walk', name, value));
+const walking = walker({ canvas: at('walk'), told: at('walker-told'), code: at('walker-command') }, hire);
 const scanned = raster({ canvas: at('raster'), button: at('scan'), told: at('raster-told'), scale: at('raster-scale') }, hire, () => state);
 
 function set(part, name, value) {
   state[part][name] = value;
   document.querySelectorAll('#presets button').forEach((button) => button.setAttribute('aria-pressed', 'false'));
-  if (part === 'run') ask();
-  else remember();
+  if (part === 'run') return ask();
+  if (part === 'walk') walk();
+  remember();
 }
 function change(values) {
   Object.assign(state.run, values);
@@ -76,6 +83,7 @@ function change(values) {
 function showAll() {
   rows.show(state.run);
   scanRows.show(state.scan);
+  walkRows.show(state.walk);
   at('start').value = state.run.start;
   at('path').value = state.scan.path;
 }
@@ -86,6 +94,18 @@ function ask() {
   map.point(state.run);
   remember();
 }
+let isWalkerSeen = false;
+/** Only once its picture is looked at. */
+function walk() {
+  if (isWalkerSeen) walking.ask(walkerOf(state.walk));
+}
+new IntersectionObserver(([{ isIntersecting }], watching) => {
+  if (!isIntersecting) return;
+  watching.disconnect();
+  isWalkerSeen = true;
+  walk();
+}).observe(at('walkers'));
+
 let due;
 /** Not at every move of a slider: browsers limit how often an address may change. */
 function remember() {
@@ -100,10 +120,11 @@ function shown({ id, samples, command: line, cut: reached }) {
   if (id !== wish) return;
   cut = reached;
   if (cut !== undefined) at('said').textContent = cutOff();
-  const n = samples.length / 5;
-  latest = [0, 1, 2, 3, 4].map((column) => samples.subarray(column * n, (column + 1) * n));
+  const n = samples.length / 6;
+  isFree = state.run.stiffness_across !== null;
+  latest = [0, 1, 2, 3, 4, 5].map((column) => samples.subarray(column * n, (column + 1) * n));
   at('error').hidden = true;
-  plots.draw(latest);
+  plots.draw(latest, isFree);
   picture.over([latest[0][0], latest[0][n - 1]]);
   command = line;
   at('command').textContent = line;
@@ -142,14 +163,11 @@ for (const preset of PRESETS) {
   button.textContent = preset.name;
   button.setAttribute('aria-pressed', 'false');
   button.addEventListener('click', () => {
-    state = { run: { ...preset.run }, scan: { ...state.scan, ...preset.scan } };
+    state = { ...state, run: { ...preset.run }, scan: { ...state.scan, ...preset.scan } };
     showAll();
     ask();
     document.querySelectorAll('#presets button').forEach((other) => other.setAttribute('aria-pressed', String(other === button)));
-    if (preset.scan) {
-      if (at('scan').textContent === 'Scan') at('scan').click();
-      at('raster').scrollIntoView({ block: 'center' });
-    }
+    if (preset.scan) show('rasters');
   });
   at('presets').append(button);
 }
@@ -164,13 +182,25 @@ theme(at('theme'), () => {
   picture.draw();
   map.draw();
   scanned.draw();
+  walking.draw();
 });
+const guide = tour({ list: at('tour-steps'), says: at('tour-says'), next: at('tour-next') });
+guide.begin();
+
+/** Goes to a section; a raster begins. */
+function show(place) {
+  if (place === 'rasters') scanned.begin();
+  at(place).scrollIntoView({ block: 'nearest' });
+}
 
 function arrive() {
-  const { strange, ...found } = fromAddress(location.hash);
+  const { strange, show: place, ...found } = fromAddress(location.hash);
+  guide.at(location.hash);
   state = found;
   showAll();
   ask();
+  walk();
+  if (place) show(place);
   at('strange').hidden = strange.length === 0;
   at('strange').textContent = strange.length ? `The address says ${strange.join(', ')}, which is not understood.` : '';
 }

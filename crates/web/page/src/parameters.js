@@ -1,52 +1,105 @@
 // What the page is about: the parameters, their ranges, and the address that tells them.
 
-/** Sliders. `optional`: may be absent (null), which is the paper's law. `log`: the slider runs over decades. */
+/* global DECLARED */
+/** What the questions declare of each parameter: `build.mjs` asks the module for it. */
+const declared = typeof DECLARED === 'undefined' ? globalThis.DECLARED : DECLARED;
+
+/**
+ * Sliders. Name, unit and bounds of a parameter are those that its question (`of`) declares; `says` is a name of two letters
+ * or less spelt out. What no question declares (the tip's shape) has them here. `optional`: may be absent (null), which is the
+ * basic model. `log`: the slider runs over decades.
+ */
 export const SLIDERS = [
-  { name: 'alpha', sign: 'α', says: 'indentation rate', min: 0, max: 4, step: 0.005, usual: 1.2 },
-  { name: 'r', sign: 'r', says: 'velocity of the support', min: 0.05, max: 2.5, step: 0.005, usual: 1 },
+  { name: 'alpha', of: 'run', sign: 'α', says: 'indentation rate', min: 0, max: 4, step: 0.005, usual: 1.2 },
+  { name: 'r', of: 'run', sign: 'r', says: 'velocity of the support', min: 0.05, max: 2.5, step: 0.005, usual: 1 },
   { name: 'beta', sign: 'β', says: 'side lobes of the tip', min: 0, max: 1.5, step: 0.01, usual: 1 },
-  { name: 'width', sign: 'w', says: 'width of the tip, σ', min: 0.4, max: 2, step: 0.01, usual: 1 },
-  { name: 'depth_limit', sign: 'b', says: 'depth limit, kσ²/a', min: 0.2, max: 50, optional: true, log: true, usual: 5 },
-  { name: 'healing_time', sign: 'T', says: 'healing time, Γ/k', min: 1, max: 1000, optional: true, log: true, usual: 50 },
-  { name: 'kick', sign: 'D', says: 'kick, σ', min: -1, max: 1, step: 0.01, usual: 0.05 },
-  { name: 'until', sign: 't', says: 'end of the run, Γ/k', min: 30, max: 2000, log: true, digits: 3, usual: 200 },
-];
+  { name: 'width', sign: 'w', says: 'width of the tip', unit: 'σ', min: 0.4, max: 2, step: 0.01, usual: 1 },
+  { name: 'depth_limit', of: 'run', sign: 'b', min: 0.2, max: 50, optional: true, log: true, usual: 5 },
+  { name: 'healing_time', of: 'run', sign: 'T', min: 1, max: 1000, optional: true, log: true, usual: 50 },
+  { name: 'inertia', of: 'run', sign: 'M', min: 0.01, max: 10, optional: true, log: true, usual: 0.3 },
+  { name: 'stiffness_across', of: 'run', sign: 'κ_y', min: 0.1, max: 30, optional: true, log: true, usual: 0.25 },
+  { name: 'kick', of: 'run', sign: 'D', min: -1, max: 1, step: 0.01, usual: 0.05 },
+  { name: 'kick_across', of: 'run', sign: 'D_y', min: -1, max: 1, step: 0.01, usual: 0.05 },
+  { name: 'until', of: 'run', sign: 't', says: 'end of the run', min: 30, max: 2000, log: true, digits: 3, usual: 200 },
+].map(spelt);
 
 /** Sliders of the raster. */
 export const SCAN_SLIDERS = [
-  { name: 'pitch', sign: 'd', says: 'pitch of the lines, σ', min: 0.1, max: 3, step: 0.05, usual: 0.5 },
-  { name: 'lines', sign: 'n', says: 'lines', min: 4, max: 200, step: 1, usual: 60 },
-  { name: 'length', sign: 'X', says: 'length of a line, σ', min: 10, max: 100, step: 1, usual: 60 },
-];
+  { name: 'pitch', of: 'raster', sign: 'd', says: 'pitch of the lines', min: 0.1, max: 3, step: 0.05, usual: 1 },
+  { name: 'lines', of: 'raster', sign: 'n', min: 4, max: 200, step: 1, usual: 96 },
+  { name: 'length', of: 'raster', sign: 'X', says: 'length of a line', min: 10, max: 100, step: 1, usual: 80 },
+].map(spelt);
+
+/** Sliders of the walker; in addresses their names begin with `walker_`. */
+export const WALKER_SLIDERS = [
+  { name: 'alpha', of: 'walker', sign: 'α', says: 'force of the field', min: -10, max: -0.1, step: 0.1, usual: -3 },
+  { name: 'healing_time', of: 'walker', sign: 'T', says: 'memory', min: 0.5, max: 30, log: true, usual: 1 },
+  { name: 'inertia', of: 'walker', sign: 'M', min: 0.01, max: 10, optional: true, log: true, usual: 0.3 },
+  { name: 'rotation', of: 'walker', sign: 'Ω', min: 0.01, max: 2, optional: true, log: true, usual: 0.3 },
+  { name: 'trap', of: 'walker', sign: 'K', min: 0.001, max: 1, optional: true, log: true, usual: 0.05 },
+  { name: 'start_position', of: 'walker', sign: 'X', min: 0, max: 30, step: 0.1, optional: true, usual: 2.5 },
+  { name: 'kick_across', of: 'walker', sign: 'D_y', min: -1, max: 1, step: 0.01, usual: 0.05 },
+  { name: 'until', of: 'walker', sign: 't', says: 'end of the run', min: 10, max: 2000, log: true, usual: 200 },
+].map((slider) => ({ ...spelt(slider), name: `walker_${slider.name}` }));
+
+/** A slider with what is declared of its parameter: its name, unit and meaning. */
+function spelt({ says, ...slider }) {
+  if (!slider.of) return { ...slider, says };
+  const found = declared[slider.of].find(({ name }) => name === slider.name);
+  if (!found) throw new Error(`${slider.of} has no parameter ${slider.name}`);
+  const { description } = found;
+  return { ...slider, says: says ?? slider.name.replaceAll('_', ' '), unit: unitOf(description), least: leastOf(description), description };
+}
+/** The unit in a description such as “Healing time T: …; in Γ/k, above 0”; nothing for pure numbers. */
+export function unitOf(description) {
+  return /\b[iI]n (?:units of )?((?:σ|Γ|k)[^\s,;.:]*)/.exec(description)?.[1];
+}
+/** The bound that a value must be above, or at: `{ value, included }`. */
+export function leastOf(description) {
+  const above = /(?<!or )\babove (-?[\d.]*\d)/.exec(description);
+  const orAbove = /(-?[\d.]*\d) or above/.exec(description);
+  return orAbove ? { value: Number(orAbove[1]), included: true } : above ? { value: Number(above[1]), included: false } : null;
+}
 
 const STARTS = ['steady', 'flat'];
 const PATHS = ['one-way', 'zigzag', 'repeat'];
+/** Sections that an address may lead to. */
+export const PLACES = ['charts', 'phases', 'rasters', 'walkers'];
 
+const part = (values, sliders) => Object.fromEntries(sliders.map((s) => [s.name, values(s)]));
 export function usual() {
-  const of = (sliders) => Object.fromEntries(sliders.map((s) => [s.name, s.optional ? null : s.usual]));
-  return { run: { ...of(SLIDERS), start: 'steady' }, scan: { ...of(SCAN_SLIDERS), path: 'one-way' } };
+  const of = (sliders) => part((s) => (s.optional ? null : s.usual), sliders);
+  return { run: { ...of(SLIDERS), start: 'steady' }, scan: { ...of(SCAN_SLIDERS), path: 'one-way' }, walk: of(WALKER_SLIDERS) };
 }
 
-/** `#alpha=1.2&r=1…`: what differs from the usual, and α and r always. */
-export function address({ run, scan }) {
-  const all = { ...run, ...scan };
+/** The walker's parameters by the names of its question. */
+export const walkerOf = (walk) => Object.fromEntries(Object.entries(walk).filter(([, value]) => value !== null).map(([name, value]) => [name.slice('walker_'.length), value]));
+
+/** `#alpha=1.2&r=1…`: what differs from the usual, and α and r always; `show` is a section to go to. */
+export function address({ run, scan, walk, show }) {
   const plain = usual();
-  const fixed = { ...plain.run, ...plain.scan };
+  const all = { ...plain.run, ...plain.scan, ...plain.walk, ...run, ...scan, ...walk };
+  const fixed = { ...plain.run, ...plain.scan, ...plain.walk };
   const told = Object.keys(fixed).filter((key) => key === 'alpha' || key === 'r' || all[key] !== fixed[key]);
-  return '#' + told.map((key) => `${key}=${all[key] ?? 'none'}`).join('&');
+  return '#' + [...told.map((key) => `${key}=${all[key] ?? 'none'}`), ...(show ? [`show=${show}`] : [])].join('&');
 }
 
 /** What an address tells, and what in it is not understood. */
 export function fromAddress(hash) {
   const found = usual();
   const strange = [];
+  let show = null;
   for (const [key, text] of new URLSearchParams(hash.replace(/^#/, ''))) {
-    const part = key in found.run ? found.run : key in found.scan ? found.scan : null;
+    if (key === 'show' && PLACES.includes(text)) {
+      show = text;
+      continue;
+    }
+    const part = [found.run, found.scan, found.walk].find((values) => Object.hasOwn(values, key));
     const value = part && read(key, text);
-    if (value === undefined || part === null) strange.push(`${key}=${text}`);
+    if (value === undefined || part === undefined) strange.push(`${key}=${text}`);
     else part[key] = value;
   }
-  return { ...found, strange };
+  return { ...found, show, strange };
 }
 
 /** The value of a field as typed; undefined where it is none. */
@@ -54,7 +107,7 @@ export function read(key, text) {
   const word = text.trim();
   if (key === 'start') return STARTS.includes(word) ? word : undefined;
   if (key === 'path') return PATHS.includes(word) ? word : undefined;
-  const slider = [...SLIDERS, ...SCAN_SLIDERS].find((s) => s.name === key);
+  const slider = [...SLIDERS, ...SCAN_SLIDERS, ...WALKER_SLIDERS].find((s) => s.name === key);
   if (!slider) return undefined;
   if (slider.optional && (word === 'none' || word === '')) return null;
   const number = Number(word.replace('−', '-').replace(',', '.'));

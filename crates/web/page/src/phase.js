@@ -161,8 +161,8 @@ export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, a
     /** Other parameters. The map is of all but α and r. */
     follow(run) {
       at = { r: run.r, alpha: run.alpha };
-      const { beta, width, depth_limit, healing_time } = run;
-      const text = JSON.stringify({ beta, width, depth_limit, healing_time });
+      const { beta, width, depth_limit, healing_time, inertia } = run;
+      const text = JSON.stringify({ beta, width, depth_limit, healing_time, inertia });
       asked = run;
       if (text === law) return draw();
       law = text;
@@ -198,6 +198,6 @@ export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, a
 /** What the script of the precomputed map has written, as a grid. */
 export function unpacked({ r, alpha, rows }) {
   const span = ([from, to, n]) => spaced([from, to], n);
-  const law = JSON.stringify({ beta: 1, width: 1, depth_limit: null, healing_time: null });
+  const law = JSON.stringify({ beta: 1, width: 1, depth_limit: null, healing_time: null, inertia: null });
   return { r: span(r), alpha: span(alpha), classes: rows.map((row) => [...row].map(Number)), law };
 }

@@ -15,6 +15,7 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
   let columns = 0;
   let running = false;
   let total = 1;
+  let shown = null; // the scan that is drawn
   const sheet = document.createElement('canvas');
   let late = false;
 
@@ -31,9 +32,18 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
     }));
     Object.assign(sheet, { width: columns, height: rows.length });
     sheet.getContext('2d').putImageData(image, 0, 0);
-    const tall = Math.min(1, rows.length / (2 * total - 1)) * height;
-    pen.drawImage(sheet, 0, height - tall, width, tall);
-    scale.textContent = `u from ${low.toPrecision(3)} (dark) to ${high.toPrecision(3)} kσ²/a (light); lines from below`;
+    const area = within(width, height);
+    const tall = Math.min(1, rows.length / area.rows) * area.height;
+    pen.drawImage(sheet, (width - area.width) / 2, (height + area.height) / 2 - tall, area.width, tall);
+    const axis = area.isEqual ? 'both axes to one scale' : 'one row for each time along the same line';
+    scale.textContent = `u from ${low.toPrecision(3)} (dark) to ${high.toPrecision(3)} kσ²/a (light); lines from below, ${axis}`;
+  }
+  /** The picture's size: σ are as long across as along, so that angles are true; repeated lines have no axis across. */
+  function within(width, height) {
+    const { lines, pitch, length, path } = shown;
+    if (path === 'repeat') return { width, height, rows: lines, isEqual: false };
+    const scale = Math.min(width / length, height / ((lines - 1) * pitch || 1));
+    return { width: scale * length, height: Math.max(scale * (lines - 1) * pitch, 1), rows: 2 * lines - 1, isEqual: true };
   }
   function hint(pen, width, height) {
     pen.fillStyle = colour('--faint');
@@ -78,19 +88,21 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
     },
     refused: ({ message }) => stop(message),
   });
-  button.addEventListener('click', () => {
-    if (running) {
-      hands.end();
-      return stop('Stopped.');
-    }
+  const halt = (words) => {
+    hands.end();
+    stop(words);
+  };
+  function begin() {
+    if (running) hands.end();
     const { run, scan } = wish();
-    [rows, running, total] = [[], true, scan.lines];
+    [rows, running, total, shown] = [[], true, scan.lines, { ...scan }];
     delete told.dataset.found;
     button.textContent = 'Stop';
     told.textContent = 'Line 1 …';
     draw();
     hands.ask({ kind: 'scan', asked: JSON.stringify(run), scan: JSON.stringify(scan) });
-  });
+  }
+  button.addEventListener('click', () => (running ? halt('Stopped.') : begin()));
   new ResizeObserver(draw).observe(canvas);
-  return { draw };
+  return { draw, begin };
 }

@@ -5,7 +5,8 @@ const BEHIND = 32; // σ of surface to be seen behind the tip
 const AHEAD = 10;
 const POINTS = 421;
 
-export function scene({ canvas, time, speed, play, clock }, ask, moved) {
+/** `isFree`: whether the tip can leave its line. */
+export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) {
   let span = [0, 1];
   let t = 0;
   let playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -18,7 +19,7 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved) {
   const label = () => (play.textContent = playing ? 'Pause' : 'Play');
   const wish = () => {
     asked = true;
-    ask({ kind: 'frame', t, behind: BEHIND, ahead: AHEAD, count: POINTS });
+    ask({ kind: 'frame', t, behind: BEHIND, ahead: AHEAD, count: POINTS, isFree: isFree() });
   };
   function go(to) {
     t = Math.min(Math.max(to, span[0]), span[1]);
@@ -52,7 +53,7 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved) {
   function draw() {
     if (!last) return;
     const { pen, width, height } = sharp(canvas);
-    const { x0, support, from, to, u } = last;
+    const { x0, y0, support, from, to, u } = last;
     const x = (v) => ((v - from) / (to - from)) * width;
     const y = (v) => height * (0.9 - (0.55 * (v - low)) / (high - low));
     ground(pen, u, x, y, { from, to, width, height });
@@ -60,6 +61,7 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved) {
     probe(pen, x(x0), under);
     spring(pen, x(x0), x(support), 26);
     ruler(pen, x, { from, to, height });
+    if (y0 !== null) aside(pen, y0, width);
   }
 
   return {
@@ -129,6 +131,14 @@ function spring(pen, from, to, y) {
   pen.stroke();
   pen.fillStyle = colour('--ink');
   pen.fillRect(to - 2, y - 14, 5, 28);
+}
+
+/** How far the tip is from its line. */
+function aside(pen, y0, width) {
+  pen.fillStyle = colour('--ink');
+  pen.font = '13px system-ui';
+  pen.textAlign = 'right';
+  pen.fillText(`y0 = ${y0.toFixed(2)} σ`.replace('-', '−'), width - 10, 18);
 }
 
 function ruler(pen, x, { from, to, height }) {

@@ -1,5 +1,5 @@
 // In a worker: asks the module. Of several wishes that wait, only the last is done.
-import { initSync, Tip, linear, cycle, command, settled, boundary, raster, raster_command } from '../../../../target/site-build/web/stickslip_web.js';
+import { initSync, Tip, linear, cycle, command, settled, boundary, raster, raster_command, walker, walker_command } from '../../../../target/site-build/web/stickslip_web.js';
 
 let tip = null; // the latest run
 let waiting = null;
@@ -43,7 +43,7 @@ async function judge(id, asked) {
   const parts = {
     linear: () => JSON.parse(linear(asked)),
     judged: () => JSON.parse(tip.judged()),
-    cycle: () => without(JSON.parse(cycle(asked))),
+    cycle: () => without(JSON.parse(cycle(held(asked)))),
   };
   for (let waited = 0; waited < PATIENCE; waited += 8) {
     await pause(8);
@@ -63,11 +63,18 @@ function without(document) {
   return rest;
 }
 
-function frame({ t, behind, ahead, count }) {
+/** The parameters of a tip that is held on its line; cycles are known of no other. */
+function held(asked) {
+  const { stiffness_across: free } = JSON.parse(asked);
+  if (free !== null && free !== undefined) throw new Error('cycles are computed of a tip that is held on its line');
+  return asked;
+}
+
+function frame({ t, behind, ahead, count, isFree }) {
   if (!tip) return;
-  const [x0, support] = tip.positions(t);
+  const [x0, support, y0] = tip.positions(t);
   const u = tip.heights(t, x0 - behind, x0 + ahead, count);
-  say({ kind: 'frame', t, x0, support, from: x0 - behind, to: x0 + ahead, u }, [u.buffer]);
+  say({ kind: 'frame', t, x0, y0: isFree ? y0 : null, support, from: x0 - behind, to: x0 + ahead, u }, [u.buffer]);
 }
 
 /** Row by row of r, coarse first; a later wish ends it. */
@@ -100,6 +107,17 @@ function scan({ asked, scan: wish }) {
   say({ kind: 'scanned', ...done });
 }
 
+let walk = null; // the latest walker asked for
+/** The newest of those that wait. */
+async function step(wish) {
+  walk = wish;
+  await pause(PATIENCE);
+  if (wish !== walk) return;
+  say({ kind: 'begun', id: wish.id });
+  const made = tried(() => ({ ...JSON.parse(walker(wish.asked)), command: walker_command(wish.asked) }));
+  say({ kind: 'walked', id: wish.id, ...made });
+}
+
 self.onmessage = ({ data }) => {
   if (data.kind === 'begin') initSync({ module: data.bytes });
   else if (data.kind === 'run') {
@@ -110,4 +128,5 @@ self.onmessage = ({ data }) => {
   else if (data.kind === 'cycle-document') say({ kind: 'document', ...tried(() => cycle(data.asked)) });
   else if (data.kind === 'map') map(data).catch((error) => say({ kind: 'refused', message: String(error.message ?? error) }));
   else if (data.kind === 'scan') scan(data);
+  else if (data.kind === 'walk') step(data);
 };

@@ -3,6 +3,7 @@
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, normalize, relative, resolve } from 'node:path';
 import katex from 'katex';
+import { STATES } from './states.mjs';
 
 const here = import.meta.dirname;
 const root = resolve(here, '../../..');
@@ -59,9 +60,18 @@ function chapter(file) {
     .replaceAll(/(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)/g, (...found) => link(file, found));
 }
 
+for (const file of Object.keys(STATES)) if (!chapters.has(file)) throw new Error(`${file} is no chapter`);
+/** Below the title of a chapter that the page shows in motion, a link to that. */
+function moving(file, text) {
+  if (!STATES[file]) return text;
+  const [words, state] = STATES[file];
+  const page = relative(dirname(chapters.get(file)), 'play.html');
+  return text.replace(/^# .*\n/, (title) => `${title}\n*In motion: [${words}](${page}${state}).*\n`);
+}
+
 for (const [file, name] of chapters) {
   mkdirSync(dirname(join(src, name)), { recursive: true });
-  writeFileSync(join(src, name), chapter(file));
+  writeFileSync(join(src, name), moving(file, chapter(file)));
 }
 
 /** The libraries by what their manifests say. */

@@ -34,8 +34,7 @@ export function facts(host) {
       number('fact-omega', found.critical?.omega, 'k/Γ');
       number('fact-trapping', found.trapping);
       number('fact-steady', found.steady?.l, 'σ');
-      const along = found.snaking ? ', along the scan' : '';
-      put('fact-stable', found.stable === null ? 'no linear law decides' : (found.stable ? 'yes' : 'no') + along);
+      put('fact-stable', found.stable === null ? 'no linear law decides' : found.stable ? 'yes' : 'no');
       put('fact-roots', upper(found.roots).join(', ') || found.remarks.join('; ') || '–', found.roots);
     },
     judged({ found, why }) {

@@ -14,6 +14,7 @@ mod across;
 mod book;
 mod checkpoints;
 mod command_line;
+mod compare_across;
 mod compare_command;
 mod confined_files;
 mod cycle_commands;

@@ -232,8 +232,6 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
     folder.refuses("surface run.json --far-behind", &["--far-behind", "across"]);
     folder
         .refuses("surface run.json --y-range -1:1 --width-y 1", &["--width-y", "part of the run"]);
-    let compare = "compare --alpha 1 --r 1 --until 20 --stiffness-across 1";
-    folder.refuses(compare, &["--stiffness-across 1", "no grid"]);
     folder.refuses("verify run.json", &["RUN run.json", "two coordinates"]);
     let remarks = said(&folder.stickslip(&format!("{line} --stiffness-across 1 -o other.json")));
     assert!(remarks.contains("steady"), "{remarks}");

@@ -1,5 +1,6 @@
 //! `stickslip compare`.
 
+mod across;
 mod closed;
 mod grid;
 mod pace;
@@ -12,14 +13,14 @@ use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
-use closed::Closed;
 use grid::{Discretisation, Motion};
 use serde_json::{Map, Value};
 use stickslip::{
-    Ask, CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document,
-    KnownScales, Physical, Run, parameter,
+    Ask, ClosedDocument, CompareDocument, CompareFound, CompareParameters, DifferenceDocument,
+    Document, KnownScales, Physical, Run, parameter,
 };
 use stickslip_tip::Scenario;
+use stickslip_tip::planar::PlanarScenario;
 
 /// Number of heights compared.
 const POINTS: usize = 2001;
@@ -35,17 +36,37 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let asked = Asked::of(arguments, values, scales.as_ref())?;
     let job = Job::open::<CompareDocument>(&place.outlet, place.plot.as_deref())?;
-    let closed = closed::run(&asked)?;
-    let x = asked.positions(&closed)?;
-    let motion = grid::run(&asked, &x)?;
-    let document = document(arguments, &asked, &closed, motion, x)?;
+    let sides = match &asked.across {
+        None => on_its_line(&asked)?,
+        Some(scenario) => across::sides(&asked, scenario)?,
+    };
+    let document = document(arguments, &asked, sides)?;
     job.finish(document.in_units(scales.as_ref()))
+}
+
+/// Results of both sides, and the positions of their surfaces.
+struct Sides {
+    x: Vec<f64>,
+    closed: ClosedDocument,
+    motion: Motion,
+}
+
+/// Both sides of a tip that is held on its line.
+fn on_its_line(asked: &Asked) -> Result<Sides, Failure> {
+    let closed = closed::run(asked)?;
+    let x = asked.positions(|t| closed.trajectory.x0(t))?;
+    let motion = grid::run(asked, &x)?;
+    let closed = closed.document(&asked.scenario, &motion.t, asked.grid_until, &x)?;
+    Ok(Sides { x, closed, motion })
 }
 
 /// The checked options.
 struct Asked {
     question: Run,
+    /// The motion along the scan.
     scenario: Scenario,
+    /// The whole motion of a tip that is free to move across the scan.
+    across: Option<PlanarScenario>,
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
@@ -59,10 +80,14 @@ impl Asked {
         values: Map<String, Value>,
         scales: Option<&KnownScales>,
     ) -> Result<Self, Failure> {
-        let (question, scenario) = run_of(arguments, values, scales)?;
+        let (question, scenario, across) = run_of(arguments, values, scales)?;
         warn_of_idle(&arguments.disturbance, &question, (scenario.start_time(), scenario.until));
-        let discretisation =
-            Discretisation::of(arguments, question.tolerance, scenario.model.tip())?;
+        let second_order = match across {
+            None => grid::SECOND_ORDER,
+            Some(_) => across::second_order(arguments.grid)?,
+        };
+        let (usual, tip) = (question.tolerance, scenario.model.tip());
+        let discretisation = Discretisation::of(arguments, usual, (tip, second_order))?;
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
         if !(grid_until > start && grid_until <= scenario.until) {
@@ -79,16 +104,19 @@ impl Asked {
             ));
         }
         let time_limit = time_limit(arguments)?;
-        Ok(Self { question, scenario, discretisation, grid_until, time_limit })
+        Ok(Self { question, scenario, across, discretisation, grid_until, time_limit })
+    }
+
+    /// Least and largest value of a coordinate until the grid ends.
+    fn range(&self, coordinate: impl Fn(f64) -> f64) -> (f64, f64) {
+        let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
+        let values = times.into_iter().map(coordinate);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     }
 
     /// Positions at which the surfaces are compared: all within reach of the tip during the run.
-    fn positions(&self, closed: &Closed) -> Result<Vec<f64>, Failure> {
-        let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
-        let x0 = times.iter().map(|t| closed.trajectory.x0(*t));
-        let (low, high) =
-            x0.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-        let reach = self.discretisation.reach;
+    fn positions(&self, x0: impl Fn(f64) -> f64) -> Result<Vec<f64>, Failure> {
+        let ((low, high), reach) = (self.range(x0), self.discretisation.reach);
         self.discretisation.fits(high - low + 2.0 * reach)?;
         Ok(super::surface::evenly(low - reach, high + reach, POINTS))
     }
@@ -102,12 +130,12 @@ fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
     [&read[..], &[parameters]].concat()
 }
 
-/// The run that both sides compute.
+/// The run that both sides compute: its motion along the scan and, if the tip is free to move across it, the whole.
 fn run_of(
     arguments: &CompareArguments,
     values: Map<String, Value>,
     scales: Option<&KnownScales>,
-) -> Result<(Run, Scenario), Failure> {
+) -> Result<(Run, Scenario, Option<PlanarScenario>), Failure> {
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run, _>(
         options,
@@ -115,18 +143,18 @@ fn run_of(
         "a run: --lines N or --area FILE make it a raster",
     )?;
     let run: Run = parameter::question(values)?;
-    if let Some(stiffness) = run.stiffness_across {
-        let message = "there is no grid for a tip that gives way across the scan: leave it out";
-        return Err(Failure::input(format!("--stiffness-across {}", Typed(stiffness)), message));
-    }
     let run = disturbed(run, disturbance, support_path.as_deref(), scales)?;
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);
     let run = run.resolved(&context()).map_err(refused)?;
+    if let Some(scenario) = run.prepared_across().map_err(refused)? {
+        scenario.texture().map_err(|error| refused(run.refused_across(error)))?;
+        return Ok((run, scenario.along.clone(), Some(scenario)));
+    }
     let scenario = run.prepared().map_err(refused)?;
     let initial = scenario.initial_surface();
     initial.map_err(|error| refused(run.refused(&error)))?;
-    Ok((run, scenario))
+    Ok((run, scenario, None))
 }
 
 /// Time limit of either side, in seconds.
@@ -144,26 +172,26 @@ fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
 fn document(
     arguments: &CompareArguments,
     asked: &Asked,
-    closed: &Closed,
-    motion: Motion,
-    x: Vec<f64>,
+    sides: Sides,
 ) -> Result<CompareDocument, Failure> {
-    let Motion { t, grid } = motion;
-    let closed_document = closed.document(&asked.scenario, &t, asked.grid_until, &x)?;
+    let Sides { x, closed, motion: Motion { t, grid } } = sides;
     let spans = [asked.grid_until, asked.scenario.until].map(|t| t - asked.scenario.start_time());
-    let rates = [grid.work.seconds / spans[0], closed_document.work.seconds / spans[1]];
+    let rates = [grid.work.seconds / spans[0], closed.work.seconds / spans[1]];
+    let across = closed.y0.as_ref().zip(grid.y0.as_ref());
     let max_difference = DifferenceDocument {
-        x0: largest_difference(&closed_document.x0, &grid.x0),
-        u: largest_difference(&closed_document.u, &grid.u),
+        x0: largest_difference(&closed.x0, &grid.x0),
+        y0: across.map(|(closed, grid)| largest_difference(closed, grid)),
+        u: largest_difference(&closed.u, &grid.u),
     };
-    if !(max_difference.x0.is_finite() && max_difference.u.is_finite()) {
+    let DifferenceDocument { x0, y0, u } = max_difference;
+    if !(x0.is_finite() && y0.is_none_or(f64::is_finite) && u.is_finite()) {
         let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
         return Err(Failure::Run(advice.into()));
     }
     let (parameters, speedup) = (parameters(arguments, asked), rates[0] / rates[1]);
     Ok(Document::new(
         parameters,
-        CompareFound { t, x, closed: closed_document, grid, max_difference, speedup },
+        CompareFound { t, x, closed, grid, max_difference, speedup },
         vec![],
     ))
 }

@@ -18,10 +18,13 @@ impl Drawn for CompareDocument {
         };
         let (closed, grid) = (lag(&self.closed.x0), lag(&self.grid.x0));
         let mut motions = PanelDocument::new("", (LAG.0, LAG_OF_STEADY_SUPPORT));
-        motions.curves = vec![
-            CurveDocument::new(StyleName::Line, "closed equation", &self.t, &closed),
-            CurveDocument::new(StyleName::Dashed, "grid", &self.t, &grid),
-        ];
+        let curves = |closed: &[f64], grid: &[f64]| {
+            vec![
+                CurveDocument::new(StyleName::Line, "closed equation", &self.t, closed),
+                CurveDocument::new(StyleName::Dashed, "grid", &self.t, grid),
+            ]
+        };
+        motions.curves = curves(&closed, &grid);
         let apart = |labels, x: &[f64], a: &[f64], b: &[f64]| {
             // Equal values have no place on a logarithmic axis.
             let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs());
@@ -36,6 +39,13 @@ impl Drawn for CompareDocument {
             apart(("t (Γ/k)", "|Δx₀| (σ)"), &self.t, &self.closed.x0, &self.grid.x0),
             apart(("x (σ)", "|Δu| (kσ²/a)"), &self.x, &self.closed.u, &self.grid.u),
         ];
+        if let (Some(closed), Some(grid)) = (&self.closed.y0, &self.grid.y0) {
+            let mut across = PanelDocument::new("", ("t (Γ/k)", "y₀(t) (σ)"));
+            across.curves = curves(closed, grid);
+            let difference = apart(("t (Γ/k)", "|Δy₀| (σ)"), &self.t, closed, grid);
+            figure.panels.splice(1..1, [across]);
+            figure.panels.splice(3..3, [difference]);
+        }
         Ok(figure)
     }
 }

@@ -70,7 +70,10 @@ pub enum GridName {
 pub struct ClosedDocument {
     /// x0 at the times `t`, in σ.
     pub x0: Vec<f64>,
-    /// u at the positions `x`, at the last time, in kσ²/a.
+    /// y0 at the times `t`, in σ, if the tip is free to move across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<f64>>,
+    /// u at the positions `x` on the line y = 0, at the last time, in kσ²/a.
     pub u: Vec<f64>,
     /// Cost of the run from its start to `until`.
     pub work: ClosedWork,
@@ -104,7 +107,10 @@ pub struct ClosedWork {
 pub struct GridDocument {
     /// x0 at the times `t`, in σ.
     pub x0: Vec<f64>,
-    /// u at the positions `x`, at the last time, in kσ²/a.
+    /// y0 at the times `t`, in σ, if the tip is free to move across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<Vec<f64>>,
+    /// u at the positions `x` on the line y = 0, at the last time, in kσ²/a.
     pub u: Vec<f64>,
     /// Cost of the grid from its start to `grid_until`.
     pub work: GridWork,
@@ -132,29 +138,44 @@ pub struct GridWork {
 pub struct DifferenceDocument {
     /// Difference of x0, over the times `t`, in σ.
     pub x0: f64,
+    /// Difference of y0, over the times `t`, in σ, if the tip is free to move across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<f64>,
     /// Difference of u, over the positions `x` at the last time, in kσ²/a.
     pub u: f64,
+}
+
+impl CompareFound {
+    /// y0 of both sides, if the tip is free to move across the scan.
+    fn across(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        let sides = [("closed_y0", &self.closed.y0), ("grid_y0", &self.grid.y0)];
+        sides.into_iter().filter_map(|(name, y0)| Some((name, y0.as_deref()?)))
+    }
 }
 
 impl Tabular for CompareFound {
     /// Both motions as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        vec![
+        let mut columns = vec![
             ("t", Column::of(&self.t)),
             ("closed", Column::of(&self.closed.x0)),
             ("grid", Column::of(&self.grid.x0)),
-        ]
+        ];
+        columns.extend(self.across().map(|(name, y0)| (name, Column::of(y0))));
+        columns
     }
 
     /// Motions and surfaces as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        vec![
+        let mut arrays = vec![
             ("t", Array::vector(&self.t)),
             ("x", Array::vector(&self.x)),
             ("closed_x0", Array::vector(&self.closed.x0)),
             ("closed_u", Array::vector(&self.closed.u)),
             ("grid_x0", Array::vector(&self.grid.x0)),
             ("grid_u", Array::vector(&self.grid.u)),
-        ]
+        ];
+        arrays.extend(self.across().map(|(name, y0)| (name, Array::vector(y0))));
+        arrays
     }
 }

@@ -133,6 +133,16 @@ impl Texture {
         self.parts.iter().map(part).sum()
     }
 
+    /// u0(x,y) and its derivatives in x and y.
+    #[must_use]
+    pub fn height_and_slopes(&self, x: f64, y: f64) -> [f64; 3] {
+        let part = |part: &Bicubic| part.jet(&part.patch([x, y], [true; 2], 0.0), [x, y]);
+        let add = |[u, along, across]: [f64; 3], jet: Jet| {
+            [u + jet[0][0], along + jet[1][0], across + jet[0][1]]
+        };
+        self.parts.iter().map(part).fold([0.0; 3], add)
+    }
+
     /// The field about a tip.
     pub(super) fn field(&self, at: [f64; 2], forward: [bool; 2], accuracy: f64) -> Field {
         let patches: Vec<Patch> =

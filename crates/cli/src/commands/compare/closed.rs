@@ -7,10 +7,10 @@ use crate::failure::Failure;
 use std::ops::ControlFlow;
 use stickslip::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
-use stickslip_tip::{Run, Scenario, Trajectory, run_observed};
+use stickslip_tip::{Run, Scenario, Trajectory, Work, run_observed};
 
 /// Steps between two readings of the clock: a step takes microseconds.
-const STEPS_PER_LOOK: u32 = 256;
+pub(super) const STEPS_PER_LOOK: u32 = 256;
 
 /// A finished run and its time.
 pub(super) struct Closed {
@@ -59,16 +59,22 @@ impl Closed {
         let u = surface.heights(end.min(trajectory.end()), x);
         Ok(ClosedDocument {
             x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
+            y0: None,
             u: u.map_err(|error| Failure::Run(error.to_string()))?.to_vec(),
-            work: ClosedWork {
-                memory: run.memory.into(),
-                steps: run.work.steps,
-                rejected: run.work.rejected,
-                newton_iterations: run.work.newton_iterations,
-                series: run.work.series,
-                switches: run.work.switches,
-                seconds: *seconds,
-            },
+            work: closed_work(&run.work, run.memory.into(), *seconds),
         })
+    }
+}
+
+/// The counts of a run with this memory that took this many seconds.
+pub(super) fn closed_work(work: &Work, memory: String, seconds: f64) -> ClosedWork {
+    ClosedWork {
+        memory,
+        steps: work.steps,
+        rejected: work.rejected,
+        newton_iterations: work.newton_iterations,
+        series: work.series,
+        switches: work.switches,
+        seconds,
     }
 }

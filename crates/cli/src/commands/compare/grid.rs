@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use stickslip::{GridDocument, GridName, GridWork};
 use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Path, Problem, Request, Run, Start, Stepping, Wider,
-    solve_observed,
+    Work, solve_observed,
 };
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 use stickslip_tip::{InitialSurface, Scenario, TipFunction};
@@ -17,9 +17,9 @@ use stickslip_tip::{InitialSurface, Scenario, TipFunction};
 /// The widest lattice spacing that is exact to round-off, in widths of the tip.
 const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
 /// Default spacing of the second-order grids, in widths of the tip.
-const SECOND_ORDER: f64 = 0.01;
+pub(super) const SECOND_ORDER: f64 = 0.01;
 /// Cells on either side in the support of the sinc, for errors at round-off.
-const SINC_HALF_WIDTH: usize = 80;
+pub(super) const SINC_HALF_WIDTH: usize = 80;
 /// Largest number of cells: eight vectors of this length are 190 MB.
 const MOST_CELLS: f64 = 3e6;
 /// Number of samples to which the motion is thinned; at most twice as many are kept.
@@ -27,19 +27,20 @@ const SAMPLES: usize = 2048;
 
 /// A checked discretisation.
 pub(super) struct Discretisation {
-    name: GridName,
+    pub(super) name: GridName,
     gaussians: Vec<Gaussian>,
     pub(super) reach: f64,
     pub(super) spacing: f64,
-    smallest_width: f64,
-    stepping: Stepping,
+    pub(super) smallest_width: f64,
+    pub(super) stepping: Stepping,
 }
 
 impl Discretisation {
+    /// `second_order` is the default spacing of the second-order grids, in widths of the tip.
     pub(super) fn of(
         arguments: &CompareArguments,
         usual: f64,
-        tip: &TipFunction,
+        (tip, second_order): (&TipFunction, f64),
     ) -> Result<Self, Failure> {
         let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
             let message = "never decays, and a grid takes f as 0 beyond a reach: compare with a tip that does, such \
@@ -56,7 +57,7 @@ impl Discretisation {
             .collect();
         let smallest_width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
         let spacing = arguments.spacing.unwrap_or(match name {
-            GridName::Uniform | GridName::Windowed => SECOND_ORDER * smallest_width,
+            GridName::Uniform | GridName::Windowed => second_order * smallest_width,
             GridName::Spectral => EXACT * smallest_width,
             GridName::Sinc => std::f64::consts::PI / tip.band(),
         });
@@ -160,7 +161,7 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
         let mut watch = Watch::new(asked);
         let run =
             solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
-                watch.step(t, x0)
+                watch.step(t, [x0, 0.0])
             });
         let seconds = watch.pace.seconds();
         match watch.failure {
@@ -169,14 +170,24 @@ pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
         }
     };
     let ((run, samples), seconds) = timed(once)?;
-    let work = GridWork {
-        steps: run.work.steps,
-        rejected: run.work.rejected,
-        right_hand_sides: run.work.right_hand_sides,
-        cells_updated: run.work.cells_updated,
-        seconds,
+    let grid = GridDocument {
+        x0: samples.column(0),
+        y0: None,
+        u: run.u,
+        work: grid_work(&run.work, seconds),
     };
-    Ok(Motion { t: samples.t, grid: GridDocument { x0: samples.x0, u: run.u, work } })
+    Ok(Motion { t: samples.t, grid })
+}
+
+/// The counts of a grid that took this many seconds.
+pub(super) fn grid_work(work: &Work, seconds: f64) -> GridWork {
+    GridWork {
+        steps: work.steps,
+        rejected: work.rejected,
+        right_hand_sides: work.right_hand_sides,
+        cells_updated: work.cells_updated,
+        seconds,
+    }
 }
 
 /// The part of the initial surface that is not a groove: noise and profile.
@@ -189,7 +200,7 @@ fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
 }
 
 /// The law in the types of the grid.
-fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
+pub(super) fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
     let stickslip_tip::Wider { depth_limit, healing_time, inertia, spring } =
         *scenario.model.wider();
     let velocity = scenario.velocity_at_start();
@@ -226,23 +237,23 @@ fn start<'a>(
 }
 
 /// Observer of every step: stores samples, shows progress, and ends work that would take too long.
-struct Watch {
+pub(super) struct Watch {
     progress: Progress,
-    pace: Pace,
-    samples: Samples,
-    failure: Option<Failure>,
+    pub(super) pace: Pace,
+    pub(super) samples: Samples,
+    pub(super) failure: Option<Failure>,
 }
 
 impl Watch {
-    fn new(asked: &Asked) -> Self {
+    pub(super) fn new(asked: &Asked) -> Self {
         let span = (asked.scenario.start_time(), asked.grid_until);
         let pace = Pace::new("--grid-until", span, asked.time_limit);
         let progress = Progress::new(span.0, span.1).at_every_call();
         Self { progress, pace, samples: Samples::default(), failure: None }
     }
 
-    fn step(&mut self, t: f64, x0: f64) -> ControlFlow<()> {
-        self.samples.take(t, x0);
+    pub(super) fn step(&mut self, t: f64, position: [f64; 2]) -> ControlFlow<()> {
+        self.samples.take(t, position);
         self.progress.reached(t);
         self.failure = self.pace.too_slow(t);
         if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -250,37 +261,42 @@ impl Watch {
 }
 
 /// The motion at every 2^n-th step, thinned as it grows.
-struct Samples {
-    t: Vec<f64>,
-    x0: Vec<f64>,
+pub(super) struct Samples {
+    pub(super) t: Vec<f64>,
+    position: Vec<[f64; 2]>,
     every: usize,
     seen: usize,
 }
 
 impl Default for Samples {
     fn default() -> Self {
-        Self { t: vec![], x0: vec![], every: 1, seen: 0 }
+        Self { t: vec![], position: vec![], every: 1, seen: 0 }
     }
 }
 
 impl Samples {
-    fn take(&mut self, t: f64, x0: f64) {
+    fn take(&mut self, t: f64, position: [f64; 2]) {
         self.seen += 1;
         if !self.seen.is_multiple_of(self.every) {
             return;
         }
         self.t.push(t);
-        self.x0.push(x0);
+        self.position.push(position);
         if self.t.len() == 2 * SAMPLES {
-            let second = |column: &[f64]| column.iter().skip(1).step_by(2).copied().collect();
-            (self.t, self.x0) = (second(&self.t), second(&self.x0));
+            self.t = self.t.iter().skip(1).step_by(2).copied().collect();
+            self.position = self.position.iter().skip(1).step_by(2).copied().collect();
             self.every *= 2;
         }
+    }
+
+    /// x0 or y0.
+    pub(super) fn column(&self, axis: usize) -> Vec<f64> {
+        self.position.iter().map(|position| position[axis]).collect()
     }
 }
 
 /// The error with the option that causes an error of the grid.
-fn explain(asked: &Asked, error: GridError) -> Failure {
+pub(super) fn explain(asked: &Asked, error: GridError) -> Failure {
     match error {
         GridError::Defect { .. } => {
             Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)

@@ -34,16 +34,19 @@ impl Product for SurfaceDocument {
 impl Product for CompareDocument {
     fn told(&self) -> Told {
         let CompareFound { closed, grid, max_difference, speedup, .. } = &self.answer;
+        let across = max_difference.y0.map(|y0| format!("{y0:.1e} in y0, "));
         let told = Told::new(format!(
-            "largest difference {:.1e} in x0, {:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
+            "largest difference {:.1e} in x0, {}{:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
              {} times as fast per unit of time",
             max_difference.x0,
+            across.unwrap_or_default(),
             max_difference.u,
             1e3 * closed.work.seconds,
             1e3 * grid.work.seconds,
             times(*speedup),
         ));
         told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+            .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
             .row(
                 "closed equation",

@@ -33,8 +33,8 @@ fn of_name(name: &str) -> Option<Dimension> {
         | "lag" | "wavelength" | "wavelength_error" | "wavelength_x" | "amplitude_x0"
         | "amplitude_x0_error" | "deviation" | "mean_l" | "deviation_l" | "memory_length"
         | "pitch" | "width" | "start_position" | "kick" | "noise_spacing" | "residue_re"
-        | "residue_im" | "grid" | "closed" | "grid_x0" | "closed_x0" | "radius" | "center_x"
-        | "center_y" => Dimension::LENGTH,
+        | "residue_im" | "grid" | "closed" | "grid_x0" | "closed_x0" | "grid_y0" | "closed_y0"
+        | "radius" | "center_x" | "center_y" => Dimension::LENGTH,
         "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "amplitude_u_error"
         | "least_depth_limit" | "depth_limit" | "noise" | "grid_u" | "closed_u" => {
             Dimension::HEIGHT

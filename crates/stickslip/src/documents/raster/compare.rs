@@ -112,6 +112,7 @@ impl RasterCompareFound {
         let pairs = compared.iter().flat_map(|line| line.closed_x0.iter().zip(&line.grid_x0));
         let max_difference = DifferenceDocument {
             x0: largest(pairs),
+            y0: None,
             u: largest(closed_u.iter().flatten().zip(grid.u.iter().flatten())),
         };
         let total = |of: fn(&Line) -> u64| lines.iter().map(of).sum();

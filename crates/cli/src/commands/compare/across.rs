@@ -1,0 +1,229 @@
+//! `stickslip compare --stiffness-across`: a tip that is free to move across the scan, against cells of a plane.
+
+use super::closed::{STEPS_PER_LOOK, closed_work};
+use super::grid::{Discretisation, Motion, SINC_HALF_WIDTH, Watch, explain, grid_work, wider};
+use super::pace::{Pace, stopped, timed};
+use super::{Asked, Sides};
+use crate::commands::progress::Progress;
+use crate::failure::{Failure, Typed};
+use stickslip::{ClosedDocument, GridDocument, GridName};
+use stickslip_grid::{
+    Gaussian, Path, PlaneMethod, PlaneProblem, PlaneRequest, PlaneStart, Product, Wider,
+    solve_plane,
+};
+use stickslip_surface::SurfaceAcross;
+use stickslip_tip::planar::{PlanarRunning, PlanarScenario, Step, Texture, Trajectory};
+use stickslip_tip::{Across, Layer, Start, TipFunction, Work};
+
+/// Default spacing of the second-order grid, in widths of the tip.
+const SECOND_ORDER: f64 = 0.05;
+/// Largest number of cells: 190 MB.
+const MOST_CELLS: f64 = 2.4e7;
+/// Distance in widths beyond which a Gaussian is taken as 0.
+const WIDTHS_OF_REACH: f64 = 8.85;
+
+/// Default spacing of the second-order grid, in widths of the tip.
+///
+/// # Errors
+/// A grid that is not one of a plane.
+pub(super) fn second_order(grid: GridName) -> Result<f64, Failure> {
+    if grid == GridName::Uniform {
+        let message = "is not available across the scan: take spectral or sinc (exact) or windowed (second order)";
+        return Err(Failure::input("--grid uniform", message));
+    }
+    Ok(SECOND_ORDER)
+}
+
+/// Both sides of a tip that is free to move across the scan; the surfaces are those on the line y = 0.
+pub(super) fn sides(asked: &Asked, scenario: &PlanarScenario) -> Result<Sides, Failure> {
+    let layers = scenario.along.model.tip().footprint().map_or(&[][..], |all| all.layers());
+    let products = layers.iter().map(product).collect::<Result<Vec<_>, Failure>>()?;
+    let cells = Cells::of(&asked.discretisation, layers);
+    let closed = Closed::of(asked, scenario)?;
+    let x = asked.positions(|t| closed.trajectory.x0(t))?;
+    cells.fit(x[x.len() - 1] - x[0], asked.range(|t| closed.trajectory.y0(t)))?;
+    let motion = on_cells(asked, scenario, (&products, &cells.method), &x)?;
+    let closed = closed.document(scenario, &motion.t, asked.grid_until, &x)?;
+    Ok(Sides { x, closed, motion })
+}
+
+/// A layer of the footprint in the types of the grid.
+fn product(layer: &Layer) -> Result<Product, Failure> {
+    let TipFunction::Gaussians(sum) = &layer.along else {
+        return Err(Failure::Run("the grid needs a footprint that is a sum of Gaussians".into()));
+    };
+    let of = |g: &stickslip_tip::Gaussian| Gaussian {
+        amplitude: g.amplitude,
+        center: g.center,
+        width: g.width,
+    };
+    let Across { center, width } = layer.across;
+    let twin = (center > 0.0).then_some(-center);
+    let bell = |center| Gaussian { amplitude: 1.0, center, width };
+    let across = std::iter::once(center).chain(twin).map(bell).collect();
+    Ok(Product { along: sum.terms().iter().map(of).collect(), across })
+}
+
+/// Cells of a plane: Δy is to the width across as Δx is to the width along.
+struct Cells {
+    method: PlaneMethod,
+    spacing: [f64; 2],
+    /// Distance across beyond which the tip leaves cells unchanged.
+    reach: f64,
+}
+
+impl Cells {
+    fn of(discretisation: &Discretisation, layers: &[Layer]) -> Self {
+        let Discretisation { name, spacing, smallest_width, .. } = *discretisation;
+        let widths = layers.iter().map(|layer| layer.across.width);
+        let ratio = widths.fold(f64::INFINITY, f64::min) / smallest_width;
+        let reaches = layers.iter().map(|l| l.across.center + WIDTHS_OF_REACH * l.across.width);
+        let reach = reaches.fold(0.0, f64::max);
+        let spacing = [spacing, ratio * spacing];
+        let method = match name {
+            GridName::Spectral => PlaneMethod::Spectral { spacing: spacing[0] / smallest_width },
+            GridName::Sinc => PlaneMethod::Sinc { spacing, half_width: SINC_HALF_WIDTH },
+            GridName::Windowed | GridName::Uniform => PlaneMethod::ThreePoint { spacing },
+        };
+        Self { method, spacing, reach }
+    }
+
+    /// Checks the number of cells over a length along the scan and the range of y0.
+    fn fit(&self, length: f64, (low, high): (f64, f64)) -> Result<(), Failure> {
+        let cells = length / self.spacing[0] * (high - low + 2.0 * self.reach) / self.spacing[1];
+        if cells <= MOST_CELLS {
+            return Ok(());
+        }
+        let coarser = self.spacing[0] * (cells / MOST_CELLS).sqrt();
+        Err(Failure::input(
+            format!("--spacing {}", Typed(self.spacing[0])),
+            format!(
+                "would make {cells:.1e} cells, more than fit in memory; take {coarser:.1e} or more, or a \
+                 smaller --grid-until"
+            ),
+        ))
+    }
+}
+
+/// A finished run of the closed equation and its time.
+struct Closed {
+    trajectory: Trajectory,
+    work: Work,
+    seconds: f64,
+}
+
+impl Closed {
+    fn of(asked: &Asked, scenario: &PlanarScenario) -> Result<Self, Failure> {
+        let ((steps, work), seconds) = timed(|| steps(asked, scenario))?;
+        let along = &scenario.along;
+        let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
+        Ok(Self { trajectory, work, seconds })
+    }
+
+    /// The document: x0 and y0 at the times t, u at the positions x on the line y = 0 at the time `end`.
+    fn document(
+        &self,
+        scenario: &PlanarScenario,
+        t: &[f64],
+        end: f64,
+        x: &[f64],
+    ) -> Result<ClosedDocument, Failure> {
+        let Self { trajectory, work, seconds } = self;
+        let failed = |error: String| Failure::Run(error);
+        let surface = SurfaceAcross::new(scenario, trajectory);
+        let surface = surface.map_err(|error| failed(error.to_string()))?;
+        let u = surface.image(end.min(trajectory.end()), x, &[0.0]);
+        Ok(ClosedDocument {
+            x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
+            y0: Some(t.iter().map(|t| trajectory.y0(*t)).collect()),
+            u: u.map_err(|error| failed(error.to_string()))?.into_iter().collect(),
+            work: closed_work(work, "modes".into(), *seconds),
+        })
+    }
+}
+
+/// The steps of a run with their counts, and its time in seconds.
+fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<((Vec<Step>, Work), f64), Failure> {
+    let refused = |error| asked.question.refused_across(error);
+    let span = (scenario.along.start_time(), scenario.along.until);
+    let pace = Pace::new("--until", span, asked.time_limit);
+    let mut progress = Progress::new(span.0, span.1);
+    let mut running = PlanarRunning::new(scenario).map_err(refused)?;
+    let mut steps = vec![];
+    while let Some(step) = running.step().map_err(refused)? {
+        progress.reached(step.end());
+        steps.push(step);
+        let is_time_to_look = steps.len().is_multiple_of(STEPS_PER_LOOK as usize);
+        let failure = if is_time_to_look { pace.too_slow(step.end()) } else { stopped() };
+        failure.map_or(Ok(()), Err)?;
+    }
+    Ok(((steps, running.work()), pace.seconds()))
+}
+
+/// Runs the grid from the scenario's initial condition.
+fn on_cells(
+    asked: &Asked,
+    scenario: &PlanarScenario,
+    (products, method): (&[Product], &PlaneMethod),
+    x: &[f64],
+) -> Result<Motion, Failure> {
+    let PlanarScenario { along, stiffness_across, force_across, .. } = scenario;
+    let model = (along.model.alpha(), along.model.r());
+    let support = along.support();
+    let position = |t: f64| support.position(t);
+    let knots = along.path.as_ref().map_or(&[][..], |path| path.knots().0);
+    let path = along.path.is_some().then_some(Path { position: &position, knots });
+    let law = wider(along, path);
+    let texture = scenario.texture().map_err(|error| Failure::Run(error.to_string()))?;
+    let start = start(scenario, &law, products, texture);
+    let problem = PlaneProblem {
+        model,
+        stiffness_across: *stiffness_across,
+        line: 0.0,
+        products,
+        wider: law,
+        force: &|t| [along.force.value(t), force_across.value(t)],
+        start,
+    };
+    let points: Vec<[f64; 2]> = x.iter().map(|x| [*x, 0.0]).collect();
+    let request = PlaneRequest { times: &[asked.grid_until], points: &points };
+    let ((run, samples), seconds) = timed(|| {
+        let mut watch = Watch::new(asked);
+        let stepping = &asked.discretisation.stepping;
+        let run = solve_plane(&problem, method, stepping, &request, &mut |t, at| watch.step(t, at));
+        let seconds = watch.pace.seconds();
+        match watch.failure {
+            Some(failure) => Err(failure),
+            None => Ok(((run.map_err(|error| explain(asked, error))?, watch.samples), seconds)),
+        }
+    })?;
+    let work = grid_work(&run.work, seconds);
+    let [x0, y0] = [0, 1].map(|axis| samples.column(axis));
+    Ok(Motion { t: samples.t, grid: GridDocument { x0, y0: Some(y0), u: run.u, work } })
+}
+
+/// The initial condition for the grid. Texture and force are those of the closed equation's data.
+fn start<'a>(
+    scenario: &PlanarScenario,
+    law: &Wider,
+    products: &'a [Product],
+    texture: Texture,
+) -> PlaneStart<'a> {
+    let along = &scenario.along;
+    let start = match along.start {
+        Start::Steady => {
+            let model = (along.model.alpha(), along.model.r());
+            PlaneStart::steady(law, model, products, along.start_position)
+        }
+        Start::Flat => PlaneStart::flat(along.start_time(), [along.start_position, 0.0]),
+    };
+    let start = start.displaced([-along.kick, scenario.kick_across]);
+    if texture.is_flat() {
+        return start;
+    }
+    let (time, position) = (start.time(), start.position());
+    PlaneStart::new(time, position, move |at| {
+        let (carved, texture) = (start.surface(at), texture.height_and_slopes(at[0], at[1]));
+        [0, 1, 2].map(|i| carved[i] + texture[i])
+    })
+}

@@ -4,7 +4,7 @@ use super::repeat::Witness;
 use super::spread::{Spread, places};
 use std::iter::Peekable;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{InitialSurface, Model, RunError, Step, Support, Trajectory};
+use stickslip_tip::{InitialSurface, Model, RunError, Step, Support, Trajectory, planar};
 
 /// Smallest absolute error of l and of heights of order one at any tolerance,
 const ROUND_OFF: f64 = 1e-12;
@@ -52,6 +52,8 @@ pub struct Sample {
     pub l: f64,
     /// x0(t), in σ.
     pub x0: f64,
+    /// y0(t), in σ, of a run in two coordinates.
+    pub y0: Option<f64>,
 }
 
 /// Statistics of compared samples.
@@ -106,12 +108,25 @@ pub(super) fn compare_l(
     reference: &Trajectory,
     allowed: f64,
 ) -> Judgement {
-    let mut judgement = Judgement::new(reference.start(), allowed);
-    let mut compare = |t: f64| {
-        judgement.take(difference_in_l(t, trajectory.followed(t), reference.followed(t), allowed));
-    };
     let end = trajectory.end().min(reference.end());
-    for step in trajectory.steps().iter().chain(reference.steps()) {
+    let steps = trajectory.steps().iter().chain(reference.steps());
+    let values = |t: f64| [trajectory.followed(t), reference.followed(t)];
+    compare_all(steps, (reference.start(), end), values, allowed)
+}
+
+/// Comparison of a value of two runs with these steps: the claimed one and that of the second run.
+pub(super) fn compare_all<'a>(
+    steps: impl Iterator<Item = &'a Step>,
+    (start, end): (f64, f64),
+    values: impl Fn(f64) -> [f64; 2],
+    allowed: f64,
+) -> Judgement {
+    let mut judgement = Judgement::new(start, allowed);
+    let mut compare = |t: f64| {
+        let [claimed, other] = values(t);
+        judgement.take(difference_in_l(t, claimed, other, allowed));
+    };
+    for step in steps {
         for part in [0.0, 0.25, 0.5, 0.75] {
             let t = step.t + part * step.h;
             if t <= end {
@@ -132,6 +147,8 @@ pub(super) struct AgainstSamples<F, I: Iterator> {
     allowed: f64,
     ahead: Option<Peekable<I>>,
     judgement: Judgement,
+    /// That of y0.
+    across: Judgement,
     found: ComparedSamples,
 }
 
@@ -144,23 +161,50 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
     ) -> Self {
         let judgement = Judgement::new(start, allowed);
         let found = ComparedSamples::default();
-        Self { support, samples, start, until, allowed, ahead: None, judgement, found }
+        let across = judgement;
+        Self { support, samples, start, until, allowed, ahead: None, judgement, across, found }
     }
 
     pub(super) fn finish(self) -> (Judgement, ComparedSamples) {
         (self.judgement, self.found)
     }
 
-    fn compare(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
+    /// The judgement of y0, after that of l and x0.
+    pub(super) fn finish_across(self) -> ([Judgement; 2], ComparedSamples) {
+        ([self.judgement, self.across], self.found)
+    }
+
+    /// Compares the samples before a time with a step in two coordinates.
+    pub(super) fn see_across(&mut self, step: &planar::Step, before: f64) {
+        self.compare(&step.along, |t| Some(step.y0(t)), |t| t < before);
+    }
+
+    fn compare(
+        &mut self,
+        step: &Step,
+        y0: impl Fn(f64) -> Option<f64>,
+        is_due: impl Fn(f64) -> bool,
+    ) {
         while let Some(sample) = self.ahead.as_mut().and_then(|a| a.next_if(|s| is_due(s.t))) {
             let (in_l, in_x0) = self.differences(&sample, step);
             let x0_is_wrong = !in_x0.is_allowed() && in_x0.is_worse(&in_l);
             let difference = if x0_is_wrong { in_x0 } else { in_l };
-            if !difference.is_allowed() {
+            // A missing y0 is as wrong as a NaN.
+            let in_y = y0(sample.t).map(|y0| {
+                let claimed = sample.y0.unwrap_or(f64::NAN);
+                difference_in_l(sample.t, claimed, y0, self.allowed)
+            });
+            if !(difference.is_allowed() && in_y.is_none_or(|in_y| in_y.is_allowed())) {
                 self.found.wrong += 1;
                 self.found.first_wrong.get_or_insert(self.found.number);
             }
-            if self.judgement.take(difference) {
+            let is_worst = self.judgement.take(difference);
+            let is_worst_across = in_y.is_some_and(|in_y| self.across.take(in_y));
+            // Of two coordinates the line is that of the worse.
+            let across_is_worse =
+                in_y.is_some() && self.across.worst.is_worse(&self.judgement.worst);
+            let is_reported = if across_is_worse { is_worst_across } else { is_worst };
+            if is_reported {
                 self.found.worst = self.found.number;
             }
             self.found.number += 1;
@@ -169,7 +213,7 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
 
     /// Differences in l, and in x0 = rt - r - l, whose round-off grows with the distance of the tip.
     fn differences(&self, sample: &Sample, step: &Step) -> (Difference, Difference) {
-        let Sample { t, l, x0 } = *sample;
+        let Sample { t, l, x0, .. } = *sample;
         let in_l = difference_in_l(t, l, step.followed(&self.support, t), self.allowed);
         let rounding = DIGITS * self.support.position(t).abs();
         let largest = (x0 - step.position(&self.support, t)).abs();
@@ -181,17 +225,18 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> Witness for AgainstSamples<F, I> 
     fn begin(&mut self) {
         self.ahead = Some((self.samples)().peekable());
         self.judgement = Judgement::new(self.start, self.allowed);
+        self.across = self.judgement;
         self.found = ComparedSamples::default();
     }
 
     fn see(&mut self, step: &Step) -> Result<(), RunError> {
-        self.compare(step, |t| t < step.end());
+        self.compare(step, |_| None, |t| t < step.end());
         Ok(())
     }
 
     fn end(&mut self, last: &Step) {
         let until = self.until;
-        self.compare(last, |t| t <= until);
+        self.compare(last, |_| None, |t| t <= until);
     }
 }
 

@@ -63,6 +63,20 @@ impl Probes {
         }
     }
 
+    /// Values at all times before one of them.
+    pub(super) fn probe_before(&mut self, before: f64, value: impl Fn(f64) -> f64) {
+        while let Some(t) = self.due().filter(|t| *t < before) {
+            self.l.push(value(t));
+        }
+    }
+
+    /// The size of the motion: the range of l.
+    pub(super) fn range(&self) -> f64 {
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = self.l.iter().fold(ends, |(low, high), l| (low.min(*l), high.max(*l)));
+        high - low
+    }
+
     fn windows(&self) -> std::slice::Chunks<'_, f64> {
         self.l.chunks(TIMES_PER_WINDOW + 1)
     }
@@ -86,15 +100,21 @@ impl Witness for Probes {
 /// The growth from two runs to the same tolerance, one of which is shifted by `shift` in l at the start or some time
 /// after it.
 pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
-    let (low, high) = one
-        .l
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), l| (low.min(*l), high.max(*l)));
+    growth_within(one, twin, shift, (tolerance, one.range()))
+}
+
+/// The same for a motion of this size.
+pub(super) fn growth_within(
+    one: &Probes,
+    twin: &Probes,
+    shift: f64,
+    (tolerance, size): (f64, f64),
+) -> Growth {
     let largest =
         |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let envelope: Vec<f64> = one.windows().zip(twin.windows()).map(largest).collect();
     let amplification = envelope.iter().copied().fold(0.0, f64::max) / shift;
-    let meaningful = ERRORS * tolerance..SMALL * (high - low).max(shift / SMALL);
+    let meaningful = ERRORS * tolerance..SMALL * size.max(shift / SMALL);
     let points: Vec<(f64, f64)> = envelope
         .iter()
         .enumerate()

@@ -1,11 +1,13 @@
 //! Verification of a run: it is repeated with another memory and a tighter tolerance, and a perturbed run measures
-//! the growth of errors.
+//! the growth of errors. A run in two coordinates is repeated on a lattice, without exponentials and without series.
 
+mod across;
 mod compare;
 mod growth;
 mod repeat;
 mod spread;
 
+pub use across::{verify_across, verify_samples_across};
 pub use compare::{ComparedSamples, Difference, Sample};
 pub use growth::Growth;
 
@@ -15,6 +17,7 @@ use repeat::{Kept, Repetition, Witness, another};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use stickslip_surface::SurfaceError;
+use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{
     InitialSurface, MemoryChoice, Pulse, RunError, Scenario, TOLERANCES, Trajectory,
 };
@@ -40,9 +43,11 @@ pub struct Verification {
     pub tolerance: f64,
     /// Difference in l, over the whole run.
     pub l: Difference,
-    /// Difference of the final surface; `None` without a dense history.
+    /// Difference in y0, over the whole run; `None` of a run in one coordinate.
+    pub y: Option<Difference>,
+    /// Difference of the final surface; `None` without a dense history, and of a run in two coordinates.
     pub u: Option<Difference>,
-    /// The first time at which the difference of l exceeds its limit.
+    /// The first time at which the difference of l or y0 exceeds its limit.
     pub trusted_until: Option<f64>,
     /// Statistics of the compared samples; `None` with a dense history.
     pub samples: Option<ComparedSamples>,
@@ -56,6 +61,9 @@ pub enum VerificationError {
     /// The run could not be repeated.
     #[error("the run could not be repeated: {0}")]
     Run(#[from] RunError),
+    /// The run in two coordinates could not be repeated.
+    #[error("the run could not be repeated: {0}")]
+    Across(#[from] PlanarError),
     /// The surface could not be computed.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
@@ -68,7 +76,8 @@ impl Verification {
     /// Whether all differences are within their limits.
     #[must_use]
     pub fn is_kept(&self) -> bool {
-        self.l.is_allowed() && self.u.is_none_or(|u| u.is_allowed())
+        let others = [self.y, self.u].into_iter().flatten();
+        self.l.is_allowed() && others.fold(true, |all, one| all && one.is_allowed())
     }
 }
 
@@ -169,7 +178,7 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
     ) -> Verification {
         let Judgement { worst: l, trusted_until } = *judgement;
         let tolerance = self.scenario.tolerance;
-        Verification { memory, tolerance, l, u, trusted_until, samples, growth }
+        Verification { memory, tolerance, l, y: None, u, trusted_until, samples, growth }
     }
 }
 
@@ -198,10 +207,13 @@ fn twin(scenario: &Scenario, shift: f64) -> Scenario {
 
 /// The tightest tolerance that can be requested, at best a hundredth.
 fn tighter(scenario: &Scenario) -> f64 {
-    let asked = scenario.tolerance;
+    let can_be_met = |tolerance| Scenario { tolerance, ..scenario.clone() }.validate().is_ok();
+    tightest(scenario.tolerance, can_be_met)
+}
+
+/// The tightest of some tolerances that can be met, at best a hundredth; the tolerance itself if there is none.
+fn tightest(asked: f64, can_be_met: impl Fn(f64) -> bool) -> f64 {
     let factors = [TIGHTER, 30.0, 10.0, 3.0];
-    let tried = factors.map(|factor| (asked / factor).max(TOLERANCES.0)).into_iter();
-    let can_be_met =
-        |tolerance: &f64| Scenario { tolerance: *tolerance, ..scenario.clone() }.validate().is_ok();
-    tried.filter(|tolerance| *tolerance < asked).find(can_be_met).unwrap_or(asked)
+    let mut tried = factors.into_iter().map(|factor| (asked / factor).max(TOLERANCES.0));
+    tried.find(|tolerance| *tolerance < asked && can_be_met(*tolerance)).unwrap_or(asked)
 }

@@ -121,7 +121,7 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
         return Err("samples: the columns do not match each other or the run".into());
     }
     let rows = t.iter().zip(l).zip(x0);
-    let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0 }).collect();
+    let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0, y0: None }).collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
     Ok(samples)
 }

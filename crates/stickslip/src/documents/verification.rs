@@ -17,10 +17,13 @@ pub struct VerificationDocument {
     /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, difference of
     /// l and x0 at its samples.
     pub l: LargestDifferenceDocument,
-    /// Difference of the surface at the end; null for a run without its history. The limit is the effect of an
+    /// Difference of y0, with the same limit, of a tip that is free to move across the scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y0: Option<LargestDifferenceDocument>,
+    /// Difference of the surface at the end; null for a run without its history, and in two coordinates. The limit is the effect of an
     /// allowed error of x0.
     pub u: Option<LargestDifferenceDocument>,
-    /// The first time, in Γ/k, at which the difference of l exceeds its limit; null if it never does.
+    /// The first time, in Γ/k, at which the difference of l or y0 exceeds its limit; null if it never does.
     pub trusted_until: Option<f64>,
     /// Largest amplification of a small initial error during the run.
     pub amplification: f64,
@@ -33,9 +36,9 @@ pub struct VerificationDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LargestDifferenceDocument {
-    /// The difference: of l in σ, of u in kσ²/a.
+    /// The difference: of l and y0 in σ, of u in kσ²/a.
     pub largest: f64,
-    /// Time (of l, in Γ/k) or position (of u, in σ).
+    /// Time (of l and y0, in Γ/k) or position (of u, in σ).
     pub at: f64,
     /// The limit at this place, in the unit of the difference.
     pub allowed: f64,
@@ -79,6 +82,7 @@ impl From<&Verification> for VerificationDocument {
             memory: found.memory.into(),
             tolerance: found.tolerance,
             l: (&found.l).into(),
+            y0: found.y.as_ref().map(Into::into),
             u: found.u.as_ref().map(Into::into),
             trusted_until: found.trusted_until,
             amplification: found.growth.amplification,

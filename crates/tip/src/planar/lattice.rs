@@ -80,6 +80,16 @@ impl Lattice {
         self.kept - self.reach
     }
 
+    /// Distance of the tip behind its farthest point.
+    pub(super) fn behind(&self) -> f64 {
+        self.farthest
+    }
+
+    /// Number of groups of lanes that contain the layers.
+    pub(super) fn groups(&self) -> usize {
+        self.groups
+    }
+
     /// Number of real numbers in the lattice.
     pub(super) fn size(&self) -> usize {
         self.nodes.len() * LANES

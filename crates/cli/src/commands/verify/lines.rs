@@ -113,6 +113,7 @@ impl Samples<'_> {
             t: line.t,
             l: line.l.or(line.lag).unwrap_or(line.x0),
             x0: line.x0,
+            y0: line.y0,
         })
     }
 

@@ -85,6 +85,11 @@ fn retreat(along: &Scenario) -> Retreat {
     if is_kicked || along.model.wider().inertia.is_some() { Retreat::Swing } else { Retreat::Small }
 }
 
+/// Accuracy of exponentials and layers that a run needs.
+fn accuracy(along: &Scenario) -> f64 {
+    accuracy_needed(&along.model, along.tolerance).max(FINEST)
+}
+
 /// Whether any force other than that of its own groove may drive the tip back.
 fn may_go_back(PlanarScenario { along, force_across, .. }: &PlanarScenario) -> bool {
     let is_pushed = [&along.force, force_across].iter().any(|force| force.begins() < f64::INFINITY);
@@ -97,19 +102,34 @@ impl<'a> Integrator<'a> {
         scenario: &'a PlanarScenario,
         earlier: Option<&'a EarlierGrooves>,
     ) -> Result<Self, PlanarError> {
+        let (tip, _) = scenario.footprint()?;
+        let along = &scenario.along;
+        let modes = Modes::new(Fit::cached(tip, accuracy(along), retreat(along))?);
+        let goes_back = earlier.is_some() || may_go_back(scenario);
+        let lattice = if goes_back { Lattice::new(tip) } else { None };
+        Self::with(scenario, Past::new(modes, lattice), earlier)
+    }
+
+    /// The integrator without exponentials, and so without series.
+    pub(super) fn of_lattice(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
+        let lattice = Lattice::new(scenario.footprint()?.0).ok_or(FitError::NeverFades)?;
+        Self::with(scenario, Past::of_lattice(lattice), None)
+    }
+
+    fn with(
+        scenario: &'a PlanarScenario,
+        past: Past,
+        earlier: Option<&'a EarlierGrooves>,
+    ) -> Result<Self, PlanarError> {
         let (along, footprint) = (&scenario.along, scenario.footprint()?);
         let model = &along.model;
-        let accuracy = accuracy_needed(model, along.tolerance).max(FINEST);
-        let modes = Modes::new(Fit::cached(footprint.0, accuracy, retreat(along))?);
-        let goes_back = earlier.is_some() || may_go_back(scenario);
-        let lattice = if goes_back { Lattice::new(footprint.0) } else { None };
         let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
         let control = Control::new(along.tolerance);
         let target = control.target();
         let texture = scenario.texture()?;
         let (x, y) = (along.start_position - along.kick, scenario.kick_across);
         let mut integrator = Self {
-            frame: Frame::new(footprint.1.width, reach, accuracy),
+            frame: Frame::new(footprint.1.width, reach, accuracy(along)),
             chain: Chain::new(length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT)),
             visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
             switch: Switch::new(model.wider().inertia.is_some()),
@@ -122,7 +142,7 @@ impl<'a> Integrator<'a> {
             field: texture.field([x, y], [true; 2], target),
             texture,
             earlier,
-            past: Past::new(modes, lattice),
+            past,
             control,
             t: along.start_time(),
             start: along.start_time(),

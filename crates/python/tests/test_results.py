@@ -148,7 +148,7 @@ def test_many_runs_are_those_of_run_within_their_tolerance():
     assert np.array_equal(stickslip.run_many(questions[1:2])[0].x0, together[1].x0)
     with pytest.raises(ValueError, match=r"run 1: alpha=-1: "):
         stickslip.run_many([questions[0], {**questions[0], "alpha": -1}])
-    with pytest.raises(ValueError, match="run 0: missing: until"):
+    with pytest.raises(ValueError, match="run 0: until: is needed"):
         stickslip.run_many([{"alpha": 1, "r": 1}])
     with pytest.raises(TypeError):
         stickslip.run_many([{"alfa": 1}])

@@ -50,6 +50,7 @@ mod terminal;
 mod tip_command;
 mod units_command;
 mod verification;
+mod verified_across;
 mod verified_lines;
 mod walkers;
 mod walls;

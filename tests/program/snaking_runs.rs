@@ -216,7 +216,6 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
         ("--kick-across 0.1", ["--kick-across 0.1", "--stiffness-across"]),
         ("--width-y 2", ["--width-y 2", "--stiffness-across"]),
         ("--stiffness-across 1 --tip bessel", ["--width-y", "give the width"]),
-        ("--stiffness-across 1 --verify", ["--verify", "not available"]),
         (
             "--noise 0.1 --noise-spacing-across 1",
             ["--noise-spacing-across 1", "--stiffness-across"],
@@ -232,7 +231,6 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
     folder.refuses("surface run.json --far-behind", &["--far-behind", "across"]);
     folder
         .refuses("surface run.json --y-range -1:1 --width-y 1", &["--width-y", "part of the run"]);
-    folder.refuses("verify run.json", &["RUN run.json", "two coordinates"]);
     let remarks = said(&folder.stickslip(&format!("{line} --stiffness-across 1 -o other.json")));
     assert!(remarks.contains("steady"), "{remarks}");
 }

@@ -259,7 +259,7 @@ impl Iterator for Made<'_> {
         }
         let t = self.t;
         self.t += 1.0;
-        Some(Sample { t, l: self.step.l(self.r, t), x0: self.step.x0(self.r, t) })
+        Some(Sample { t, l: self.step.l(self.r, t), x0: self.step.x0(self.r, t), y0: None })
     }
 }
 

@@ -1,5 +1,6 @@
 //! `stickslip verify`, and `stickslip run --verify`.
 
+pub(in crate::commands) mod across;
 pub(in crate::commands) mod claims;
 mod lines;
 
@@ -11,10 +12,12 @@ use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::interrupt::Interrupt;
+use claims::{Judged, Told};
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip::{
-    ClaimDocument, LinesDocument, RunDocument, Unusable, VerificationDocument, VerifyDocument,
+    ClaimDocument, LinesDocument, RunDocument, SampleLine, Unusable, VerificationDocument,
+    VerifyDocument,
 };
 use stickslip_tip::{Scenario, Trajectory};
 use stickslip_verify::{
@@ -49,8 +52,7 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     };
     let unusable = |error: Unusable| damaged(error.to_string());
     if run.parameters.stiffness_across.is_some() {
-        let message = "the tip moves in two coordinates: such runs cannot be verified; run it again with another --tolerance";
-        return Err(Failure::input(format!("RUN {}", arguments.run.display()), message));
+        return across::of_document(run, arguments);
     }
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
@@ -58,19 +60,36 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         run.history.is_some().then(|| run.trajectory().map_err(unusable)).transpose()?;
     let samples = match &trajectory {
         Some(trajectory) => {
-            is_of(&scenario, trajectory).map_err(damaged)?;
+            is_of(&scenario, (trajectory.start(), trajectory.end())).map_err(damaged)?;
             samples(&run, &scenario).map_err(damaged)?
         }
         None => samples_alone(&run, &scenario).map_err(damaged)?,
     };
-    begins_as(&scenario, trajectory.as_ref(), &samples).map_err(damaged)?;
+    let first = trajectory.as_ref().map(|trajectory| trajectory.x0(trajectory.start()));
+    begins_as(&scenario, first, &samples).map_err(damaged)?;
     let job = job(&arguments.outlet)?;
     let verification = match &trajectory {
         Some(trajectory) => of_history(&scenario, memory, trajectory)?,
         None => of_samples(&scenario, memory, &samples)?,
     };
-    let differences = claims::of_document(&run, &scenario, trajectory.as_ref())?;
-    let failure = failure_of(broken_in(&verification, scenario.tolerance), &differences);
+    let (wider, support) = (*scenario.model.wider(), scenario.support());
+    let told = trajectory.as_ref().map(|along| {
+        let law = (&support, &wider);
+        (along, move |i: usize, t: f64| SampleLine::of(&along.steps()[i], law, t))
+    });
+    let told = told.as_ref().map(|(along, sample)| Told { along, sample });
+    let differences = claims::of_document(&run, Judged::Along(&scenario), told)?;
+    finish(run, job, verification, differences)
+}
+
+/// Writes the result, and says what is wrong.
+fn finish(
+    run: RunDocument,
+    job: Job,
+    verification: VerificationDocument,
+    differences: Vec<ClaimDocument>,
+) -> Result<(), Failure> {
+    let failure = failure_of(broken_in(&verification, run.parameters.tolerance), &differences);
     let job = job.silent_if(failure.is_some());
     job.write(VerifyDocument::new(run.parameters, verification, differences, None))?;
     failure.map_or(Ok(()), Err)
@@ -83,14 +102,10 @@ fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<F
 }
 
 /// Whether the motion begins as the parameters require; otherwise a repetition is useless.
-fn begins_as(
-    scenario: &Scenario,
-    trajectory: Option<&Trajectory>,
-    samples: &[Sample],
-) -> Result<(), String> {
+fn begins_as(scenario: &Scenario, first: Option<f64>, samples: &[Sample]) -> Result<(), String> {
     let (start, wanted) = (scenario.start_time(), scenario.start_position - scenario.kick);
-    let first = samples.first().filter(|sample| sample.t <= start).map(|sample| sample.x0);
-    let Some(found) = trajectory.map(|t| t.x0(t.start())).or(first) else { return Ok(()) };
+    let sample = samples.first().filter(|sample| sample.t <= start).map(|sample| sample.x0);
+    let Some(found) = first.or(sample) else { return Ok(()) };
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance + 1e-9 * (1.0 + wanted.abs());
     if (found - wanted).abs() <= allowed {
         return Ok(());
@@ -99,8 +114,7 @@ fn begins_as(
 }
 
 /// Whether the history begins and ends as the scenario does.
-fn is_of(scenario: &Scenario, trajectory: &Trajectory) -> Result<(), String> {
-    let (start, end) = (trajectory.start(), trajectory.end());
+fn is_of(scenario: &Scenario, (start, end): (f64, f64)) -> Result<(), String> {
     let same = (start - scenario.start_time()).abs() <= 1e-9 * start.abs().max(1.0);
     if same && end <= scenario.until && end > start {
         return Ok(());
@@ -120,8 +134,10 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     if l.len() != t.len() || !run.samples.are_even() || t.iter().any(|t| !span.contains(t)) {
         return Err("samples: the columns do not match each other or the run".into());
     }
-    let rows = t.iter().zip(l).zip(x0);
-    let mut samples: Vec<_> = rows.map(|((&t, &l), &x0)| Sample { t, l, x0, y0: None }).collect();
+    let y0 = |i: usize| run.samples.y0.as_ref().map(|y0| y0[i]);
+    let rows = t.iter().zip(l).zip(x0).enumerate();
+    let sample = |(i, ((&t, &l), &x0))| Sample { t, l, x0, y0: y0(i) };
+    let mut samples: Vec<_> = rows.map(sample).collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
     Ok(samples)
 }
@@ -186,7 +202,11 @@ pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
         return String::new();
     }
     let (memory, largest, allowed) = (&found.memory, found.l.largest, found.l.allowed);
-    format!("; verified with {memory}: l is off by {largest:.1e} at most, {allowed:.1e} is allowed")
+    let across =
+        found.y0.as_ref().map_or(String::new(), |y0| format!(", y0 by {:.1e}", y0.largest));
+    format!(
+        "; verified with {memory}: l is off by {largest:.1e} at most{across}, {allowed:.1e} is allowed"
+    )
 }
 
 /// The message and the exit status for a run that misses its tolerance.
@@ -207,18 +227,24 @@ fn said_of(
     if found.kept {
         return None;
     }
-    let l = &found.l;
+    let (l, y0) = (&found.l, found.y0.as_ref());
+    let y0 = y0.filter(|y0| !(y0.largest <= y0.allowed) && l.largest <= l.allowed);
+    let worst = y0.unwrap_or(l);
     let difference = match &found.u {
         Some(u) if l.largest <= l.allowed => {
             format!("u is off by {:.1e} at x = {}, {:.1e} is allowed", u.largest, u.at, u.allowed)
         }
         _ => {
             // Of a history, l alone; samples say x0 too.
-            let what = if found.u.is_some() { "l" } else { "l or x0" };
+            let what = match y0 {
+                Some(_) => "y0",
+                None if found.u.is_some() => "l",
+                None => "l or x0",
+            };
             let on_line = lines.map_or(String::new(), |lines| format!(", line {}", lines.line));
             format!(
                 "{what} is off by {:.1e} at t = {}{on_line}, {TOLERANCES_ALLOWED} tolerances of {tolerance:e} are allowed",
-                l.largest, l.at
+                worst.largest, worst.at
             )
         }
     };

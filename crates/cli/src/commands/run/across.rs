@@ -5,7 +5,7 @@ use super::record::Sink;
 use super::write::{Target, Written};
 use crate::arguments::RunArguments;
 use crate::commands::ask::refusal;
-use crate::commands::{job, told};
+use crate::commands::{job, told, verify};
 use crate::failure::Failure;
 use crate::host;
 use crate::made::pictured;
@@ -42,6 +42,7 @@ pub(super) fn write(
     if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
         end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
     }
+    let mut failure = None;
     match target {
         Target::Lines(fields) => {
             let Sink::Lines(mut stream) = integrated.record.sink else {
@@ -59,7 +60,14 @@ pub(super) fn write(
             let reached = signal.map(|_| end.end);
             let samples = &integrated.record.samples;
             let kept = history.clone().filter(|_| order.history);
-            let document = order.parameters.clone().document(samples, kept, end);
+            let mut document = order.parameters.clone().document(samples, kept, end);
+            let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
+            // What was computed is written even if a signal ends its verification.
+            let found = asked.map(|t| verify::across::of_history(scenario, t)).transpose();
+            document.verification = found.as_ref().ok().cloned().flatten();
+            // From here on nothing is computed that would be lost: a signal ends the program.
+            let interrupt = integrated.interrupt;
+            let _keeps = interrupt.signal().is_some().then_some(interrupt);
             let mut document = document.in_units(order.scales.as_ref());
             let told = told::of_across(&document).in_units(document.physical.as_ref());
             let figure = job.write_told(&Written { document: &document, reached }, &told)?;
@@ -70,9 +78,15 @@ pub(super) fn write(
                 document.history.take_if(|_| !order.history);
             }
             host::give(|| told.of(pictured(document)));
+            failure = match found {
+                Err(failure) => Some(failure),
+                Ok(found) => {
+                    found.and_then(|found| verify::broken(&found, scenario.along.tolerance))
+                }
+            };
         }
     }
-    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+    signal.map(Failure::Interrupted).or(failure).map_or(Ok(()), Err)
 }
 
 /// The result of the run.

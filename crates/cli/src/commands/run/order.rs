@@ -60,7 +60,6 @@ pub(super) fn order(
 /// Rejects options that exclude each other.
 fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     judge_files(arguments)?;
-    judge_across(&order, arguments)?;
     if order.format != RunFormat::Jsonl {
         return Ok(order);
     }
@@ -85,19 +84,6 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
         ));
     }
     Ok(order)
-}
-
-/// Rejects options that are not available for a tip that is free to move across the scan.
-fn judge_across(order: &Order, arguments: &RunArguments) -> Result<(), Failure> {
-    let unavailable = [("--verify", arguments.verify)];
-    let is_across = order.parameters.stiffness_across.is_some();
-    match unavailable.into_iter().find(|(_, given)| is_across && *given) {
-        None => Ok(()),
-        Some((option, _)) => Err(Failure::input(
-            option,
-            "is not available with --stiffness-across: leave one of them out, or write to a .json, .csv or .npz",
-        )),
-    }
 }
 
 /// The files that the command reads.

@@ -44,8 +44,9 @@ pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
     let period = period.or(motion.map(|o| (o.period, o.period_error.unwrap_or(0.0))));
     let period = period.map(|(period, error)| to_its_digits(period, error));
     let end = document.samples.t.last().copied().unwrap_or_default();
+    let verified = document.verification.as_ref().map_or(String::new(), kept);
     let headline = format!(
-        "{}{}: t = {} reached in {} steps with {}, {:.1} ms",
+        "{}{}: t = {} reached in {} steps with {}, {:.1} ms{verified}",
         document.regime,
         period.as_ref().map_or(String::new(), |period| format!(", period {period}")),
         digits(end, 10),

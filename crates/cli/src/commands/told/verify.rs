@@ -17,6 +17,7 @@ impl Product for VerifyDocument {
         let off = self.differences.iter();
         let told = off.fold(told, |told, off| told.row("does not follow", said(off)));
         told.row("l", difference(l, "t"))
+            .maybe("y0", found.y0.as_ref().map(|y0| difference(y0, "t")))
             .maybe("u", found.u.as_ref().map(|u| difference(u, "x")))
             .maybe("trusted until", found.trusted_until.map(|t| format!("t = {}", digits(t, 10))))
             .row("errors amplified", format!("{:.1e} times", found.amplification))

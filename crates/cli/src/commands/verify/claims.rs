@@ -10,13 +10,15 @@ use crate::failure::Failure;
 use crate::message::say;
 use serde::Serialize;
 use serde_json::{Value, json};
+use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
     ClaimDocument, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
-    SampleLine, SteadyState, became,
+    SampleLine, SteadyState, became, became_across, sample_across,
 };
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Watched, WatchedAcross};
+use stickslip_tip::planar::PlanarScenario;
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
@@ -77,19 +79,21 @@ pub(super) struct Columns {
     support: Support,
     wider: Wider,
     tolerance: f64,
-    columns: [Column; 6],
+    columns: [Column; 8],
 }
 
 impl Columns {
     pub(super) fn of(scenario: &Scenario) -> Self {
-        let names = ["l", "x0", "lag", "velocity", "height", "weight"];
+        let names = ["l", "x0", "lag", "y0", "velocity", "height", "weight", "velocity_y"];
         let fields = names.map(|name| match name {
             "l" => "samples.l",
             "x0" => "samples.x0",
             "lag" => "samples.lag",
+            "y0" => "samples.y0",
             "velocity" => "samples.velocity",
             "height" => "samples.height",
-            _ => "samples.weight",
+            "weight" => "samples.weight",
+            _ => "samples.velocity_y",
         });
         Self {
             support: scenario.support(),
@@ -100,35 +104,36 @@ impl Columns {
     }
 
     /// Compares a sample with the value of its step.
-    fn of_history(&mut self, sample: &SampleLine, step: &Step) {
+    fn of_history(&mut self, sample: &SampleLine, found: &SampleLine, step: &Step) {
         let rounding = ROUNDINGS * (1.0 + step.extension.abs() + sample.x0.abs());
-        let [l, x0, lag, ..] = &mut self.columns;
-        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+        let [l, x0, lag, y0, ..] = &mut self.columns;
         let allowed = self.tolerance + rounding;
         l.see(sample.t, sample.l, found.l, allowed);
         x0.see(sample.t, Some(sample.x0), Some(found.x0), allowed);
         lag.see(sample.t, sample.lag, found.lag, allowed);
-        self.see(sample, &found, (DIGITS + rounding / step.h, DIGITS));
+        y0.see(sample.t, sample.y0, found.y0, allowed);
+        self.see(sample, found, (DIGITS + rounding / step.h, DIGITS));
     }
 
-    /// Compares a sample with a run to the same tolerance. l and x0 are checked by the other repetition; the lag
+    /// Compares a sample with a run to the same tolerance. l, x0 and y0 are checked by the other repetition; the lag
     /// follows from x0.
-    fn of_repetition(&mut self, sample: &SampleLine, step: &Step) {
-        let found = SampleLine::of(step, (&self.support, &self.wider), sample.t);
+    fn of_repetition(&mut self, sample: &SampleLine, found: &SampleLine, step: &Step) {
         let support = self.support.position(sample.t);
         let rounding = ROUNDINGS * (1.0 + support.abs() + sample.x0.abs());
         let lag = found.lag.map(|_| support - sample.x0);
         let [_, _, lags, ..] = &mut self.columns;
         lags.see(sample.t, sample.lag, lag, TOLERANCES_ALLOWED * self.tolerance + rounding);
         let off = SLOPES * self.tolerance;
-        self.see(sample, &found, (DIGITS + off / step.h, DIGITS + off));
+        self.see(sample, found, (DIGITS + off / step.h, DIGITS + off));
     }
 
-    /// Compares velocity and height with these limits plus a relative round-off; the limit of the weight follows from
+    /// Compares velocities and height with these limits plus a relative round-off; the limit of the weight follows from
     /// that of the height.
     fn see(&mut self, sample: &SampleLine, found: &SampleLine, (velocity, height): (f64, f64)) {
         let t = sample.t;
-        let [_, _, _, velocities, heights, weights] = &mut self.columns;
+        let [.., velocities, heights, weights, across] = &mut self.columns;
+        let largest = velocity + DIGITS * found.velocity_y.unwrap_or(0.0).abs();
+        across.see(t, sample.velocity_y, found.velocity_y, largest);
         let allowed = velocity + DIGITS * found.velocity.abs();
         velocities.see(t, Some(sample.velocity), Some(found.velocity), allowed);
         let allowed = height + DIGITS * found.height.unwrap_or(0.0).abs();
@@ -254,6 +259,17 @@ impl Claims {
             }
         };
         self.judge_if("oscillation", claimed.oscillation.as_ref(), oscillation, &within);
+        let snaking = computed.snaking.as_ref();
+        let errors = json!(snaking);
+        let of_swing = |field: &str, value: f64| {
+            let name = field.trim_start_matches("snaking.");
+            match (name, errors[format!("{name}_error")].as_f64()) {
+                _ if name.ends_with("_error") => ERRORS * value.abs() + DIGITS,
+                (_, Some(error)) => 2.0 * error + DIGITS * (1.0 + value.abs()),
+                _ => DIGITS + 0.01 * value.abs() + SLOPES * tolerance,
+            }
+        };
+        self.judge_if("snaking", claimed.snaking.as_ref(), snaking, &of_swing);
         let creep = |field: &str, value: f64| match field {
             "creep.rate" => 1e-3 * value.abs(),
             _ => 1e-6 * value.abs(),
@@ -281,7 +297,9 @@ impl Claims {
         if let Some(trajectory) = trajectory {
             let steps = trajectory.steps().len();
             self.judge("work.steps", &json!(run.work.steps), &json!(steps), &|_, _| 0.0);
-            let on_path = run.parameters.support_path.is_some();
+            let parameters = &run.parameters;
+            let on_path =
+                parameters.support_path.is_some() && parameters.stiffness_across.is_none();
             let loops: Option<Vec<LoopDocument>> =
                 on_path.then(|| friction::loops(trajectory).into_iter().map(Into::into).collect());
             self.judge_if("loops", run.loops.as_ref(), loops.as_ref(), &digits);
@@ -297,75 +315,139 @@ impl Claims {
     }
 }
 
-/// The result of a repetition of the run with its own options; `witness` is called with each step.
-///
-/// # Errors
-/// The run cannot be repeated, or was interrupted.
-fn again(
+/// A run to be judged: of a tip that is held on its line, or that is free to move across the scan.
+#[derive(Clone, Copy)]
+pub(super) enum Judged<'a> {
+    Along(&'a Scenario),
+    Across(&'a PlanarScenario),
+}
+
+impl<'a> Judged<'a> {
+    /// The motion along the scan.
+    pub(super) fn along(self) -> &'a Scenario {
+        match self {
+            Self::Along(scenario) => scenario,
+            Self::Across(scenario) => &scenario.along,
+        }
+    }
+
+    /// The result of a repetition of the run with its own options; `witness` is called with each step and the motion
+    /// within it.
+    ///
+    /// # Errors
+    /// The run cannot be repeated, or was interrupted.
+    fn again(
+        self,
+        until: f64,
+        mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
+    ) -> Result<RunEnd, Failure> {
+        let along = self.along();
+        let (support, wider) = (along.support(), *along.model.wider());
+        let law = (&support, &wider);
+        match self {
+            Self::Along(scenario) => {
+                let surface = scenario.initial_surface().map_err(failed)?;
+                let mut running = Watched::new(scenario, &surface).map_err(failed)?;
+                proceed(scenario, until, || {
+                    let step = running.step().map_err(failed)?;
+                    let seen =
+                        step.inspect(|step| witness(step, &|t| SampleLine::of(step, law, t)));
+                    Ok(seen.map(|step| step.end()))
+                })?;
+                let flag = cut(scenario, until, running.t());
+                Ok(stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0))?)
+            }
+            Self::Across(scenario) => {
+                let mut running = WatchedAcross::new(scenario).map_err(failed)?;
+                proceed(along, until, || {
+                    let step = running.step().map_err(failed)?;
+                    let seen =
+                        step.inspect(|step| witness(&step.along, &|t| sample_across(step, law, t)));
+                    Ok(seen.map(|step| step.end()))
+                })?;
+                let flag = cut(along, until, running.t());
+                let became = || became_across(scenario, &running, 0.0);
+                stop::where_asked_by(&flag, became).map_err(failed)
+            }
+        }
+    }
+}
+
+fn failed(error: impl Display) -> Failure {
+    Failure::Run(error.to_string())
+}
+
+/// Makes steps, of which the ends are given, until the last or until this time.
+fn proceed(
     scenario: &Scenario,
     until: f64,
-    mut witness: impl FnMut(&Step) -> Result<(), Failure>,
-) -> Result<RunEnd, Failure> {
-    let failed = |error: stickslip_tip::RunError| Failure::Run(error.to_string());
-    let surface = scenario.initial_surface().map_err(failed)?;
-    let mut running = Watched::new(scenario, &surface).map_err(failed)?;
+    mut step: impl FnMut() -> Result<Option<f64>, Failure>,
+) -> Result<(), Failure> {
     let mut progress = Progress::new(scenario.start_time(), until);
-    let mut is_cut = until < scenario.until;
-    while let Some(step) = running.step().map_err(failed)? {
-        witness(&step)?;
-        progress.reached(step.end());
+    let is_cut = until < scenario.until;
+    while let Some(end) = step()? {
+        progress.reached(end);
         if stop::is_asked() {
             return Err(Failure::Run("the verification was interrupted".into()));
         }
-        if is_cut && step.end() >= until * (1.0 - ROUNDINGS) {
+        if is_cut && end >= until * (1.0 - ROUNDINGS) {
             break;
         }
     }
-    is_cut &= running.t() < scenario.until;
-    // As a run that a signal ended was judged.
-    let flag = Arc::new(AtomicBool::new(is_cut));
-    let found = stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0));
-    Ok(found?)
+    Ok(())
+}
+
+/// Whether a run ended early: it is judged as one that a signal ended.
+fn cut(scenario: &Scenario, until: f64, reached: f64) -> Arc<AtomicBool> {
+    Arc::new(AtomicBool::new(until < scenario.until && reached < scenario.until))
+}
+
+/// The dense history of a run: the motion along the scan, and all of it at a time within the step of an index.
+#[derive(Clone, Copy)]
+pub(super) struct Told<'a> {
+    pub(super) along: &'a Trajectory,
+    pub(super) sample: &'a dyn Fn(usize, f64) -> SampleLine,
 }
 
 /// Checks a document.
 ///
 /// # Errors
-/// As [`again`].
+/// As [`Judged::again`].
 pub(super) fn of_document(
     run: &RunDocument,
-    scenario: &Scenario,
-    trajectory: Option<&Trajectory>,
+    judged: Judged<'_>,
+    history: Option<Told<'_>>,
 ) -> Result<Vec<ClaimDocument>, Failure> {
+    let scenario = judged.along();
     let mut claims = Claims::default();
     claims.of_parameters(&run.parameters.model_parameters(), scenario, run.steady_state.as_ref());
-    claims.of_document(run, trajectory);
+    claims.of_document(run, history.map(|history| history.along));
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
-    if let Some(trajectory) = trajectory {
-        let steps = trajectory.steps();
+    if let Some(Told { along, sample: found }) = history {
+        let steps = along.steps();
         for sample in samples.drain(..) {
             let after = steps.partition_point(|step| step.t <= sample.t);
-            columns.of_history(&sample, &steps[after.max(1) - 1]);
+            let i = after.max(1) - 1;
+            columns.of_history(&sample, &found(i, sample.t), &steps[i]);
         }
     }
     let last = samples.last().map(|sample| sample.t);
-    let until = match trajectory {
-        Some(trajectory) => trajectory.end(),
+    let until = match history {
+        Some(history) => history.along.end(),
         None if run.interrupted => last.unwrap_or(scenario.until),
         None => scenario.until,
     };
     let mut due = samples.iter().peekable();
-    let computed = again(scenario, until, |step| {
+    let computed = judged.again(until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
-            columns.of_repetition(sample, step);
+            columns.of_repetition(sample, &found(sample.t), step);
         }
-        Ok(())
     })?;
     claims.0.extend(columns.worst());
     // Of a run that was stopped, and of which no history says when, only the samples can be judged.
-    if trajectory.is_some() || !run.interrupted {
+    if history.is_some() || !run.interrupted {
         claims.of_end(&end_of(run), &computed, scenario.tolerance);
     }
     Ok(claims.0)
@@ -374,22 +456,23 @@ pub(super) fn of_document(
 /// Checks a run written as lines.
 ///
 /// # Errors
-/// As [`again`]; or the lines cannot be read.
+/// As [`Judged::again`]; or the lines cannot be read.
 pub(super) fn of_lines(
-    scenario: &Scenario,
+    judged: Judged<'_>,
     (parameters, steady): (&ModelParameters, Option<&SteadyState>),
     samples: impl Iterator<Item = SampleLine>,
     (until, end): (f64, Option<&RunEnd>),
 ) -> Result<Vec<ClaimDocument>, Failure> {
+    let scenario = judged.along();
     let mut claims = Claims::default();
     claims.of_parameters(parameters, scenario, steady);
     let mut columns = Columns::of(scenario);
     let mut due = samples.peekable();
-    let computed = again(scenario, end.map_or(until, |end| end.end.min(scenario.until)), |step| {
+    let until = end.map_or(until, |end| end.end.min(scenario.until));
+    let computed = judged.again(until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
-            columns.of_repetition(&sample, step);
+            columns.of_repetition(&sample, &found(sample.t), step);
         }
-        Ok(())
     })?;
     claims.0.extend(columns.worst());
     if let Some(end) = end {

@@ -1,5 +1,6 @@
 //! Verification of a run written as lines: the file is read twice, and not kept in memory.
 
+use super::claims::Judged;
 use super::{claims, job, repeated, said_of};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
@@ -11,8 +12,9 @@ use std::path::Path;
 use stickslip::{
     EndingName, LinesDocument, RunHead, SampleLine, VerificationDocument, VerifyDocument,
 };
+use stickslip_tip::planar::PlanarScenario;
 use stickslip_tip::{MemoryChoice, Running, Scenario};
-use stickslip_verify::{ComparedSamples, Sample, verify_samples};
+use stickslip_verify::{ComparedSamples, Sample, verify_samples, verify_samples_across};
 
 /// Number of the line with the first sample.
 const FIRST: u64 = 2;
@@ -21,17 +23,26 @@ const FIRST: u64 = 2;
 /// repeated. Then they are compared, one by one, with the repetition.
 pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Result<(), Failure> {
     let named = format!("RUN.jsonl {}", path.display());
-    let (head, scenario, extent) = survey(file).map_err(|flaw| refused(flaw, &named))?;
-    let until = until(&scenario, &extent).map_err(|flaw| refused(flaw, &named))?;
+    let (head, surveyed, extent) = survey(file).map_err(|flaw| refused(flaw, &named))?;
+    let judged = surveyed.judged();
+    let scenario = judged.along();
+    let until = until(scenario, &extent).map_err(|flaw| refused(flaw, &named))?;
     let job = job(outlet)?;
-    let memory = memory(&scenario, &extent);
     let samples = Samples { file, number: extent.samples, flaw: RefCell::default() };
     let found = repeated(|observe| {
         let observe = |part| match *samples.flaw.borrow() {
             Some(_) => ControlFlow::Break(()),
             None => observe(part),
         };
-        verify_samples(&scenario, &memory, || samples.read(), until, observe)
+        match judged {
+            Judged::Along(scenario) => {
+                let memory = memory(scenario, &extent);
+                verify_samples(scenario, &memory, || samples.read(), until, observe)
+            }
+            Judged::Across(scenario) => {
+                verify_samples_across(scenario, || samples.read(), until, observe)
+            }
+        }
     });
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
@@ -42,11 +53,11 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let model = head.parameters.model_parameters();
     let told = (&model, head.steady_state.as_ref());
     let differences =
-        claims::of_lines(&scenario, told, samples.lines(), (until, extent.end.as_ref()))?;
+        claims::of_lines(judged, told, samples.lines(), (until, extent.end.as_ref()))?;
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
     }
-    let failure = failure(&verification, &lines, &scenario, &named);
+    let failure = failure(&verification, &lines, scenario, &named);
     let failure = match claims::said_of(&differences) {
         None => failure,
         Some(said) => {
@@ -59,14 +70,37 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     failure.map_or(Ok(()), Err)
 }
 
+/// The scenario of the lines.
+enum Surveyed {
+    Along(Scenario),
+    Across(PlanarScenario),
+}
+
+impl Surveyed {
+    fn judged(&self) -> Judged<'_> {
+        match self {
+            Self::Along(scenario) => Judged::Along(scenario),
+            Self::Across(scenario) => Judged::Across(scenario),
+        }
+    }
+}
+
 /// The definition and the extent of the run.
-fn survey(file: &File) -> Result<(RunHead, Scenario, Extent), Flaw> {
+fn survey(file: &File) -> Result<(RunHead, Surveyed, Extent), Flaw> {
     let mut lines = Lines::of(file)?;
     let head = lines.head()?;
-    let scenario = head.parameters.scenario();
-    let scenario = scenario.map_err(|message| Flaw::Damaged(format!("line 1: {message}")))?;
+    let damaged = |message: String| Flaw::Damaged(format!("line 1: {message}"));
+    let across = head.parameters.prepared_across();
+    let surveyed = match across.map_err(|error| damaged(error.described(str::to_owned)))? {
+        Some(scenario) => Surveyed::Across(scenario),
+        None => {
+            let scenario = head.parameters.scenario();
+            Surveyed::Along(scenario.map_err(|error| damaged(error.to_string()))?)
+        }
+    };
+    let scenario = surveyed.judged().along();
     let extent = lines.survey(&(scenario.start_time()..=scenario.until))?;
-    Ok((head, scenario, extent))
+    Ok((head, surveyed, extent))
 }
 
 /// Time of the last sample.

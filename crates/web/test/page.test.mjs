@@ -309,7 +309,7 @@ test('it is told to those who do not see it, and fits a phone', { skip }, async 
 
 test('pictures of it, light and dark, for whoever looks', { skip }, async () => {
   for (const colorScheme of ['light', 'dark']) {
-    const { page, noted } = await open(browser, { colorScheme }, '#alpha=0.5&r=1&beta=0&lines=60');
+    const { page, noted } = await open(browser, { colorScheme }, '#alpha=0.5&r=1&beta=0&pitch=0.5&lines=60&length=60');
     await page.locator('#scan').click();
     await page.waitForFunction(() => document.getElementById('raster-told').dataset.found, null, { timeout: 120_000 });
     await page.locator('#presets button').nth(5).click();

@@ -26,6 +26,7 @@ TYPES = {
     "LO:HI": RANGE,
     "LO:HI:N": RANGE,
     "A,T,W": "str | _Pulse | Sequence[_Pulse]",
+    "T,H": "tuple[_Number, _Number]",
     "RANGE": "_Values",
     "T1,T2,…": "_Numbers",
     "NAME,…": "str | Sequence[str]",

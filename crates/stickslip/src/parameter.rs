@@ -280,7 +280,7 @@ pub fn stranger<Q: JsonSchema + 'static>(values: &Map<String, Value>) -> Option<
 }
 
 /// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) +
-/// D replace each other, and a critical α or r that was computed is computed anew.
+/// D replace each other, a hold replaces the path of a support, and a critical α or r that was computed is computed anew.
 #[must_use]
 pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Map<String, Value> {
     if base.remove("at_critical_point") == Some(Value::Bool(true)) {
@@ -293,6 +293,9 @@ pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Ma
         base.remove("alpha_above");
     } else if !given.is_empty() && base.get("alpha").is_some_and(Value::is_number) {
         base.remove("alpha_above");
+    }
+    if is_given("hold") {
+        base.remove("support_path");
     }
     base.extend(given);
     base

@@ -125,6 +125,8 @@ const EXAMPLES: &str = "Examples:
     stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 --until 200 -o healing.json
     printf 't,R\n0,0\n20,20\n40,0\n' > path.csv
     stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
+  The peak of the lateral force after a hold of 100:
+    stickslip run --alpha 0.8 --r 1 --hold 20,100 --until 160 -o held.json --plot held.svg
   A particle that its own past drives: the Lorenz system:
     stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
   A walker in a rotating frame, on a circular orbit, and all orbits that exist there:

@@ -49,6 +49,11 @@ pub struct Run {
     /// Motion of a support with its own path: R minus its initial value, linear between the knots.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support_path: Option<SupportPathParameters>,
+    /// T,H: the support stops for a time H at the time T after the start, which then is at t = 0, and moves on with
+    /// the velocity r (slide, hold, slide); in Γ/k. Documents contain the path of the support instead.
+    #[schemars(extend("x-option" = option("T,H", "Start", 25)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hold: Option<Vec<f64>>,
     /// Initial velocity of a tip with inertia, in kσ/Γ; by default r on a steady start, else 0.
     #[schemars(extend("x-option" = option("V", "Start", 24)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -284,6 +289,7 @@ impl Run {
             start_position: default_start_position(),
             kick: 0.0,
             support_path: None,
+            hold: None,
             start_velocity: None,
             noise: None,
             initial_surface: None,
@@ -378,6 +384,45 @@ impl Run {
         let stretched = model.r() + model.alpha() / model.r();
         let (start_position, kick) = (self.start_position + stretched, self.kick + stretched);
         Self { start: Some(StartName::Flat), noise, start_position, kick, ..self }
+    }
+
+    /// The question with slide, hold, slide expressed by the path of the support: it moves with the velocity r until T,
+    /// stands still for H, and moves on.
+    fn held(self) -> Result<Self, Refused> {
+        let Some(hold) = &self.hold else { return Ok(self) };
+        let refused = |why: String| {
+            let value: Vec<String> = hold.iter().map(|time| Typed(*time).to_string()).collect();
+            Refused { parameter: "hold".into(), value: Some(value.join(",")), why }
+        };
+        let [slide, held] = match **hold {
+            [slide, held] if [slide, held].iter().all(|t| t.is_finite() && *t > 0.0) => {
+                [slide, held]
+            }
+            _ => {
+                let why = "must be two times above 0, T,H in Γ/k: at T the support stops for H";
+                return Err(refused(why.into()));
+            }
+        };
+        if self.support_path.is_some() {
+            let why = "is a path of the support, as {support_path} is: leave one of them out";
+            return Err(refused(why.into()));
+        }
+        if self.law.no_spring {
+            let why = "without a spring there is no support that could stop: leave it out";
+            return Err(refused(why.into()));
+        }
+        let end = slide + held;
+        if self.until <= end {
+            let why = format!("the hold ends at t = {}: give a later {{until}}", Typed(end));
+            return Err(refused(why));
+        }
+        let r = self.velocity()?;
+        let way = r * slide;
+        let path = SupportPathParameters {
+            t: vec![0.0, slide, end, self.until],
+            displacement: vec![0.0, way, way, way + r * (self.until - end)],
+        };
+        Ok(Self { hold: None, support_path: Some(path), ..self })
     }
 
     /// The start time of a run with a steady start.
@@ -625,7 +670,7 @@ impl Ask for Run {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         let question = self.indented()?;
         let model = question.model()?;
-        let question = question.started(&model);
+        let question = question.started(&model).held()?;
         question.judge_distances(&question.assembled()?)?;
         question.prepared()?;
         question.prepared_across()?;

@@ -68,7 +68,7 @@ fn both_sides_meet_the_same_surface() {
     });
     let mut asked = folder.prints_json(&CASE.replace("compare", "run"));
     asked["parameters"]["initial_surface_across"] = table;
-    folder.write("table.json", &asked.to_string());
+    folder.write("table.json", asked.to_string());
     for line in [
         format!(
             "{CASE} --tolerance 1e-11 --noise 0.1 --noise-spacing 0.5 --noise-spacing-across 0.7 --seed 3"

@@ -27,7 +27,8 @@ fn runs_across_are_verified_from_history_samples_and_lines() {
     assert_eq!(&saved["verification"], verification);
     let output = folder.stickslip(&format!("{RUN} --verify -o run.csv"));
     assert!(said(&output).contains("verified with lattice: l is off by"), "{}", said(&output));
-    assert!(folder.prints("verify run.json --format text").contains("y0"));
+    let text = String::from_utf8(folder.prints("verify run.json --format text")).unwrap();
+    assert!(text.contains("y0"), "{text}");
 
     folder.prints(&format!("{RUN} --history none -o bare.json"));
     folder.prints(&format!("{RUN} -o run.jsonl"));

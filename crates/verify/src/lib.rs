@@ -76,8 +76,8 @@ impl Verification {
     /// Whether all differences are within their limits.
     #[must_use]
     pub fn is_kept(&self) -> bool {
-        let others = [self.y, self.u].into_iter().flatten();
-        self.l.is_allowed() && others.fold(true, |all, one| all && one.is_allowed())
+        let mut others = [self.y, self.u].into_iter().flatten();
+        self.l.is_allowed() && others.all(|one| one.is_allowed())
     }
 }
 

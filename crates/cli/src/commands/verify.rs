@@ -228,7 +228,8 @@ fn said_of(
         return None;
     }
     let (l, y0) = (&found.l, found.y0.as_ref());
-    let y0 = y0.filter(|y0| !(y0.largest <= y0.allowed) && l.largest <= l.allowed);
+    let y0 =
+        y0.filter(|y0| (y0.largest.is_nan() || y0.largest > y0.allowed) && l.largest <= l.allowed);
     let worst = y0.unwrap_or(l);
     let difference = match &found.u {
         Some(u) if l.largest <= l.allowed => {

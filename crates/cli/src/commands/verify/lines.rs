@@ -71,6 +71,7 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
 }
 
 /// The scenario of the lines.
+#[expect(clippy::large_enum_variant, reason = "there is one of it")]
 enum Surveyed {
     Along(Scenario),
     Across(PlanarScenario),

@@ -19,6 +19,63 @@ fn profile(rows: i32, heading: &str) -> String {
     text
 }
 
+/// A pit with the widths 25 nm at positions above its apex and `below` at others, with noise of 1 %, on a slope.
+fn lopsided(below: f64) -> String {
+    let mut state = 99_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        12_f64.sqrt() * (f64::from(state) / f64::from(u32::MAX) - 0.5)
+    };
+    let mut text = String::from("x_nm,z_nm\n");
+    for i in 0..301 {
+        let x = f64::from(i) - 150.0;
+        let width = if x > 12.0 { 25.0 } else { below };
+        let pit = 10.0 * (-0.5 * ((x - 12.0) / width).powi(2)).exp();
+        text += &format!("{x},{}\n", 3.0 + 0.004 * x - pit + 0.1 * random());
+    }
+    text
+}
+
+/// Judge: αc of Gaussians of these widths, by `stability`.
+#[test]
+fn both_sides_of_a_pit_are_footprints_of_their_own() {
+    let folder = Folder::new("tip_sides");
+    folder.write("pit.csv", lopsided(40.0));
+    folder.write("even.csv", lopsided(25.0));
+    let plain = folder.stickslip("tip pit.csv --resamples 20 -o plain.json");
+    assert!(said(&plain).contains("--both-sides"), "{}", said(&plain));
+    let even = folder.stickslip("tip even.csv --resamples 20 -o even.json");
+    assert!(!said(&even).contains("--both-sides"), "{}", said(&even));
+    let both = folder.stickslip("tip pit.csv --both-sides --resamples 20 -o tip.json");
+    assert!(both.status.success() && !said(&both).contains("--both-sides"), "{}", said(&both));
+    let (plain, tip) = (folder.json("plain.json"), folder.json("tip.json"));
+    assert!(plain.get("sides").is_none() && plain["parameters"].get("both_sides").is_none());
+    assert_eq!(plain["gaussians"], tip["gaussians"], "the even fit is the same");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    assert!((number(&tip["sides"]["apex"]) - 12.0).abs() < 3.0, "{}", tip["sides"]["apex"]);
+    let sigma = number(&tip["sigma"]["value"]);
+    for (side, width) in [("trace", 25.0), ("retrace", 40.0)] {
+        let own = format!("stability --tip gaussian --width {} --r 1", width / sigma);
+        let truth = number(&folder.prints_json(&own)["critical"]["alpha"]);
+        let found = number(&tip["sides"][side]["critical_alpha"]["value"]);
+        eprintln!("{side}: {found} for {truth}");
+        assert!((found / truth - 1.0).abs() < 0.08, "{side}: {found} for {truth}");
+        // What is printed is a tip file.
+        let field =
+            format!("tip pit.csv --both-sides --resamples 20 --print sides.{side}.footprint");
+        folder.write("side.json", folder.prints(&field));
+        let again = folder.prints_json("stability --tip-file side.json --r 1");
+        let at = number(&again["critical"]["alpha"]);
+        assert!((at / found - 1.0).abs() < 1e-9, "{side}: {at} for {found}");
+    }
+    let again = folder.prints_json("tip pit.csv --parameters tip.json");
+    assert_eq!(again["sides"]["asymmetry"], tip["sides"]["asymmetry"]);
+    let half: String =
+        (0..80).map(|i| format!("{i},{}\n", (-0.002 * f64::from(i * i)).exp())).collect();
+    folder.write("half.csv", half);
+    folder.refuses("tip half.csv --unit nm --both-sides", &["--both-sides", "--half"]);
+}
+
 /// An image in metres, 2 nm a pixel along x and 3 nm across, of a pit of width 20 nm and 35 nm.
 fn image(noise: f64) -> Vec<u8> {
     let (columns, rows) = (100_i32, 90_i32);

@@ -581,6 +581,7 @@ def tip(
     r: _Number | None = None,
     resamples: _Number | None = None,
     seed: _Number | None = None,
+    both_sides: bool = False,
     parameters: _Path | _Columns | None = None,
     both: bool = False,
     sigma: _Number | None = None,

@@ -65,8 +65,9 @@ pub use ask::fit::{
 };
 pub use ask::lines;
 pub use ask::measured_tip::{
-    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, MeasuredImage,
-    MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
+    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
+    MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
+    SideDocument, SidesDocument,
 };
 pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
 pub use ask::raster_boundary::{

@@ -50,5 +50,8 @@ const EXAMPLES: &str = "Examples:
   An image, for f(x,y) of a raster:
     stickslip tip pit.gsf -o tip.json
     stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 --lines 64 --length 60 -o raster.json
+  A pit whose sides differ, and the footprint of the retrace as a tip file of its own:
+    stickslip tip pit.csv --both-sides --print sides.retrace.footprint > back.json
+    stickslip stability --tip-file back.json --r 1
   What the noise leaves open of the onset at r = 0.5, for a script:
     stickslip tip pit.csv --r 0.5 --print critical_alpha.low --print critical_alpha.high";

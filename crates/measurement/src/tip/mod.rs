@@ -2,6 +2,7 @@
 
 mod answers;
 mod hidden;
+mod lopsided;
 mod resample;
 mod search;
 mod shape;
@@ -278,6 +279,13 @@ impl MeasuredTip {
         let before = x.partition_point(|x| *x < self.centre);
         let few = x.len() / 10;
         before <= few || x.len() - before <= few
+    }
+
+    /// Relative difference of the widths of the two sides of the profile, that at larger positions minus the other; `None`
+    /// if it is within the noise, or if the profile has one side only.
+    #[must_use]
+    pub fn asymmetry(&self) -> Option<f64> {
+        if self.is_one_sided() { None } else { lopsided::asymmetry(self) }
     }
 
     /// Warnings about the result.

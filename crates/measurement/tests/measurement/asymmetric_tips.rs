@@ -100,3 +100,30 @@ fn both_halves_of_a_measured_profile_are_found() {
     assert!(forward < even && even < backward || backward < even && even < forward, "{even}");
     assert!(found.asymmetry().abs() > 0.1, "{}", found.asymmetry());
 }
+
+/// Pits of the widths 30 ± d on either side: the even fit leaves their difference, to first order, and noise alone for d = 0.
+#[test]
+fn an_even_fit_says_how_much_the_sides_differ() {
+    let request = Request { resamples: 0, ..Request::default() };
+    let asymmetry = |d: f64, noise: f64, seed: u64| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let height = |x: f64| {
+            let width = if x > 5.0 { 30.0 + d } else { 30.0 - d };
+            2.0 - 0.01 * x - 10.0 * (-0.5 * ((x - 5.0) / width).powi(2)).exp()
+        };
+        let x: Vec<f64> = (0..201).map(|i| 1.8 * f64::from(i) - 170.0).collect();
+        let z = x.iter().map(|x| height(*x) + noise * normal(&mut random)).collect();
+        tip(&Profile::new(x, z).unwrap(), &request).unwrap().asymmetry()
+    };
+    let false_alarms = (0..20).filter(|seed| asymmetry(0.0, 0.2, *seed).is_some()).count();
+    assert_eq!(false_alarms, 0);
+    for (d, noise) in [(-4.0, 0.2), (3.0, 0.2)] {
+        let found: Vec<f64> = (0..5).filter_map(|seed| asymmetry(d, noise, seed)).collect();
+        assert!(found.len() == 5 && found.iter().all(|e| e * d > 0.0), "{d}: {found:?}");
+    }
+    let error = |d: f64| (asymmetry(d, 0.01, 1).unwrap() / (d / 15.0) - 1.0).abs();
+    let errors = [4.0, 2.0, 1.0].map(error);
+    eprintln!("{errors:?}");
+    assert!(errors[0] < 0.25 && errors[1] < 0.7 * errors[0], "{errors:?}");
+    assert!(errors[2] < 0.7 * errors[1], "{errors:?}");
+}

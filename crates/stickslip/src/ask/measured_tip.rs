@@ -6,7 +6,8 @@ use crate::{Ask, Context, Document, Failure, GaussianDocument, Question, Refused
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, TipError, tip,
+    Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, Sides, TipError,
+    sides, tip,
 };
 use stickslip_units::Unit;
 
@@ -57,6 +58,9 @@ pub struct MeasuredTipFound {
     /// Results for f(x,y) from an image, in addition to the profile through its middle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<AcrossDocument>,
+    /// Footprints of either direction of motion; present if both sides were fitted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sides: Option<SidesDocument>,
 }
 
 /// A measured tip and the question that it answers.
@@ -77,6 +81,11 @@ pub struct MeasuredTip {
     /// Centre of symmetry, in the unit of the positions; fitted by default.
     #[schemars(extend("x-option" = option("X", "Data", 3)))]
     pub centre: Option<f64>,
+    /// Fit each side of the profile too: a tip that moves forward meets the surface with the side before it alone, so that
+    /// trace and retrace have footprints of their own.
+    #[schemars(extend("x-option" = option("", "Data", 8)))]
+    #[serde(skip_serializing_if = "is_off")]
+    pub both_sides: bool,
     /// σ, in the unit of the positions; computed by default.
     pub sigma: Option<f64>,
     /// Number of Gaussians, where a symmetric pair counts as one; by Schwarz' criterion by default.
@@ -103,9 +112,27 @@ impl Default for MeasuredTip {
     fn default() -> Self {
         let (source, profile, image) = (String::new(), MeasuredProfile::default(), None);
         let (unit, half, centre, sigma, terms) = (None, None, None, None, None);
-        let (r, resamples, seed) = (1.0, 400, 0);
-        Self { source, unit, half, centre, sigma, terms, r, resamples, seed, profile, image }
+        let (both_sides, r, resamples, seed) = (false, 1.0, 400, 0);
+        Self {
+            source,
+            unit,
+            half,
+            centre,
+            both_sides,
+            sigma,
+            terms,
+            r,
+            resamples,
+            seed,
+            profile,
+            image,
+        }
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn is_off(switch: &bool) -> bool {
+    !switch
 }
 
 /// Measured heights along a line, in rows of any order.
@@ -195,6 +222,10 @@ impl Ask for MeasuredTip {
         self.metres()?;
         let (profile, _) = self.data()?;
         let half = self.half.unwrap_or_else(|| self.centre.is_none() && profile.is_half());
+        if half && self.both_sides {
+            let why = "the profile has one side only, as given by {half} or because it begins at 0 with its apex: leave it out";
+            return Err(Refused::whole("both_sides", why).into());
+        }
         Ok(Self { half: Some(half), ..self })
     }
 
@@ -209,17 +240,99 @@ impl Ask for MeasuredTip {
             resamples: self.resamples,
             seed: self.seed,
         };
-        let found = tip(&profile, &request).map_err(|error| match error {
+        let failed = |error| match error {
             TipError::Stopped => Failure::Cancelled,
             TipError::NoOnset { r } => Refused::number("r", r, error).into(),
             error => Refused::whole(named, error).into(),
-        })?;
+        };
+        let found = tip(&profile, &request).map_err(failed)?;
         let mut remarks = found.remarks();
+        let two = if self.both_sides {
+            let known = Request { sigma: Some(found.sigma.value), ..request };
+            Some(sides(&profile, &known).map_err(failed)?)
+        } else {
+            remarks.extend(found.asymmetry().map(symmetrised));
+            None
+        };
+        remarks.extend(two.iter().flat_map(Sides::remarks));
         let across = image.map(|image| image.across(&found)).transpose();
         let across = across.map_err(|error| Refused::whole(named, error))?;
         remarks.extend(across.as_ref().and_then(unexplained));
         let answer = MeasuredTipFound::of(&found, self.metres()?);
-        Ok((MeasuredTipFound { image: across.as_ref().map(Into::into), ..answer }, remarks))
+        let (image, sides) = (across.as_ref().map(Into::into), two.as_ref().map(Into::into));
+        Ok((MeasuredTipFound { image, sides, ..answer }, remarks))
+    }
+}
+
+/// A warning about an even fit to a profile whose sides differ.
+fn symmetrised(asymmetry: f64) -> String {
+    let wider = if asymmetry > 0.0 { "larger" } else { "smaller" };
+    format!(
+        "the profile is wider at {wider} positions, by about {:.0} %: the even f is right for neither trace nor retrace; --both-sides \
+         fits each",
+        100.0 * asymmetry.abs()
+    )
+}
+
+/// The footprints of a tip that is not symmetric, one for each direction of motion.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SidesDocument {
+    /// Position of the apex between the sides, in the unit of the positions.
+    pub apex: f64,
+    /// Motion towards larger positions: twice the side at larger positions.
+    pub trace: SideDocument,
+    /// Motion towards smaller positions: twice the side at smaller positions.
+    pub retrace: SideDocument,
+    /// Difference of the αc of trace and retrace, relative to their mean.
+    pub asymmetry: f64,
+}
+
+/// A footprint in the form of a tip file.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GaussianSumDocument {
+    /// f as a sum of Gaussians.
+    pub gaussians: Vec<GaussianDocument>,
+}
+
+/// The footprint of one direction of motion, an even function.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SideDocument {
+    /// f with f(0) = 1, lengths in the σ of the even fit. Printed alone, it is a tip file.
+    pub footprint: GaussianSumDocument,
+    /// Height that corresponds to f(0) = 1, in the unit of the heights; negative for a pit.
+    pub apex: f64,
+    /// Standard deviation of the residuals, in the unit of the heights.
+    pub residual: f64,
+    /// αc at the r of the parameters, dimensionless.
+    pub critical_alpha: EstimateDocument,
+    /// ω at this critical point, in k/Γ.
+    pub critical_omega: EstimateDocument,
+    /// Trapping threshold αt at that r, dimensionless; null if there is none.
+    pub trapping_alpha: Option<EstimateDocument>,
+}
+
+impl From<&Sides> for SidesDocument {
+    fn from(sides: &Sides) -> Self {
+        let (trace, retrace) = ((&sides.forward).into(), (&sides.backward).into());
+        Self { apex: sides.apex, trace, retrace, asymmetry: sides.asymmetry() }
+    }
+}
+
+impl From<&Measured> for SideDocument {
+    fn from(side: &Measured) -> Self {
+        let trapping = side.trapping_alpha;
+        let gaussians = side.gaussians.iter().map(GaussianDocument::from).collect();
+        Self {
+            footprint: GaussianSumDocument { gaussians },
+            apex: side.apex,
+            residual: side.residual,
+            critical_alpha: side.critical_alpha.into(),
+            critical_omega: side.critical_omega.into(),
+            trapping_alpha: trapping.value.is_finite().then(|| trapping.into()),
+        }
     }
 }
 
@@ -343,6 +456,7 @@ impl MeasuredTipFound {
                 .map(|draw| draw.iter().map(GaussianDocument::from).collect())
                 .collect(),
             image: None,
+            sides: None,
         }
     }
 }

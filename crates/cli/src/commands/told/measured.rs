@@ -17,6 +17,11 @@ impl Product for MeasuredTipDocument {
             with_interval(&self.critical_alpha),
         );
         let trapping = self.trapping_alpha.as_ref().map(with_interval);
+        let [trace, retrace] = [false, true].map(|is_back| {
+            let sides = self.sides.as_ref()?;
+            Some(with_interval(&if is_back { &sides.retrace } else { &sides.trace }.critical_alpha))
+        });
+        let apex = self.sides.as_ref().map(|sides| format!("{}{unit}", digits(sides.apex, 6)));
         Told::new(headline)
             .row("σ", format!("{}{unit}", with_interval(&self.sigma)))
             .row("centre", format!("{}{unit}", digits(self.centre, 6)))
@@ -26,6 +31,9 @@ impl Product for MeasuredTipDocument {
             .row("critical α", with_interval(&self.critical_alpha))
             .row("ω there", format!("{} k/Γ", with_interval(&self.critical_omega)))
             .maybe("trapped for ever from α", trapping)
+            .maybe("apex between the sides", apex)
+            .maybe("critical α of the trace", trace)
+            .maybe("critical α of the retrace", retrace)
             .remarks(&self.remarks)
             .next(format!("stickslip stability --tip-file tip.json --r {r}"))
     }

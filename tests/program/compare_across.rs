@@ -145,3 +145,48 @@ fn what_has_no_cells_in_a_plane_is_refused_by_name() {
     }
     folder.refuses(&CASE.replace("0.25", "0"), &["--stiffness-across 0", "above 0"]);
 }
+
+/// Lines of a raster, where the one before ends or from the start, with the same law on both sides.
+#[test]
+fn lines_of_a_raster_are_those_of_the_cells() {
+    let folder = Folder::new("compare-across-raster");
+    let raster = "compare --tip gaussian --alpha 0.6 --r 1 --pitch 0.8 --lines 3 --length 8 --stiffness-across 0.8";
+    for options in [
+        "--kick-across 0.2 -o r.json --plot r.svg",
+        "--kick-across 0.2 --path zigzag --healing-time 20 --inertia 0.4 --depth-limit 3 -o r.json",
+        "--path zigzag --grid sinc --sample-at 2,7 -o r.json",
+    ] {
+        folder.prints(&format!("{raster} {options}"));
+        let document = folder.json("r.json");
+        validate(&schema(&folder, "raster-compare"), &document);
+        let mut largest = [0.0_f64; 2];
+        let mut off = 0.0_f64;
+        for n in 0..3 {
+            for (axis, name) in ["x0", "y0"].into_iter().enumerate() {
+                let of = |side: &str| column(&document, &format!("/lines/{n}/{side}_{name}"));
+                for (a, b) in of("closed").into_iter().zip(of("grid")) {
+                    largest[axis] = largest[axis].max((a - b).abs());
+                }
+            }
+            let y = number(&document, &format!("/lines/{n}/y"));
+            let y0 = column(&document, &format!("/lines/{n}/grid_y0"));
+            off = y0.iter().fold(off, |most, y0| most.max((y0 - y).abs()));
+        }
+        let u = number(&document, "/max_difference/u");
+        println!(
+            "{options}: {:.1e} {:.1e} {u:.1e}, off their line by {off:.2}",
+            largest[0], largest[1]
+        );
+        for (largest, name) in largest.into_iter().zip(["x0", "y0"]) {
+            let said = number(&document, &format!("/max_difference/{name}"));
+            assert!((largest - said).abs() <= 1e-15, "{name}: {largest:e} {said:e}");
+            assert!(said > 0.0 && said < 3e-8, "{options}: {name} {said:e}");
+        }
+        assert!(u > 0.0 && u < 3e-8 && off > 0.05, "{options}: {u:e} {off}");
+    }
+    let picture = String::from_utf8(folder.read("r.svg")).unwrap();
+    assert!(picture.contains("|Δx₀|") && picture.contains("|Δy₀|"));
+    folder.refuses(&format!("{raster} --grid uniform"), &["--grid uniform", "across"]);
+    let held = raster.replace(" --stiffness-across 0.8", "");
+    assert!(!folder.prints_json(&held).to_string().contains("y0"));
+}

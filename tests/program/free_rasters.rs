@@ -95,7 +95,6 @@ fn what_a_free_raster_does_not_know_is_refused_by_name() {
         (format!("{LINES} --stiffness-across -2"), ["--stiffness-across -2", "above 0"]),
         (format!("{LINES} --kick-across 1"), ["--kick-across 1", "--stiffness-across"]),
         (format!("{free} --memory fft"), ["--stiffness-across 1", "the memory fft"]),
-        (free.replace("raster", "compare"), ["--stiffness-across 1", "no grid"]),
         (
             "sweep raster --tip gaussian --r 1 --pitch 2 --alpha 1 --lines 9 --length 20 --stiffness-across 0".into(),
             ["--stiffness-across 0", "above 0"],

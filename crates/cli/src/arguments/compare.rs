@@ -34,7 +34,8 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed.
+    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed; across the scan all
+    /// but uniform.
     #[arg(
         long,
         value_parser = named::<GridName>(),
@@ -45,7 +46,7 @@ pub(crate) struct CompareArguments {
     pub(crate) grid: GridName,
 
     /// Δx, in σ [default: the widest exact to round-off for spectral and sinc, 0.01 tip widths for
-    /// uniform and windowed; the paper has 0.001].
+    /// uniform and windowed, 0.05 across the scan; the paper has 0.001].
     #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) spacing: Option<f64>,
 

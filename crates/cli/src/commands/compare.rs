@@ -4,6 +4,7 @@ mod across;
 mod closed;
 mod grid;
 mod pace;
+mod plane;
 mod raster;
 
 use super::ask::{context, refusal, refuse_strangers};
@@ -17,7 +18,7 @@ use grid::{Discretisation, Motion};
 use serde_json::{Map, Value};
 use stickslip::{
     Ask, ClosedDocument, CompareDocument, CompareFound, CompareParameters, DifferenceDocument,
-    Document, KnownScales, Physical, Run, parameter,
+    Document, GridName, KnownScales, Physical, Run, parameter,
 };
 use stickslip_tip::Scenario;
 use stickslip_tip::planar::PlanarScenario;
@@ -84,7 +85,8 @@ impl Asked {
         warn_of_idle(&arguments.disturbance, &question, (scenario.start_time(), scenario.until));
         let second_order = match across {
             None => grid::SECOND_ORDER,
-            Some(_) => across::second_order(arguments.grid)?,
+            Some(_) if arguments.grid == GridName::Uniform => return Err(plane::no_uniform()),
+            Some(_) => plane::SECOND_ORDER,
         };
         let (usual, tip) = (question.tolerance, scenario.model.tip());
         let discretisation = Discretisation::of(arguments, usual, (tip, second_order))?;

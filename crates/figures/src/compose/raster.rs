@@ -76,17 +76,25 @@ impl Drawn for RasterCompareDocument {
                 Some(MapDocument { z_label, colours: ColoursName::BlueRed, ..heights(apart) });
             figure.panels = vec![surface, difference];
         }
-        let mut motions =
-            PanelDocument::new("", ("t since the start of a line (Γ/k)", "|Δx₀| (σ)"));
-        motions.y_scale = ScaleName::Logarithmic;
-        let curve = |line: &ComparedLine| {
-            let pairs = line.closed_x0.iter().zip(&line.grid_x0).map(|(a, b)| (a - b).abs());
-            // Equal values have no place on a logarithmic axis.
-            let apart: Vec<f64> = pairs.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
-            CurveDocument::new(StyleName::Line, "", &line.t, &apart)
+        let panel = |label: &str, sides: fn(&ComparedLine) -> Option<[&Vec<f64>; 2]>| {
+            let mut panel = PanelDocument::new("", ("t since the start of a line (Γ/k)", label));
+            panel.y_scale = ScaleName::Logarithmic;
+            let curve = |line: &ComparedLine| {
+                let [closed, grid] = sides(line)?;
+                let pairs = closed.iter().zip(grid).map(|(a, b)| (a - b).abs());
+                // Equal values have no place on a logarithmic axis.
+                let apart: Vec<f64> = pairs.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
+                Some(CurveDocument::new(StyleName::Line, "", &line.t, &apart))
+            };
+            panel.curves = self.lines.iter().filter_map(curve).collect();
+            panel
         };
-        motions.curves = self.lines.iter().map(curve).collect();
-        figure.panels.push(motions);
+        figure.panels.push(panel("|Δx₀| (σ)", |line| Some([&line.closed_x0, &line.grid_x0])));
+        if self.max_difference.y0.is_some() {
+            figure.panels.push(panel("|Δy₀| (σ)", |line| {
+                Some([line.closed_y0.as_ref()?, line.grid_y0.as_ref()?])
+            }));
+        }
         Ok(figure)
     }
 }

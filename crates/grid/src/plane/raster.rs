@@ -22,6 +22,8 @@ pub struct PlaneScan<'a> {
     pub lines: &'a [ScanLine],
     /// Whether the tip starts a line where the one before has ended, instead of at the start of the line.
     pub zigzag: bool,
+    /// y0 minus the y of the first line at its start.
+    pub kick: f64,
     /// (F_x, F_y) on the first line, against the time since its start.
     pub force: &'a dyn Fn(f64) -> [f64; 2],
 }
@@ -64,7 +66,9 @@ pub fn scan_plane(
         PlaneScanned { position: vec![], steps: vec![], u: vec![], work: Work::default() };
     let mut state = None;
     for (n, line) in scan.lines.iter().enumerate() {
-        let (at, velocity) = state.filter(|_| scan.zigzag).unwrap_or(([line.from, line.y], 0.0));
+        let kick = if n == 0 { scan.kick } else { 0.0 };
+        let start = ([line.from, line.y + kick], 0.0);
+        let (at, velocity) = state.filter(|_| scan.zigzag).unwrap_or(start);
         let position = |t: f64| line.from + (line.to - line.from).signum() * scan.model.1 * t;
         let problem = problem(scan, (n, line), &position, (at, velocity));
         problem.check()?;

@@ -247,6 +247,7 @@ fn raster(
         products: &footprint(1.0),
         lines: &lines,
         zigzag,
+        kick: 0.0,
         force: &|t| [0.0, push * (-0.5 * (t - 3.0).powi(2)).exp()],
     };
     let times: Vec<f64> = (1..8).map(|k| 1.7 * f64::from(k)).collect();

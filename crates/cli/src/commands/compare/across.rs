@@ -1,108 +1,35 @@
 //! `stickslip compare --stiffness-across`: a tip that is free to move across the scan, against cells of a plane.
 
 use super::closed::{STEPS_PER_LOOK, closed_work};
-use super::grid::{Discretisation, Motion, SINC_HALF_WIDTH, Watch, explain, grid_work, wider};
+use super::grid::{Discretisation, Motion, Watch, explain, grid_work, wider};
 use super::pace::{Pace, stopped, timed};
+use super::plane::Plane;
 use super::{Asked, Sides};
 use crate::commands::progress::Progress;
-use crate::failure::{Failure, Typed};
-use stickslip::{ClosedDocument, GridDocument, GridName};
+use crate::failure::Failure;
+use stickslip::{ClosedDocument, GridDocument};
 use stickslip_grid::{
-    Gaussian, Path, PlaneMethod, PlaneProblem, PlaneRequest, PlaneStart, Product, Wider,
-    solve_plane,
+    Path, PlaneMethod, PlaneProblem, PlaneRequest, PlaneStart, Product, Wider, solve_plane,
 };
 use stickslip_surface::SurfaceAcross;
-use stickslip_tip::planar::{PlanarRunning, PlanarScenario, Step, Texture, Trajectory};
-use stickslip_tip::{Across, Layer, Start, TipFunction, Work};
-
-/// Default spacing of the second-order grid, in widths of the tip.
-const SECOND_ORDER: f64 = 0.05;
-/// Largest number of cells: 190 MB.
-const MOST_CELLS: f64 = 2.4e7;
-/// Distance in widths beyond which a Gaussian is taken as 0.
-const WIDTHS_OF_REACH: f64 = 8.85;
-
-/// Default spacing of the second-order grid, in widths of the tip.
-///
-/// # Errors
-/// A grid that is not one of a plane.
-pub(super) fn second_order(grid: GridName) -> Result<f64, Failure> {
-    if grid == GridName::Uniform {
-        let message = "is not available across the scan: take spectral or sinc (exact) or windowed (second order)";
-        return Err(Failure::input("--grid uniform", message));
-    }
-    Ok(SECOND_ORDER)
-}
+use stickslip_tip::planar::{
+    PlanarError, PlanarRunning, PlanarScenario, Step, Texture, Trajectory,
+};
+use stickslip_tip::{Start, Work};
 
 /// Both sides of a tip that is free to move across the scan; the surfaces are those on the line y = 0.
 pub(super) fn sides(asked: &Asked, scenario: &PlanarScenario) -> Result<Sides, Failure> {
-    let layers = scenario.along.model.tip().footprint().map_or(&[][..], |all| all.layers());
-    let products = layers.iter().map(product).collect::<Result<Vec<_>, Failure>>()?;
-    let cells = Cells::of(&asked.discretisation, layers);
+    let Discretisation { name, spacing, .. } = asked.discretisation;
+    let footprint = scenario.along.model.tip().footprint();
+    let footprint = footprint.ok_or(PlanarError::NoFootprint);
+    let footprint = footprint.map_err(|error| asked.question.refused_across(error))?;
+    let plane = Plane::of(name, spacing, footprint)?;
     let closed = Closed::of(asked, scenario)?;
     let x = asked.positions(|t| closed.trajectory.x0(t))?;
-    cells.fit(x[x.len() - 1] - x[0], asked.range(|t| closed.trajectory.y0(t)))?;
-    let motion = on_cells(asked, scenario, (&products, &cells.method), &x)?;
+    plane.fit(x[x.len() - 1] - x[0], asked.range(|t| closed.trajectory.y0(t)))?;
+    let motion = on_cells(asked, scenario, (&plane.products, &plane.method), &x)?;
     let closed = closed.document(scenario, &motion.t, asked.grid_until, &x)?;
     Ok(Sides { x, closed, motion })
-}
-
-/// A layer of the footprint in the types of the grid.
-fn product(layer: &Layer) -> Result<Product, Failure> {
-    let TipFunction::Gaussians(sum) = &layer.along else {
-        return Err(Failure::Run("the grid needs a footprint that is a sum of Gaussians".into()));
-    };
-    let of = |g: &stickslip_tip::Gaussian| Gaussian {
-        amplitude: g.amplitude,
-        center: g.center,
-        width: g.width,
-    };
-    let Across { center, width } = layer.across;
-    let twin = (center > 0.0).then_some(-center);
-    let bell = |center| Gaussian { amplitude: 1.0, center, width };
-    let across = std::iter::once(center).chain(twin).map(bell).collect();
-    Ok(Product { along: sum.terms().iter().map(of).collect(), across })
-}
-
-/// Cells of a plane: Δy is to the width across as Δx is to the width along.
-struct Cells {
-    method: PlaneMethod,
-    spacing: [f64; 2],
-    /// Distance across beyond which the tip leaves cells unchanged.
-    reach: f64,
-}
-
-impl Cells {
-    fn of(discretisation: &Discretisation, layers: &[Layer]) -> Self {
-        let Discretisation { name, spacing, smallest_width, .. } = *discretisation;
-        let widths = layers.iter().map(|layer| layer.across.width);
-        let ratio = widths.fold(f64::INFINITY, f64::min) / smallest_width;
-        let reaches = layers.iter().map(|l| l.across.center + WIDTHS_OF_REACH * l.across.width);
-        let reach = reaches.fold(0.0, f64::max);
-        let spacing = [spacing, ratio * spacing];
-        let method = match name {
-            GridName::Spectral => PlaneMethod::Spectral { spacing: spacing[0] / smallest_width },
-            GridName::Sinc => PlaneMethod::Sinc { spacing, half_width: SINC_HALF_WIDTH },
-            GridName::Windowed | GridName::Uniform => PlaneMethod::ThreePoint { spacing },
-        };
-        Self { method, spacing, reach }
-    }
-
-    /// Checks the number of cells over a length along the scan and the range of y0.
-    fn fit(&self, length: f64, (low, high): (f64, f64)) -> Result<(), Failure> {
-        let cells = length / self.spacing[0] * (high - low + 2.0 * self.reach) / self.spacing[1];
-        if cells <= MOST_CELLS {
-            return Ok(());
-        }
-        let coarser = self.spacing[0] * (cells / MOST_CELLS).sqrt();
-        Err(Failure::input(
-            format!("--spacing {}", Typed(self.spacing[0])),
-            format!(
-                "would make {cells:.1e} cells, more than fit in memory; take {coarser:.1e} or more, or a \
-                 smaller --grid-until"
-            ),
-        ))
-    }
 }
 
 /// A finished run of the closed equation and its time.

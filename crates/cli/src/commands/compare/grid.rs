@@ -19,7 +19,7 @@ const EXACT: f64 = std::f64::consts::PI / BAND_OF_A_GAUSSIAN;
 /// Default spacing of the second-order grids, in widths of the tip.
 pub(super) const SECOND_ORDER: f64 = 0.01;
 /// Cells on either side in the support of the sinc, for errors at round-off.
-pub(super) const SINC_HALF_WIDTH: usize = 80;
+const SINC_HALF_WIDTH: usize = 80;
 /// Largest number of cells: eight vectors of this length are 190 MB.
 const MOST_CELLS: f64 = 3e6;
 /// Number of samples to which the motion is thinned; at most twice as many are kept.
@@ -31,7 +31,7 @@ pub(super) struct Discretisation {
     gaussians: Vec<Gaussian>,
     pub(super) reach: f64,
     pub(super) spacing: f64,
-    pub(super) smallest_width: f64,
+    smallest_width: f64,
     pub(super) stepping: Stepping,
 }
 

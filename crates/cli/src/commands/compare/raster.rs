@@ -1,7 +1,10 @@
 //! `stickslip compare --lines`: a raster against the full equations on rows of cells.
 
-use super::grid::stepping;
+mod across;
+
+use super::grid::{grid_work, stepping};
 use super::pace::{PATIENCE, stopped, timed};
+use super::plane::{self, Plane};
 use super::time_limit;
 use crate::arguments::CompareArguments;
 use crate::commands::ask::refuse_strangers;
@@ -15,11 +18,12 @@ use serde_json::Value;
 use std::ops::ControlFlow;
 use std::time::Instant;
 use stickslip::{
-    Document, GridName, GridWork, Physical, Raster, RasterCompareDocument, RasterCompareFound,
+    Document, GridName, Physical, Raster, RasterCompareDocument, RasterCompareFound,
     RasterCompareParameters, RasterCompared,
 };
-use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Scanned, Stepping, scan};
+use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Stepping, scan};
 use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
+use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 
 /// Number of heights compared on each row.
 const POINTS: usize = 501;
@@ -33,14 +37,9 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let (parameters, plan) =
         question(options, values, (area, &disturbance.pulse), scales.as_ref())?;
-    if let Some(stiffness) = parameters.stiffness_across {
-        let message = "there is no grid for a tip that is free to move across: leave it out";
-        return Err(Failure::input(format!("--stiffness-across {}", Typed(stiffness)), message));
-    }
     let sampling = &parameters.sampling;
     let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
-    let (grid, method) = method(arguments.grid)?;
-    let spacing = spacing(arguments, method, &plan)?;
+    let cells = Cells::of(arguments, &plan)?;
     // Its own steps, unless times are asked for, which it would have to step to.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
     let times = if is_asked { parameters.times(&plan)? } else { vec![] };
@@ -48,20 +47,14 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;
-    let (scanned, grid_seconds) =
-        on_cells(&plan, (method, spacing), &stepping, (&times, &x), limit)?;
-    let work = GridWork {
-        steps: scanned.work.steps,
-        rejected: scanned.work.rejected,
-        right_hand_sides: scanned.work.right_hand_sides,
-        cells_updated: scanned.work.cells_updated,
-        seconds: grid_seconds,
+    let asked = Asked { plan: &plan, stepping, times, x, limit };
+    let compared = match (&plan.free, &cells.plane) {
+        (Some(free), Some(plane)) => across::on_cells(&asked, free, plane)?,
+        _ => on_rows(&asked, (cells.rows, cells.spacing))?,
     };
-    let asked_for = |x0: &Vec<f64>| times.iter().copied().zip(x0.iter().copied()).collect();
-    let motions = if is_asked { scanned.x0.iter().map(asked_for).collect() } else { scanned.steps };
-    let compared = RasterCompared { x, motions, y: scanned.y, u: scanned.u, work };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
     let (grid_tolerance, step) = (tolerance, arguments.step);
+    let (grid, spacing) = (cells.grid, cells.spacing);
     let parameters =
         RasterCompareParameters { raster: parameters, grid, spacing, grid_tolerance, step };
     let found = RasterCompareFound::new((&plan, &lines, seconds), compared);
@@ -69,11 +62,43 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     job.finish(document.in_units(scales.as_ref()))
 }
 
+/// What the grid is asked.
+struct Asked<'a> {
+    plan: &'a Plan,
+    stepping: Stepping,
+    /// Times on each line; without any, the ends of its steps.
+    times: Vec<f64>,
+    x: Vec<f64>,
+    limit: f64,
+}
+
+/// The discretisation: rows of cells, or a plane if the tip is free to move across.
+struct Cells {
+    grid: GridName,
+    rows: RowMethod,
+    plane: Option<Plane>,
+    /// Δx
+    spacing: f64,
+}
+
+impl Cells {
+    fn of(arguments: &CompareArguments, plan: &Plan) -> Result<Self, Failure> {
+        let (on_rows, rows) = method(arguments.grid, plan)?;
+        let spacing = spacing(arguments, rows, plan)?;
+        if plan.free.is_none() {
+            return Ok(Self { grid: on_rows, rows, plane: None, spacing });
+        }
+        let plane = Plane::of(arguments.grid, spacing, &plan.footprint)?;
+        Ok(Self { grid: arguments.grid, rows, plane: Some(plane), spacing })
+    }
+}
+
 /// The discretisation along x: exact to round-off, or of second order.
-fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
+fn method(asked: GridName, plan: &Plan) -> Result<(GridName, RowMethod), Failure> {
     match asked {
         GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
         GridName::Windowed => Ok((GridName::Windowed, RowMethod::ThreePoint)),
+        GridName::Uniform if plan.free.is_some() => Err(plane::no_uniform()),
         GridName::Uniform => {
             let message = "is not available for a raster: take sinc (exact along x) or windowed (second order)";
             Err(Failure::input("--grid uniform", message))
@@ -81,13 +106,18 @@ fn method(asked: GridName) -> Result<(GridName, RowMethod), Failure> {
     }
 }
 
-/// Δx: by default the widest that is exact to round-off, or a fiftieth of it for second order.
+/// Δx: by default the widest that is exact to round-off, or a fraction of it for second order.
 fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Result<f64, Failure> {
     let bands = plan.footprint.layers().iter().map(|layer| layer.along.band());
-    let exact = std::f64::consts::PI / bands.fold(0.0, f64::max);
+    let band = bands.fold(0.0, f64::max);
+    let exact = std::f64::consts::PI / band;
+    let second_order = match plan.free {
+        None => 0.02 * exact,
+        Some(_) => plane::SECOND_ORDER * BAND_OF_A_GAUSSIAN / band,
+    };
     match arguments.spacing {
         None if method == RowMethod::Sinc => Ok(exact),
-        None => Ok(0.02 * exact),
+        None => Ok(second_order),
         Some(spacing) if spacing > 0.0 && spacing <= exact => Ok(spacing),
         Some(spacing) => Err(Failure::input(
             format!("--spacing {}", Typed(spacing)),
@@ -113,13 +143,18 @@ fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
     })
 }
 
-fn on_cells(
-    plan: &Plan,
-    rows: (RowMethod, f64),
-    stepping: &Stepping,
-    asked: (&[f64], &[f64]),
-    limit: f64,
-) -> Result<(Scanned, f64), Failure> {
+/// The lines of a plan in the types of the grid.
+fn scan_lines(plan: &Plan) -> Vec<ScanLine> {
+    let way = |n: usize| {
+        let track = plan.track(n);
+        ScanLine { y: track.y, from: track.start, to: track.x(track.length) }
+    };
+    (0..plan.lines()).map(way).collect()
+}
+
+/// The raster of a tip that is held on its lines, on rows of cells.
+fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Failure> {
+    let Asked { plan, stepping, times, x, limit } = asked;
     type Function<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
     let parts = plan.footprint.layers();
     let functions: Vec<(Function, Function)> = parts
@@ -130,11 +165,7 @@ fn on_cells(
         .collect();
     let layers: Vec<Layer> =
         functions.iter().map(|(along, across)| Layer { along, across }).collect();
-    let way = |n: usize| {
-        let track = plan.track(n);
-        ScanLine { y: track.y, from: track.start, to: track.x(track.length) }
-    };
-    let lines: Vec<ScanLine> = (0..plan.lines()).map(way).collect();
+    let lines = scan_lines(plan);
     let (model, wider) = (&plan.law.model, plan.law.model.wider());
     let reach = plan.footprint.layers().iter().filter_map(|layer| layer.along.reach());
     let problem = Scan {
@@ -146,19 +177,56 @@ fn on_cells(
         zigzag: plan.path == Path::Zigzag,
         force: &|t| plan.disturbance.value(t),
     };
-    let clock = Instant::now();
-    let mut failure = None;
-    let mut progress = Progress::new(0.0, lines.len() as f64).at_every_call();
-    let mut watch = |done: f64| {
-        progress.counted(done, || format!("grid: {} of {} lines", done.floor(), lines.len()));
-        failure = too_slow(clock, done, lines.len(), limit);
-        if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    let mut watch = Watch::new(lines.len(), *limit);
+    let mut line = |done: f64| watch.reached(done);
+    let scanned = scan(&problem, rows, stepping, (times, x), &mut line);
+    let (scanned, seconds) = watch.ended(scanned)?;
+    let on_line = |(line, motion): (&ScanLine, Vec<(f64, f64)>)| {
+        motion.into_iter().map(|(t, x0)| (t, [x0, line.y])).collect()
     };
-    let scanned = scan(&problem, rows, stepping, asked, &mut watch);
-    let seconds = clock.elapsed().as_secs_f64();
-    match (failure, scanned) {
-        (Some(failure), _) => Err(failure),
-        (None, scanned) => Ok((scanned.map_err(explain)?, seconds)),
+    let at_times = |x0: &Vec<f64>| times.iter().copied().zip(x0.iter().copied()).collect();
+    let motions = match times.is_empty() {
+        true => scanned.steps,
+        false => scanned.x0.iter().map(at_times).collect(),
+    };
+    Ok(RasterCompared {
+        x: x.clone(),
+        motions: lines.iter().zip(motions).map(on_line).collect(),
+        y: scanned.y,
+        u: scanned.u,
+        work: grid_work(&scanned.work, seconds),
+    })
+}
+
+/// Observer of a grid's lines: shows progress, and ends work that would take too long.
+struct Watch {
+    clock: Instant,
+    progress: Progress,
+    lines: usize,
+    limit: f64,
+    failure: Option<Failure>,
+}
+
+impl Watch {
+    fn new(lines: usize, limit: f64) -> Self {
+        let progress = Progress::new(0.0, lines as f64).at_every_call();
+        Self { clock: Instant::now(), progress, lines, limit, failure: None }
+    }
+
+    fn reached(&mut self, done: f64) -> ControlFlow<()> {
+        let lines = self.lines;
+        self.progress.counted(done, || format!("grid: {} of {lines} lines", done.floor()));
+        self.failure = too_slow(self.clock, done, lines, self.limit);
+        if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The result with its time in seconds.
+    fn ended<T>(self, scanned: Result<T, GridError>) -> Result<(T, f64), Failure> {
+        let seconds = self.clock.elapsed().as_secs_f64();
+        match self.failure {
+            Some(failure) => Err(failure),
+            None => Ok((scanned.map_err(explain)?, seconds)),
+        }
     }
 }
 

@@ -150,8 +150,9 @@ impl Product for RasterCompareDocument {
         let RasterCompareFound { closed_work, grid_work, max_difference, speedup, lines, .. } =
             &self.answer;
         let [closed, grid] = [closed_work.seconds, grid_work.seconds].map(|s| 1e3 * s);
+        let across = max_difference.y0.map(|y0| format!("{y0:.1e} in y0, ")).unwrap_or_default();
         let told = Told::new(format!(
-            "{} lines: largest difference {:.1e} in x0, {:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \
+            "{} lines: largest difference {:.1e} in x0, {across}{:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \
              {} times as fast",
             lines.len(),
             max_difference.x0,
@@ -159,6 +160,7 @@ impl Product for RasterCompareDocument {
             times(*speedup),
         ));
         told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+            .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
             .row("closed equation", format!("{} steps, {closed:.2} ms", closed_work.steps))
             .row("grid", format!("{} steps, {grid:.0} ms", grid_work.steps))

@@ -45,7 +45,7 @@ pub struct RasterCompareParameters {
     /// The raster.
     #[serde(flatten)]
     pub raster: Raster,
-    /// Discretisation: sinc or windowed.
+    /// Discretisation: sinc or windowed, or spectral if the tip is free to move across the lines.
     pub grid: GridName,
     /// Δx of the cells, in σ.
     pub spacing: f64,
@@ -67,6 +67,12 @@ pub struct ComparedLine {
     pub closed_x0: Vec<f64>,
     /// x0 from the grid, in σ.
     pub grid_x0: Vec<f64>,
+    /// y0 from the closed equation, in σ, if the tip is free to move across the lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closed_y0: Option<Vec<f64>>,
+    /// y0 from the grid, in σ, if the tip is free to move across the lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grid_y0: Option<Vec<f64>>,
 }
 
 /// Counts that depend on the input alone, and the time of the computation.
@@ -87,8 +93,8 @@ pub struct RasterComparedWork {
 pub struct RasterCompared {
     /// Positions along rows.
     pub x: Vec<f64>,
-    /// For each line, times since its start with x0.
-    pub motions: Vec<Vec<(f64, f64)>>,
+    /// For each line, times since its start with (x0, y0).
+    pub motions: Vec<Vec<(f64, [f64; 2])>>,
     /// y of the rows.
     pub y: Vec<f64>,
     /// Heights, a row for each y.
@@ -101,18 +107,30 @@ impl RasterCompareFound {
     /// The comparison of a plan, its lines and their computing time in seconds with the result of the grid.
     #[must_use]
     pub fn new((plan, lines, seconds): (&Plan, &[Line], f64), grid: RasterCompared) -> Self {
-        let compared = |(line, motion): (&Line, &Vec<(f64, f64)>)| {
-            let (t, grid_x0): (Vec<f64>, Vec<f64>) = motion.iter().copied().unzip();
-            let closed_x0 = t.iter().map(|t| line.x0(*t)).collect();
-            ComparedLine { y: line.track().y, t, closed_x0, grid_x0 }
+        let is_free = plan.free.is_some();
+        let compared = |(line, motion): (&Line, &Vec<(f64, [f64; 2])>)| {
+            let t: Vec<f64> = motion.iter().map(|(t, _)| *t).collect();
+            let grid = |axis: usize| motion.iter().map(|(_, at)| at[axis]).collect();
+            let closed = |of: fn(&Line, f64) -> f64| t.iter().map(|t| of(line, *t)).collect();
+            ComparedLine {
+                y: line.track().y,
+                closed_x0: closed(Line::x0),
+                grid_x0: grid(0),
+                closed_y0: is_free.then(|| closed(Line::y0)),
+                grid_y0: is_free.then(|| grid(1)),
+                t,
+            }
         };
         let compared: Vec<ComparedLine> = lines.iter().zip(&grid.motions).map(compared).collect();
         let heights = Scanned::new(plan, lines).heights(&grid.x, &grid.y);
         let closed_u: Vec<Vec<f64>> = heights.rows().into_iter().map(|row| row.to_vec()).collect();
         let pairs = compared.iter().flat_map(|line| line.closed_x0.iter().zip(&line.grid_x0));
+        let across = compared
+            .iter()
+            .flat_map(|line| line.closed_y0.iter().flatten().zip(line.grid_y0.iter().flatten()));
         let max_difference = DifferenceDocument {
             x0: largest(pairs),
-            y0: None,
+            y0: is_free.then(|| largest(across)),
             u: largest(closed_u.iter().flatten().zip(grid.u.iter().flatten())),
         };
         let total = |of: fn(&Line) -> u64| lines.iter().map(of).sum();
@@ -149,12 +167,20 @@ impl Tabular for RasterCompareFound {
         };
         let rows = |(n, line): (usize, &ComparedLine)| vec![n as f64 + 1.0; line.t.len()];
         let numbers: Vec<f64> = self.lines.iter().enumerate().flat_map(rows).collect();
-        vec![
+        let mut columns = vec![
             ("line", numbers.into()),
             ("t", joined(|line| &line.t)),
             ("closed", joined(|line| &line.closed_x0)),
             ("grid", joined(|line| &line.grid_x0)),
-        ]
+        ];
+        if self.max_difference.y0.is_some() {
+            let across = |of: fn(&ComparedLine) -> &Option<Vec<f64>>| -> Column {
+                self.lines.iter().flat_map(of).flatten().copied().collect::<Vec<_>>().into()
+            };
+            columns.push(("closed_y0", across(|line| &line.closed_y0)));
+            columns.push(("grid_y0", across(|line| &line.grid_y0)));
+        }
+        columns
     }
 
     /// Motions one after the other, and both surfaces, as arrays.

@@ -38,11 +38,9 @@ pub(super) fn asymmetry(tip: &MeasuredTip) -> Option<f64> {
     let own = project(&columns, &odd)?.residuals;
     columns.push(odd);
     let fit = project(&columns, &residuals)?;
-    let count = residuals.len();
-    let effective = effective(count, correlation(&fit.residuals));
-    let freedom = effective - columns.len() as f64;
+    let effective = effective(residuals.len(), correlation(&fit.residuals));
     let asymmetry = *fit.coefficients.last()?;
     // Both sums are over all rows, of which so many count.
-    let variance = squares(&fit.residuals) / (squares(&own) * freedom);
-    (freedom > 0.0 && asymmetry.abs() > SIGNIFICANT * variance.sqrt()).then_some(asymmetry)
+    let error = (squares(&fit.residuals) / (squares(&own) * effective)).sqrt();
+    (asymmetry.abs() > SIGNIFICANT * error).then_some(asymmetry)
 }

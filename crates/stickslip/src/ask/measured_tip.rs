@@ -268,9 +268,8 @@ impl Ask for MeasuredTip {
 fn symmetrised(asymmetry: f64) -> String {
     let wider = if asymmetry > 0.0 { "larger" } else { "smaller" };
     format!(
-        "the profile is wider at {wider} positions, by about {:.0} %: the even f is right for neither trace nor retrace; --both-sides \
-         fits each",
-        100.0 * asymmetry.abs()
+        "the profile is wider at {wider} positions, beyond its noise: the even f is right for neither trace nor retrace; \
+         --both-sides fits each"
     )
 }
 

@@ -20,7 +20,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, read_from, told};
+use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, identified, read_from};
 use stickslip_figures::{Drawn, Taker, saved_as};
 use stickslip_tip::stop;
 
@@ -136,7 +136,7 @@ fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
 
 /// An option of a command, as described in its help.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct OptionTold {
+pub struct OptionDescription {
     /// Name, such as `alpha-above`; for a positional argument such as `RUN.json` its placeholder in small letters:
     /// `run`.
     pub name: String,
@@ -153,11 +153,11 @@ pub struct OptionTold {
 }
 
 /// The options of a command or subcommand, such as `["sweep", "raster"]`; `None` if there is no such command.
-pub fn options(path: &[&str]) -> Option<Vec<OptionTold>> {
+pub fn options(path: &[&str]) -> Option<Vec<OptionDescription>> {
     let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     parser.build();
     let command = path.iter().try_fold(&*parser, |at, name| at.find_subcommand(name))?;
-    let told = |argument: &clap::Arg| OptionTold {
+    let summary = |argument: &clap::Arg| OptionDescription {
         name: argument.get_long().unwrap_or(argument.get_id().as_str()).to_owned(),
         is_positional: argument.is_positional(),
         value: value_of(argument),
@@ -167,7 +167,7 @@ pub fn options(path: &[&str]) -> Option<Vec<OptionTold>> {
     };
     let own =
         |argument: &&clap::Arg| !["help", "version", "quiet"].contains(&argument.get_id().as_str());
-    Some(command.get_arguments().filter(own).map(told).collect())
+    Some(command.get_arguments().filter(own).map(summary).collect())
 }
 
 fn value_of(argument: &clap::Arg) -> Option<String> {
@@ -179,11 +179,11 @@ fn value_of(argument: &clap::Arg) -> Option<String> {
 /// The names of all commands, with descriptions.
 pub fn commands() -> Vec<(String, String)> {
     let parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
-    let told = |command: &clap::Command| {
+    let summary = |command: &clap::Command| {
         let about = command.get_about().map(ToString::to_string).unwrap_or_default();
         (command.get_name().to_owned(), about)
     };
-    parser.get_subcommands().map(told).collect()
+    parser.get_subcommands().map(summary).collect()
 }
 
 /// The document in a file, of any format.
@@ -202,7 +202,7 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
 /// # Errors
 /// The stream is not a document of this program.
 pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
-    let (kind, source) = told(source, "stickslip/COMMAND")?;
+    let (kind, source) = identified(source, "stickslip/COMMAND")?;
     match kind.format.as_deref() {
         Some(format @ UnitsDocument::FORMAT) => {
             read_from::<UnitsDocument>(source, format).map(made::plain)
@@ -270,12 +270,13 @@ mod tests {
             words("--alpha=0.8", &["--noise=1e-3", "--noise-spacing=0.5"]),
             words("--alpha=0.9", &["--history=none"]),
         ];
-        let told = |made: &Made| made.document.any().downcast_ref::<RunDocument>().unwrap().clone();
+        let run_of =
+            |made: &Made| made.document.any().downcast_ref::<RunDocument>().unwrap().clone();
         let together: Vec<_> =
             runs(&commands, &host([])).unwrap().into_iter().map(Result::unwrap).collect();
         for ((words, own), made) in commands.iter().zip(&together) {
             let alone = call(words.iter().map(String::as_str), own).unwrap().unwrap();
-            let (beside, single) = (told(made), told(&alone));
+            let (beside, single) = (run_of(made), run_of(&alone));
             assert_eq!(beside.regime, single.regime);
             assert_eq!(beside.samples.t, single.samples.t);
             for (a, b) in beside.samples.x0.iter().zip(&single.samples.x0) {
@@ -363,8 +364,8 @@ mod tests {
 
     #[test]
     fn options_are_those_of_the_help() {
-        let told = options(&["run"]).unwrap();
-        let named = |name: &str| told.iter().find(|option| option.name == name).unwrap();
+        let summary = options(&["run"]).unwrap();
+        let named = |name: &str| summary.iter().find(|option| option.name == name).unwrap();
         assert_eq!(named("tip-file").value.as_deref(), Some("FILE"));
         assert_eq!(named("sample-at").delimiter, Some(','));
         assert!(named("pulse").is_repeatable && named("no-spring").value.is_none());

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
-use stickslip_cli::hosted::{self, Made};
 use stickslip::RunDocument;
+use stickslip_cli::hosted::{self, Made};
 use stickslip_figures::{
     self as figures, AnimationFormat, FigureFormat, Film, Shot, Size, View, Width,
 };

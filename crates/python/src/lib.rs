@@ -2,12 +2,12 @@
 //! them. What is asked for are the program's options, so that numbers, defaults, refusals and words are its own; what
 //! comes back is a [`Document`](document::Document) in Rust's memory, of which Python sees what it asks for.
 
+mod descriptions;
 mod document;
 mod failed;
 mod fields;
 mod motion;
 mod samples;
-mod told;
 mod value;
 mod work;
 
@@ -17,9 +17,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::document::Document;
+    use super::descriptions::{commands, csv, options};
     #[pymodule_export]
-    use super::told::{commands, csv, options};
+    use super::document::Document;
     #[pymodule_export]
     use super::work::{call, call_runs, load, read};
 }

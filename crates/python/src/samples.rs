@@ -5,8 +5,8 @@ use crate::value::array;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::any::Any;
-use stickslip_cli::hosted::Document;
 use stickslip::{RunDocument, Samples};
+use stickslip_cli::hosted::Document;
 
 /// The columns of a run that Python has.
 pub(crate) struct Taken(Vec<(&'static str, Py<PyArray1<f64>>)>);

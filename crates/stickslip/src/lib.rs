@@ -123,7 +123,7 @@ pub use documents::raster::{
     RasterSurfaceDocument, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
     RasterSweepPoint, RasterWork,
 };
-pub use documents::read::{Kind, Unusable, kind_of, read, read_from, told};
+pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
 pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };

@@ -135,33 +135,33 @@ fn quantity(option: &str, text: Option<&str>, unit: Unit) -> Result<Option<f64>,
 
 /// The fields of a document that may contain scales.
 #[derive(Deserialize)]
-struct Telling {
+struct Scaled {
     format: Option<String>,
     scales: Option<KnownScales>,
     sigma_metres: Option<f64>,
-    physical: Option<Told>,
+    physical: Option<WithScales>,
     parameters: Option<serde_json::Value>,
     numbers: Option<Vec<NumberFitted>>,
     data: Option<serde_json::Value>,
 }
 
 #[derive(Deserialize)]
-struct Told {
+struct WithScales {
     scales: Option<KnownScales>,
 }
 
 fn of_document(path: &Path) -> Result<KnownScales, Failure> {
     let named = || format!("--units {}", path.display());
-    let telling: Telling = serde_json::from_reader(open("--units", path)?)
+    let document: Scaled = serde_json::from_reader(open("--units", path)?)
         .map_err(|error| Failure::input(named(), format!("no document: {error}")))?;
-    let scales = match telling.format.as_deref() {
-        Some(UnitsDocument::FORMAT) => telling.scales,
+    let scales = match document.format.as_deref() {
+        Some(UnitsDocument::FORMAT) => document.scales,
         Some(MeasuredTipDocument::FORMAT) => {
-            let length = telling.sigma_metres;
+            let length = document.sigma_metres;
             length.map(|_| KnownScales { length, ..KnownScales::default() })
         }
-        Some(FitDocument::FORMAT) => telling.fitted(),
-        _ => telling.physical.and_then(|told| told.scales),
+        Some(FitDocument::FORMAT) => document.fitted(),
+        _ => document.physical.and_then(|physical| physical.scales),
     };
     let Some(scales) = scales else {
         let advice = "contains no scales: a document of `stickslip units` does, one of `tip` or `fit` from data with a \
@@ -176,7 +176,7 @@ fn of_document(path: &Path) -> Result<KnownScales, Failure> {
     Err(Failure::input(named(), "damaged: scales must be above 0"))
 }
 
-impl Telling {
+impl Scaled {
     /// Scales of a fit: σ is the fitted or fixed width; kσ²/a follows from the heights of ripples.
     fn fitted(self) -> Option<KnownScales> {
         let question: Fit = serde_json::from_value(self.parameters?).ok()?;

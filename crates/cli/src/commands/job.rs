@@ -3,7 +3,7 @@
 
 use super::fields::Fields;
 use super::figure::Figure;
-use super::told::Told;
+use super::summary::Summary;
 use crate::arguments::{FieldArguments, Format, OutletArguments};
 use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
@@ -23,7 +23,7 @@ use stickslip_figures::Drawn;
 /// The result of a command: a document with columns, a figure and a summary.
 pub(crate) trait Product: Serialize + JsonSchema + Tabular {
     /// The summary for the user.
-    fn told(&self) -> Told;
+    fn summary(&self) -> Summary;
 }
 
 /// Rejects an output that is also an input of the command, or that is named twice.
@@ -43,7 +43,7 @@ pub(crate) struct Job {
     fields: Fields,
     is_file: bool,
     /// Whether a summary is printed when the result goes to a file.
-    is_told: bool,
+    has_summary: bool,
 }
 
 impl Job {
@@ -70,7 +70,7 @@ impl Job {
             format,
             fields: Fields::asked::<P>(&fields.print)?,
             is_file: output != Path::new("-"),
-            is_told: output != Path::new("-"),
+            has_summary: output != Path::new("-"),
             figure: Figure::asked("--plot", plot)?,
             output: Output::open("--output", output)?,
         })
@@ -84,7 +84,7 @@ impl Job {
     /// Suppresses the summary when the result goes to a file, because it is printed elsewhere.
     #[must_use]
     pub(crate) fn silent_if(self, is_silent: bool) -> Self {
-        Self { is_told: self.is_told && !is_silent, ..self }
+        Self { has_summary: self.has_summary && !is_silent, ..self }
     }
 
     /// Draws and writes the result, and prints the summary.
@@ -93,10 +93,10 @@ impl Job {
         product: P,
     ) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
-        let told = product.told().in_units(product.physical());
-        let figure = self.write_told(&product, &told)?;
+        let summary = product.summary().in_units(product.physical());
+        let figure = self.write_with(&product, &summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        host::give(|| told.of(pictured(product)));
+        host::give(|| summary.of(pictured(product)));
         drawn
     }
 
@@ -105,17 +105,17 @@ impl Job {
         self,
         product: P,
     ) -> Result<(), Failure> {
-        let told = product.told().in_units(product.physical());
-        self.write_told(&product, &told)?;
-        host::give(|| told.of(plain(product)));
+        let summary = product.summary().in_units(product.physical());
+        self.write_with(&product, &summary)?;
+        host::give(|| summary.of(plain(product)));
         Ok(())
     }
 
     /// Writes a result and prints the given summary; returns the figure still to be drawn.
-    pub(crate) fn write_told<P: Serialize + Tabular>(
+    pub(crate) fn write_with<P: Serialize + Tabular>(
         self,
         product: &P,
-        told: &Told,
+        summary: &Summary,
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
         // Fields take the place of the document, and a host takes it as it is.
@@ -124,10 +124,10 @@ impl Job {
                 Format::Json => self.output.write_json(product)?,
                 Format::Csv => write_csv(product, self.output)?,
                 Format::Npz => write_npz(product, self.output)?,
-                Format::Text => self.output.write_bytes(told.text().as_bytes())?,
+                Format::Text => self.output.write_bytes(summary.text().as_bytes())?,
             }
         }
-        after(product, told, &self.fields, self.is_told)?;
+        after(product, summary, &self.fields, self.has_summary)?;
         Ok(self.figure)
     }
 
@@ -138,11 +138,11 @@ impl Job {
         product: P,
     ) -> Result<(), Failure> {
         let figure = self.figure.take();
-        let told = product.told().in_units(product.physical());
+        let summary = product.summary().in_units(product.physical());
         self.output.write_bytes(bytes)?;
-        after(&product, &told, &self.fields, self.is_told)?;
+        after(&product, &summary, &self.fields, self.has_summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        host::give(|| told.of(pictured(product)));
+        host::give(|| summary.of(pictured(product)));
         drawn
     }
 }
@@ -150,9 +150,9 @@ impl Job {
 /// Output after the document: requested fields on standard output, or the summary if the result went to a file.
 pub(crate) fn after(
     product: &impl Serialize,
-    told: &Told,
+    summary: &Summary,
     fields: &Fields,
-    is_told: bool,
+    has_summary: bool,
 ) -> Result<(), Failure> {
     if !fields.is_empty() {
         let text = fields.of(product)?;
@@ -160,8 +160,8 @@ pub(crate) fn after(
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }
     // A host has the result itself.
-    if is_told && !host::is_there() {
-        remark_lines(&told.in_short());
+    if has_summary && !host::is_there() {
+        remark_lines(&summary.in_short());
     }
     Ok(())
 }

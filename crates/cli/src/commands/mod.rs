@@ -28,4 +28,4 @@ mod in_units;
 mod job;
 mod judged;
 mod progress;
-mod told;
+mod summary;

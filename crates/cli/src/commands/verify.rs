@@ -12,7 +12,7 @@ use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::interrupt::Interrupt;
-use claims::{Judged, Told};
+use claims::{Judged, Summary};
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip::{
@@ -73,12 +73,12 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         None => of_samples(&scenario, memory, &samples)?,
     };
     let (wider, support) = (*scenario.model.wider(), scenario.support());
-    let told = trajectory.as_ref().map(|along| {
+    let summary = trajectory.as_ref().map(|along| {
         let law = (&support, &wider);
         (along, move |i: usize, t: f64| SampleLine::of(&along.steps()[i], law, t))
     });
-    let told = told.as_ref().map(|(along, sample)| Told { along, sample });
-    let differences = claims::of_document(&run, Judged::Along(&scenario), told)?;
+    let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
+    let differences = claims::of_document(&run, Judged::Along(&scenario), summary)?;
     finish(run, job, verification, differences)
 }
 

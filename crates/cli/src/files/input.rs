@@ -101,7 +101,7 @@ pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
     }
     let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
     let (kind, source) =
-        documents::told(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
+        documents::identified(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
     if kind.format.as_deref() == Some(RasterDocument::FORMAT) {
         let raster = documents::read_from(source, RasterDocument::FORMAT).map_err(refused)?;
         return Ok(RunOrRaster::Raster(Box::new(raster)));

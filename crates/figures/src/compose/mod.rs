@@ -44,7 +44,7 @@ use stickslip::{
     FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
     RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
     ResponseDocument, RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Tabular, Unusable, WalkerDocument, WalkingDocument, read_from, told,
+    SweepDocument, Tabular, Unusable, WalkerDocument, WalkingDocument, identified, read_from,
 };
 
 pub use drawn::{Drawn, View};
@@ -196,7 +196,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
             }
         };
     }
-    let (kind, source) = told(source, "stickslip/COMMAND")?;
+    let (kind, source) = identified(source, "stickslip/COMMAND")?;
     let format = kind.format.unwrap_or_default();
     by_format!(
         source,

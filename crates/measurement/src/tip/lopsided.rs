@@ -21,7 +21,8 @@ fn footprint(tip: &MeasuredTip, distance: f64) -> (f64, f64) {
 ///
 /// To first order a footprint with the widths 1 ± e/2 on either side has the height f(ξ) - (e/2) |ξ| f'(ξ). Least squares
 /// determine e from the residuals of the even fit, together with changes of the height, the centre, the width and the background.
-/// The standard error takes account of the correlation of neighbouring rows in the remaining residuals.
+/// The standard error takes account of the correlation of neighbouring rows in the remaining residuals. The estimate serves to
+/// detect a difference: on pits of Gaussian sides it is about 18 % too small.
 pub(super) fn asymmetry(tip: &MeasuredTip) -> Option<f64> {
     let rows = &tip.fitted;
     let residuals: Vec<f64> = rows.f.iter().zip(&rows.fit).map(|(f, fit)| f - fit).collect();

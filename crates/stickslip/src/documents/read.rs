@@ -64,7 +64,7 @@ pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable
 /// # Errors
 /// As [`read`]; or the stream fails.
 pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result<D, Unusable> {
-    let (kind, whole) = told(source, wanted)?;
+    let (kind, whole) = identified(source, wanted)?;
     kind.judge(wanted)?;
     serde_json::from_reader(whole).map_err(|error| match error.classify() {
         Category::Io => unreadable(&error),
@@ -79,7 +79,7 @@ pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result
 ///
 /// # Errors
 /// As [`kind_of`].
-pub fn told<R: Read>(source: R, wanted: &str) -> Result<(Kind, impl Read), Unusable> {
+pub fn identified<R: Read>(source: R, wanted: &str) -> Result<(Kind, impl Read), Unusable> {
     let mut source = BufReader::with_capacity(BLOCK, source);
     let mut seen = vec![];
     let kind = kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?;

@@ -5,7 +5,7 @@ use super::record::Sink;
 use super::write::{Target, Written};
 use crate::arguments::RunArguments;
 use crate::commands::ask::refusal;
-use crate::commands::{job, told, verify};
+use crate::commands::{job, summary, verify};
 use crate::failure::Failure;
 use crate::host;
 use crate::made::pictured;
@@ -50,7 +50,7 @@ pub(super) fn write(
             };
             stream.line(&end)?;
             stream.finish()?;
-            job::after(&end, &told::of_lines(&end), &fields, order.output != Path::new("-"))?;
+            job::after(&end, &summary::of_lines(&end), &fields, order.output != Path::new("-"))?;
         }
         Target::Document(job) => {
             let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
@@ -69,15 +69,15 @@ pub(super) fn write(
             let interrupt = integrated.interrupt;
             let _keeps = interrupt.signal().is_some().then_some(interrupt);
             let mut document = document.in_units(order.scales.as_ref());
-            let told = told::of_across(&document).in_units(document.physical.as_ref());
-            let figure = job.write_told(&Written { document: &document, reached }, &told)?;
+            let summary = summary::of_across(&document).in_units(document.physical.as_ref());
+            let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
             if let Some(figure) = figure {
                 // Drawn from the history, whether or not it is written.
                 document.history = history;
                 figure.draw(&document)?;
                 document.history.take_if(|_| !order.history);
             }
-            host::give(|| told.of(pictured(document)));
+            host::give(|| summary.of(pictured(document)));
             failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => {

@@ -3,7 +3,7 @@
 use super::order;
 use crate::arguments::RunArguments;
 use crate::commands::ask::context;
-use crate::commands::told;
+use crate::commands::summary;
 use crate::failure::Failure;
 use crate::made::{Made, pictured};
 use std::path::Path;
@@ -29,20 +29,20 @@ pub(crate) fn runs(orders: Vec<Order>) -> Vec<Result<Made, Failure>> {
     let mut made: Vec<Option<Result<Made, Failure>>> = orders.iter().map(|_| None).collect();
     let questions = orders.iter().map(|order| order.parameters.clone()).collect();
     ask_runs(questions, &context(), |number, answer| {
-        made[number] = Some(answer.map(|run| told(&orders[number], run)).map_err(Failure::from));
+        made[number] = Some(answer.map(|run| summary(&orders[number], run)).map_err(Failure::from));
     });
     let missing = || Err(Failure::Run("the run was not made".into()));
     made.into_iter().map(|made| made.unwrap_or_else(missing)).collect()
 }
 
-fn told(order: &Order, run: RunDocument) -> Made {
+fn summary(order: &Order, run: RunDocument) -> Made {
     let mut document = run.in_units(order.scales.as_ref());
-    let told = if document.parameters.stiffness_across.is_some() {
-        told::of_across(&document)
+    let summary = if document.parameters.stiffness_across.is_some() {
+        summary::of_across(&document)
     } else {
-        told::of_run(&document, &RunEnd::from(&document))
+        summary::of_run(&document, &RunEnd::from(&document))
     };
-    let told = told.in_units(document.physical.as_ref());
+    let summary = summary.in_units(document.physical.as_ref());
     document.history.take_if(|_| !order.history);
-    told.of(pictured(document))
+    summary.of(pictured(document))
 }

@@ -4,7 +4,7 @@ use super::integration::Integrated;
 use super::record::{Record, Sink};
 use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
-use crate::commands::{told, verify};
+use crate::commands::{summary, verify};
 use crate::failure::Failure;
 use crate::host;
 use crate::made::pictured;
@@ -78,8 +78,8 @@ pub(super) fn all(
             };
             stream.line(&end)?;
             stream.finish()?;
-            let told = told::of_lines(&end);
-            job::after(&end, &told, &fields, order.output != Path::new("-"))?;
+            let summary = summary::of_lines(&end);
+            job::after(&end, &summary, &fields, order.output != Path::new("-"))?;
         }
         Target::Document(job) => {
             let samples = &integrated.record.samples;
@@ -95,15 +95,15 @@ pub(super) fn all(
             let interrupt = integrated.interrupt;
             let _keeps = interrupt.signal().is_some().then_some(interrupt);
             let mut document = document.in_units(order.scales.as_ref());
-            let told = told::of_run(&document, &end).in_units(document.physical.as_ref());
-            let figure = job.write_told(&Written { document: &document, reached }, &told)?;
+            let summary = summary::of_run(&document, &end).in_units(document.physical.as_ref());
+            let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
             if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
                 // Drawn from the history, whether or not it is written.
                 document.history = Some(trajectory.into());
                 figure.draw(&document)?;
                 document.history.take_if(|_| !order.history);
             }
-            host::give(|| told.of(pictured(document)));
+            host::give(|| summary.of(pictured(document)));
             failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),

@@ -51,7 +51,7 @@ pub(crate) trait Divided:
     fn velocity(&self) -> Option<f64>;
 
     /// Adds results that need all points together.
-    fn told_together(self) -> Self {
+    fn found_together(self) -> Self {
         self
     }
 
@@ -62,7 +62,7 @@ pub(crate) trait Divided:
 
     /// The finished document, with its checksum.
     fn sealed(self) -> Result<Self, Failure> {
-        let mut document = self.told_together();
+        let mut document = self.found_together();
         let sum = document.checksum()?;
         *document.held().crc32 = Some(sum);
         Ok(document)
@@ -123,7 +123,7 @@ impl Divided for SweepDocument {
         self.parameters.velocity()
     }
 
-    fn told_together(mut self) -> Self {
+    fn found_together(mut self) -> Self {
         self.ensembles = EnsembleDocument::all(&self.parameters, &self.points);
         self
     }

@@ -1,6 +1,6 @@
 //! Verification of a run in two coordinates.
 
-use super::claims::{self, Judged, Told};
+use super::claims::{self, Judged, Summary};
 use super::{begins_as, finish, is_of, job, repeated, samples, samples_alone};
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
@@ -36,14 +36,14 @@ pub(super) fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Resu
         None => of_samples(&scenario, &sampled)?,
     };
     let (support, wider) = (along.support(), *along.model.wider());
-    let told = trajectory.as_ref().map(|trajectory| {
+    let summary = trajectory.as_ref().map(|trajectory| {
         let steps = trajectory.steps().iter().map(|step| step.along).collect();
         let along = stickslip_tip::Trajectory::under(wider, support.clone(), steps);
         let law = (&support, &wider);
         (along, move |i: usize, t: f64| sample_across(&trajectory.steps()[i], law, t))
     });
-    let told = told.as_ref().map(|(along, sample)| Told { along, sample });
-    let differences = claims::of_document(&run, Judged::Across(&scenario), told)?;
+    let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
+    let differences = claims::of_document(&run, Judged::Across(&scenario), summary)?;
     finish(run, job, verification, differences)
 }
 

@@ -404,7 +404,7 @@ fn cut(scenario: &Scenario, until: f64, reached: f64) -> Arc<AtomicBool> {
 
 /// The dense history of a run: the motion along the scan, and all of it at a time within the step of an index.
 #[derive(Clone, Copy)]
-pub(super) struct Told<'a> {
+pub(super) struct Summary<'a> {
     pub(super) along: &'a Trajectory,
     pub(super) sample: &'a dyn Fn(usize, f64) -> SampleLine,
 }
@@ -416,7 +416,7 @@ pub(super) struct Told<'a> {
 pub(super) fn of_document(
     run: &RunDocument,
     judged: Judged<'_>,
-    history: Option<Told<'_>>,
+    history: Option<Summary<'_>>,
 ) -> Result<Vec<ClaimDocument>, Failure> {
     let scenario = judged.along();
     let mut claims = Claims::default();
@@ -425,7 +425,7 @@ pub(super) fn of_document(
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
-    if let Some(Told { along, sample: found }) = history {
+    if let Some(Summary { along, sample: found }) = history {
         let steps = along.steps();
         for sample in samples.drain(..) {
             let after = steps.partition_point(|step| step.t <= sample.t);

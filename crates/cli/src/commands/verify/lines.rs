@@ -51,9 +51,9 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
     let verification = VerificationDocument::from(&found);
     let model = head.parameters.model_parameters();
-    let told = (&model, head.steady_state.as_ref());
+    let summary = (&model, head.steady_state.as_ref());
     let differences =
-        claims::of_lines(judged, told, samples.lines(), (until, extent.end.as_ref()))?;
+        claims::of_lines(judged, summary, samples.lines(), (until, extent.end.as_ref()))?;
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
     }

@@ -1,6 +1,6 @@
 //! Summaries of runs.
 
-use super::{Told, again, digits};
+use super::{Summary, again, digits};
 use crate::commands::verify::kept;
 use stickslip::{
     LoopDocument, ModelParameters, OscillationDocument, RegimeName, RunDocument, RunEnd,
@@ -8,35 +8,35 @@ use stickslip::{
 };
 
 /// The summary of a run with the result `end`.
-pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Told {
+pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summary {
     let verified = document.verification.as_ref().map_or(String::new(), kept);
-    let told = Told::new(summary(end) + &verified);
-    let told = told.row("α, r", parameters(&document.parameters.model_parameters()));
-    let told = match &end.oscillation {
-        Some(found) => oscillation(told, found),
-        None => told,
+    let summary = Summary::new(summary(end) + &verified);
+    let summary = summary.row("α, r", parameters(&document.parameters.model_parameters()));
+    let summary = match &end.oscillation {
+        Some(found) => oscillation(summary, found),
+        None => summary,
     };
     let worked = |loops: &Vec<LoopDocument>| {
         loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
     };
-    let told = told.maybe("work of a loop", document.loops.as_ref().and_then(worked));
+    let summary = summary.maybe("work of a loop", document.loops.as_ref().and_then(worked));
     let velocity = end.drifting.as_ref().map(|d| to_its_digits(d.velocity, d.velocity_error));
     let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
-    let told = told
+    let summary = summary
         .maybe("velocity", velocity.map(|v| format!("{v} kσ/Γ")))
         .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
         .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
         .remarks(&end.remarks);
     if end.regime != RegimeName::Transient {
-        return told.next(again("-o run.json --plot run.svg"));
+        return summary.next(again("-o run.json --plot run.svg"));
     }
     let longer = end.transient.as_ref().and_then(|transient| transient.time);
     let longer = longer.map_or(3.0 * end.end.abs(), |time| 1.5 * time);
-    told.next(again(&format!("--until {}", digits(end.end + longer, 2))))
+    summary.next(again(&format!("--until {}", digits(end.end + longer, 2))))
 }
 
 /// The summary of a run in two coordinates.
-pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
+pub(in crate::commands) fn of_across(document: &RunDocument) -> Summary {
     let work = &document.work;
     let swing = document.snaking.as_ref();
     let motion = document.oscillation.as_ref();
@@ -57,14 +57,15 @@ pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
     let held =
         |value: f64, error: f64, unit: &str| format!("{} {unit}", to_its_digits(value, error));
     let stiffness = document.parameters.stiffness_across.unwrap_or_default();
-    let told = Told::new(headline)
+    let summary = Summary::new(headline)
         .row("α, r", parameters(&document.parameters.model_parameters()))
         .row("stiffness across", digits(stiffness, 10));
-    let told = match motion {
-        Some(found) => oscillation(told, found),
-        None => told,
+    let summary = match motion {
+        Some(found) => oscillation(summary, found),
+        None => summary,
     };
-    told.maybe("period", swing.map(|s| held(s.period, s.period_error, "Γ/k")))
+    summary
+        .maybe("period", swing.map(|s| held(s.period, s.period_error, "Γ/k")))
         .maybe("wavelength", swing.map(|s| held(s.wavelength, s.wavelength_error, "σ")))
         .maybe("amplitude of y0", swing.map(|s| held(s.amplitude_y0, s.amplitude_y0_error, "σ")))
         .maybe("amplitude of x0", swing.map(|s| format!("{} σ", digits(s.amplitude_x0, 7))))
@@ -73,19 +74,20 @@ pub(in crate::commands) fn of_across(document: &RunDocument) -> Told {
 }
 
 /// The summary of a run written as lines.
-pub(in crate::commands) fn of_lines(end: &RunEnd) -> Told {
-    Told::new(summary(end)).remarks(&end.remarks)
+pub(in crate::commands) fn of_lines(end: &RunEnd) -> Summary {
+    Summary::new(summary(end)).remarks(&end.remarks)
 }
 
 fn parameters(model: &ModelParameters) -> String {
     format!("{}, {}", digits(model.alpha, 10), digits(model.r, 10))
 }
 
-fn oscillation(told: Told, found: &OscillationDocument) -> Told {
+fn oscillation(summary: Summary, found: &OscillationDocument) -> Summary {
     let held = |value: f64, error: Option<f64>, unit: &str| {
         format!("{} {unit}", to_its_digits(value, error.unwrap_or(0.0)))
     };
-    told.row("period", held(found.period, found.period_error, "Γ/k"))
+    summary
+        .row("period", held(found.period, found.period_error, "Γ/k"))
         .row("wavelength", held(found.wavelength, found.wavelength_error, "σ"))
         .row("amplitude of x0", held(found.amplitude_x0, found.amplitude_x0_error, "σ"))
         .maybe(

@@ -1,11 +1,11 @@
 //! Summaries of surfaces, comparisons and units.
 
-use super::{Told, again, digits, times};
+use super::{Summary, again, digits, times};
 use crate::commands::job::Product;
 use stickslip::{CompareDocument, CompareFound, SurfaceDocument, UnitsDocument};
 
 impl Product for SurfaceDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let curves = self.surfaces.iter().map(|s| (s.t, &s.x, s.u.to_vec()));
         let images = self.images.iter().map(|image| {
             (image.t, &image.x, image.u.iter().flatten().copied().collect::<Vec<f64>>())
@@ -26,16 +26,17 @@ impl Product for SurfaceDocument {
             [(t, heights)] => format!("u at {t}: {heights}"),
             _ => format!("u at {} times", rows.len()),
         };
-        let told = rows.into_iter().fold(Told::new(headline), |told, (t, row)| told.row(&t, row));
-        told.next(again("-o surface.csv --plot surface.svg"))
+        let summary =
+            rows.into_iter().fold(Summary::new(headline), |summary, (t, row)| summary.row(&t, row));
+        summary.next(again("-o surface.csv --plot surface.svg"))
     }
 }
 
 impl Product for CompareDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let CompareFound { closed, grid, max_difference, speedup, .. } = &self.answer;
         let across = max_difference.y0.map(|y0| format!("{y0:.1e} in y0, "));
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "largest difference {:.1e} in x0, {}{:.1e} in u; closed equation {:.2} ms, grid {:.2} ms: \
              {} times as fast per unit of time",
             max_difference.x0,
@@ -45,7 +46,8 @@ impl Product for CompareDocument {
             1e3 * grid.work.seconds,
             times(*speedup),
         ));
-        told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+        summary
+            .row("difference in x0", format!("{:.1e} σ", max_difference.x0))
             .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
             .row(
@@ -59,14 +61,14 @@ impl Product for CompareDocument {
 }
 
 impl Product for UnitsDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let stable =
             if self.stable { "steady motion is stable" } else { "steady motion is unstable" };
         let [alpha, r] = [self.alpha, self.r].map(|value| digits(value, 7));
-        let told = Told::new(format!("α = {alpha}, r = {r}: {stable}"));
-        let rows = self.quantities().into_iter().fold(told, |told, (name, value, unit)| {
+        let summary = Summary::new(format!("α = {alpha}, r = {r}: {stable}"));
+        let rows = self.quantities().into_iter().fold(summary, |summary, (name, value, unit)| {
             let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-            told.maybe(&name.replace('_', " "), value.map(|v| format!("{}{unit}", digits(v, 7))))
+            summary.maybe(&name.replace('_', " "), value.map(|v| format!("{}{unit}", digits(v, 7))))
         });
         let next = format!(
             "stickslip run --alpha {alpha} --r {r} --kick 0.05 --until 400 -o run.json --plot run.svg"

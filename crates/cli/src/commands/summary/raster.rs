@@ -1,6 +1,6 @@
 //! Summaries of rasters.
 
-use super::{Told, again, digits, times};
+use super::{Summary, again, digits, times};
 use crate::commands::job::Product;
 use stickslip::{
     HeightMap, PathName, PatternDocument, RasterBoundaryDocument, RasterCompareDocument,
@@ -9,7 +9,7 @@ use stickslip::{
 };
 
 impl Product for RasterDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let (count, regime) = (self.lines.len(), self.regime);
         let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));
         let pattern = self.pattern.as_ref();
@@ -21,7 +21,7 @@ impl Product for RasterDocument {
             let error = p.coherence_error.map(|error| format!(" ± {}", digits(error, 2)));
             digits(p.coherence, 4) + &error.unwrap_or_default()
         };
-        Told::new(headline)
+        Summary::new(headline)
             .maybe("q along the lines", pattern.and_then(|p| p.q).map(|q| of(q, "1/σ")))
             .maybe("κ across them", pattern.and_then(|p| p.kappa).map(|kappa| of(kappa, "1/σ")))
             .maybe("wavelength", wavelength)
@@ -41,7 +41,7 @@ impl Product for RasterDocument {
 }
 
 impl Product for RasterStabilityDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let at = self.critical.as_ref();
         let number = |value: f64| digits(value, 10);
         let is_plane = self.thresholds.is_some();
@@ -62,21 +62,21 @@ impl Product for RasterStabilityDocument {
         let here = alpha.map(|alpha| format!("; α = {}{stable}", digits(alpha, 10)));
         let length =
             at.and_then(|at| at.wavelength_x).map(|length| format!("{} σ", number(length)));
-        let told = Told::new(headline + &here.unwrap_or_default())
+        let summary = Summary::new(headline + &here.unwrap_or_default())
             .maybe("critical α", at.map(|at| number(at.alpha)))
             .maybe("q along the lines", at.map(|at| format!("{} 1/σ", number(at.q))))
             .maybe("wavelength along them", length)
             .maybe("phase per line", at.map(|at| number(at.phase_per_line)))
             .maybe("crests to scan axis", at.and_then(angle));
         let others = self.thresholds.iter().flatten().skip(1);
-        let told = others.fold(told, |told, at| {
+        let summary = others.fold(summary, |summary, at| {
             let crests = angle(at).map(|angle| format!(", crests at {angle}")).unwrap_or_default();
-            told.row(
+            summary.row(
                 &format!("{} above", at.kind.map_or("", RasterKindName::as_str)),
                 format!("α = {}, q = {} 1/σ{crests}", number(at.alpha), digits(at.q, 7)),
             )
         });
-        told.remarks(&self.remarks).next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
+        summary.remarks(&self.remarks).next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
     }
 }
 
@@ -95,13 +95,13 @@ fn angle(at: &RasterCriticalDocument) -> Option<String> {
 }
 
 impl Product for RasterBoundaryDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let ends = |v: &[f64]| {
             let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
             format!("{first} to {last}")
         };
         let pitches = self.pitch.len();
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "αc from {} at {pitches} pitches from {}",
             ends(&self.alpha),
             ends(&self.pitch)
@@ -110,17 +110,18 @@ impl Product for RasterBoundaryDocument {
         .row("crests to scan axis", format!("from {} °", ends(&self.crest_angle)));
         let kinds = self.thresholds.iter().flat_map(|columns| columns.kind.chunk_by(|a, b| a == b));
         let mut first = 0;
-        let told = kinds.fold(told, |told, kind| {
+        let summary = kinds.fold(summary, |summary, kind| {
             let pitches = ends(&self.pitch[first..first + kind.len()]);
             first += kind.len();
-            told.row(&format!("{} first", kind[0].as_str()), format!("at pitches from {pitches}"))
+            summary
+                .row(&format!("{} first", kind[0].as_str()), format!("at pitches from {pitches}"))
         });
-        told.remarks(&self.remarks).next(again("-o pitch.csv --plot pitch.svg"))
+        summary.remarks(&self.remarks).next(again("-o pitch.csv --plot pitch.svg"))
     }
 }
 
 impl Product for SnakingBoundaryDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let ends = |v: &[f64]| {
             let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
             format!("{first} to {last}")
@@ -134,24 +135,24 @@ impl Product for SnakingBoundaryDocument {
             values.len(),
             ends(values)
         );
-        let told =
-            Told::new(headline).row("wavelength", format!("from {} σ", ends(&self.wavelength)));
-        let told = self.crossings.iter().fold(told, |told, at| {
+        let summary =
+            Summary::new(headline).row("wavelength", format!("from {} σ", ends(&self.wavelength)));
+        let summary = self.crossings.iter().fold(summary, |summary, at| {
             let place = digits(if over_stiffness { at.stiffness } else { at.r }, 7);
             let alpha = digits(at.alpha, 7);
-            told.row("as stick-slip", format!("at {name} = {place}, α = {alpha}"))
+            summary.row("as stick-slip", format!("at {name} = {place}, α = {alpha}"))
         });
-        told.remarks(&self.remarks).next(again("-o snaking.json --plot snaking.svg"))
+        summary.remarks(&self.remarks).next(again("-o snaking.json --plot snaking.svg"))
     }
 }
 
 impl Product for RasterCompareDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let RasterCompareFound { closed_work, grid_work, max_difference, speedup, lines, .. } =
             &self.answer;
         let [closed, grid] = [closed_work.seconds, grid_work.seconds].map(|s| 1e3 * s);
         let across = max_difference.y0.map(|y0| format!("{y0:.1e} in y0, ")).unwrap_or_default();
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "{} lines: largest difference {:.1e} in x0, {across}{:.1e} in u; closed equation {closed:.2} ms, grid {grid:.0} ms: \
              {} times as fast",
             lines.len(),
@@ -159,7 +160,8 @@ impl Product for RasterCompareDocument {
             max_difference.u,
             times(*speedup),
         ));
-        told.row("difference in x0", format!("{:.1e} σ", max_difference.x0))
+        summary
+            .row("difference in x0", format!("{:.1e} σ", max_difference.x0))
             .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
             .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
             .row("closed equation", format!("{} steps, {closed:.2} ms", closed_work.steps))
@@ -170,7 +172,7 @@ impl Product for RasterCompareDocument {
 }
 
 impl Product for RasterSweepDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let mut regimes: Vec<(String, usize)> = vec![];
         for point in &self.points {
             let name = point.regime.map_or("failed".into(), |regime| regime.to_string());
@@ -181,18 +183,18 @@ impl Product for RasterSweepDocument {
         }
         let each: Vec<String> =
             regimes.iter().map(|(name, many)| format!("{many} {name}")).collect();
-        let told = Told::new(format!("{} rasters: {}", self.points.len(), each.join(", ")));
-        told.next(again("-o map.json --plot map.svg"))
+        let summary = Summary::new(format!("{} rasters: {}", self.points.len(), each.join(", ")));
+        summary.next(again("-o map.json --plot map.svg"))
     }
 }
 
 impl Product for RasterSurfaceDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let all = |map: &HeightMap| map.u.concat();
         let heights: Vec<f64> = self.surfaces.iter().flat_map(all).collect();
         let low = digits(heights.iter().copied().fold(f64::INFINITY, f64::min), 4);
         let high = digits(heights.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
-        Told::new(format!("{} heights from {low} to {high} kσ²/a", heights.len()))
+        Summary::new(format!("{} heights from {low} to {high} kσ²/a", heights.len()))
             .next(again("-o surface.npz --plot surface.png"))
     }
 }

@@ -19,14 +19,14 @@ use stickslip::{Dimension, InUnits, KnownScales, digits};
 
 /// The summary of a result.
 #[derive(Debug, Default)]
-pub(crate) struct Told {
+pub(crate) struct Summary {
     headline: String,
     rows: Vec<(String, String)>,
     remarks: Vec<String>,
     next: Vec<String>,
 }
 
-impl Told {
+impl Summary {
     /// A summary with this headline: the main result, and for a verification whether the tolerance is met. Only this
     /// is printed when the result goes to a file.
     pub(crate) fn new(headline: impl Into<String>) -> Self {
@@ -85,8 +85,8 @@ impl Told {
 
     /// The result of an in-process command: the document and its summary, without commands to try.
     pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
-        let told = Self { next: vec![], ..self };
-        Made { document, text: told.text(), headline: told.headline }
+        let summary = Self { next: vec![], ..self };
+        Made { document, text: summary.text(), headline: summary.headline }
     }
 
     /// The whole summary, as lines.
@@ -160,27 +160,27 @@ mod tests {
 
     #[test]
     fn values_stand_below_each_other() {
-        let told =
-            Told::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
-        let told = told.remarks(&["few".into()]).next("stickslip units");
+        let summary =
+            Summary::new("steady: t = 5").row("α", "1.2").maybe("none", None).row("period", "6");
+        let summary = summary.remarks(&["few".into()]).next("stickslip units");
         let text =
             "steady: t = 5\n  α       1.2\n  period  6\n  remark: few\nnext: stickslip units\n";
-        assert_eq!(told.text(), text);
+        assert_eq!(summary.text(), text);
     }
 
     /// Names of files and contents of documents are escaped: ESC, C1, the right-to-left override, and line breaks.
     #[test]
     fn nothing_that_moves_a_cursor_is_printed() {
         let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\u{202e}b\rc\u{7f}\td";
-        let told =
-            Told::new(hostile).row(hostile, hostile).remarks(&[format!("{hostile}\n{hostile}")]);
-        let told = told.next(hostile);
-        for text in [told.text(), told.in_short()] {
+        let summary =
+            Summary::new(hostile).row(hostile, hostile).remarks(&[format!("{hostile}\n{hostile}")]);
+        let summary = summary.next(hostile);
+        for text in [summary.text(), summary.in_short()] {
             assert!(
                 text.chars().all(|c| c == '\n' || harmless(&c.to_string()).len() == c.len_utf8())
             );
         }
-        assert_eq!(told.text().lines().count(), 4, "{}", told.text());
+        assert_eq!(summary.text().lines().count(), 4, "{}", summary.text());
     }
 
     #[test]

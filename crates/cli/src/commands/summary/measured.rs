@@ -1,11 +1,11 @@
 //! Summaries of measured data.
 
-use super::{Told, digits};
+use super::{Summary, digits};
 use crate::commands::job::Product;
 use stickslip::{EstimateDocument, FitDocument, MeasuredTipDocument, NumberFitted};
 
 impl Product for MeasuredTipDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
         let unit = unit.unwrap_or_default();
         let r = digits(self.parameters.r, 6);
@@ -22,7 +22,7 @@ impl Product for MeasuredTipDocument {
             Some(with_interval(&if is_back { &sides.retrace } else { &sides.trace }.critical_alpha))
         });
         let apex = self.sides.as_ref().map(|sides| format!("{}{unit}", digits(sides.apex, 6)));
-        Told::new(headline)
+        Summary::new(headline)
             .row("σ", format!("{}{unit}", with_interval(&self.sigma)))
             .row("centre", format!("{}{unit}", digits(self.centre, 6)))
             .row("height", digits(self.apex, 5))
@@ -40,25 +40,25 @@ impl Product for MeasuredTipDocument {
 }
 
 impl Product for FitDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let unit = |n: &NumberFitted| match &self.parameters.unit {
             Some(unit) if n.name == "width" => format!(" {unit}"),
             _ => String::new(),
         };
         let said = |n: &NumberFitted| format!("{}{}", with_interval(&n.estimate), unit(n));
         let short = self.numbers.iter().map(|n| format!("{} = {}", n.name, said(n)));
-        let mut told = Told::new(short.collect::<Vec<String>>().join(", "));
+        let mut summary = Summary::new(short.collect::<Vec<String>>().join(", "));
         for number in &self.numbers {
-            told = told.row(&number.name.replace('_', " "), said(number));
+            summary = summary.row(&number.name.replace('_', " "), said(number));
         }
         for (i, row) in self.correlations.iter().enumerate() {
             for (j, correlation) in row.iter().enumerate().skip(i + 1) {
                 let name = format!("{}, {}", self.numbers[i].name, self.numbers[j].name);
-                told = told.row(&name, format!("correlation {correlation:.3}"));
+                summary = summary.row(&name, format!("correlation {correlation:.3}"));
             }
         }
         for data in &self.data {
-            told = told
+            summary = summary
                 .row(
                     &data.source,
                     format!("{} rows, residual {}", data.y.len(), digits(data.residual, 3)),
@@ -69,7 +69,7 @@ impl Product for FitDocument {
                 .maybe("gain", data.gain.map(|gain| digits(gain, 5)));
         }
         let at = self.critical_alpha.map(|alpha| digits(alpha, 6));
-        told.maybe("critical α at this r", at).remarks(&self.remarks)
+        summary.maybe("critical α at this r", at).remarks(&self.remarks)
     }
 }
 

@@ -1,22 +1,23 @@
 //! The summary of a verification.
 
-use super::{Told, digits};
+use super::{Summary, digits};
 use crate::commands::job::Product;
 use crate::commands::verify::claims::said;
 use stickslip::{LargestDifferenceDocument, VerifyDocument};
 
 impl Product for VerifyDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let found = &self.verification;
         let l = &found.l;
         let verdict = if found.kept { "kept" } else { "not kept" };
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "the tolerance of {:e} is {verdict}: l is off by {:.1e} at most, {:.1e} is allowed; repeated with {} at {:.0e}",
             self.parameters.tolerance, l.largest, l.allowed, found.memory, found.tolerance
         ));
         let off = self.differences.iter();
-        let told = off.fold(told, |told, off| told.row("does not follow", said(off)));
-        told.row("l", difference(l, "t"))
+        let summary = off.fold(summary, |summary, off| summary.row("does not follow", said(off)));
+        summary
+            .row("l", difference(l, "t"))
             .maybe("y0", found.y0.as_ref().map(|y0| difference(y0, "t")))
             .maybe("u", found.u.as_ref().map(|u| difference(u, "x")))
             .maybe("trusted until", found.trusted_until.map(|t| format!("t = {}", digits(t, 10))))

@@ -1,6 +1,6 @@
 //! The summary of a walker.
 
-use super::{Told, again, digits};
+use super::{Summary, again, digits};
 use crate::commands::job::Product;
 use stickslip::{CircleDocument, OrbitDocument, WalkerDocument, WalkerRegime};
 
@@ -10,7 +10,7 @@ const DIGITS: usize = 10;
 const ORBITS: usize = 12;
 
 impl Product for WalkerDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let motion = match (self.regime, &self.circle) {
             (WalkerRegime::Circling, Some(circle)) => {
                 format!("circling, radius {}", digits(circle.radius, DIGITS))
@@ -33,27 +33,27 @@ impl Product for WalkerDocument {
         let speed = |speed: f64| format!("{} kσ/Γ", digits(speed, DIGITS));
         let circle = self.circle.as_ref();
         let omega = |circle: &CircleDocument| format!("{} k/Γ", digits(circle.omega, DIGITS));
-        let told = Told::new(headline)
+        let summary = Summary::new(headline)
             .row("speed of a free walker", speed(self.free_speed))
             .row("speed", speed(self.speed))
             .maybe("angular frequency", circle.map(omega))
             .maybe("distance from the circle", circle.map(|c| format!("{:.1e} σ", c.deviation)));
         let orbits = self.orbits.iter().flatten().take(ORBITS);
         orbits
-            .fold(told, tell)
+            .fold(summary, tell)
             .remarks(&self.remarks)
             .next(again("-o walker.json --plot walker.svg"))
     }
 }
 
-fn tell(told: Told, orbit: &OrbitDocument) -> Told {
+fn tell(summary: Summary, orbit: &OrbitDocument) -> Summary {
     let state = match orbit.stable {
         Some(true) => ", stable",
         Some(false) => ", unstable",
         None => "",
     };
     let radius = digits(orbit.radius, DIGITS);
-    told.row(
+    summary.row(
         "circular orbit",
         format!("radius {radius} σ, ω = {} k/Γ{state}", digits(orbit.omega, DIGITS)),
     )

@@ -1,6 +1,6 @@
 //! Summaries of periodic motion: cycles, branches, sweeps.
 
-use super::{Told, again, digits};
+use super::{Summary, again, digits};
 use crate::commands::job::Product;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
@@ -8,7 +8,7 @@ use stickslip::{
 };
 
 impl Product for CycleDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let stable = if self.stable { "stable" } else { "unstable" };
         let slips = match self.slips {
             1 => "one slip".into(),
@@ -17,7 +17,7 @@ impl Product for CycleDocument {
         let held = |value: f64, error: Option<f64>| to_its_digits(value, error.unwrap_or(0.0));
         let period = held(self.period, self.period_error);
         let amplitude = held(self.amplitude_x0, self.amplitude_x0_error);
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "{stable} cycle of {slips}, period {period}, amplitude of x0 {amplitude}"
         ));
         let shift = self.floquet.iter().map(|m| (m.re - 1.0).hypot(m.im));
@@ -28,7 +28,8 @@ impl Product for CycleDocument {
             let [re, im] = [m.re, m.im].map(|part| digits(part, 6));
             format!("{re} + {im} i, ± {:.0e}", self.floquet_error)
         });
-        told.row("period", format!("{period} Γ/k"))
+        summary
+            .row("period", format!("{period} Γ/k"))
             .row("wavelength", format!("{} σ", held(self.wavelength, self.wavelength_error)))
             .row("amplitude of x0", format!("{amplitude} σ"))
             .row(
@@ -42,19 +43,21 @@ impl Product for CycleDocument {
 }
 
 impl Product for ContinueDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let over = self.parameters.over;
         let branches = self.branches.iter().enumerate();
         let lines: Vec<String> =
             branches.map(|(i, branch)| format!("branch {i}: {}", line(branch, over))).collect();
-        let mut told = Told::new(lines.join("\n"));
+        let mut summary = Summary::new(lines.join("\n"));
         for special in &self.special {
             let at = if over == OverName::Alpha { ("α", special.alpha) } else { ("r", special.r) };
             let place =
                 format!("{} = {}, period {}", at.0, digits(at.1, 10), digits(special.period, 10));
-            told = told.row(name(special.kind), format!("{place}, branch {}", special.branch));
+            summary =
+                summary.row(name(special.kind), format!("{place}, branch {}", special.branch));
         }
-        told.maybe("trapped for ever at", self.trapping.map(|value| digits(value, 7)))
+        summary
+            .maybe("trapped for ever at", self.trapping.map(|value| digits(value, 7)))
             .remarks(&self.remarks)
             .next(again("-o branches.json --plot branches.svg"))
     }
@@ -94,7 +97,7 @@ fn name(kind: SpecialName) -> &'static str {
 }
 
 impl Product for SweepDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let count = |regime: RegimeName| {
             self.points.iter().filter(|point| point.regime == Some(regime)).count()
         };
@@ -111,14 +114,17 @@ impl Product for SweepDocument {
                 (failed.clone().count() > 0).then(|| format!("{} failed", failed.clone().count())),
             )
             .collect();
-        let told = Told::new(format!("{} points: {}", self.points.len(), found.join(", ")));
-        let told =
-            counts.iter().fold(told, |told, (regime, count)| told.row(regime, count.to_string()));
+        let summary = Summary::new(format!("{} points: {}", self.points.len(), found.join(", ")));
+        let summary = counts
+            .iter()
+            .fold(summary, |summary, (regime, count)| summary.row(regime, count.to_string()));
         let why = failed.clone().next().and_then(|point| {
             let error = point.error.as_ref()?;
             Some(format!("{}, the first at r = {}: {error}", failed.count(), digits(point.r, 7)))
         });
-        statistics(told, &ensembles).maybe("failed", why).next(again("-o map.json --plot map.svg"))
+        statistics(summary, &ensembles)
+            .maybe("failed", why)
+            .next(again("-o map.json --plot map.svg"))
     }
 }
 
@@ -128,7 +134,7 @@ const IN_FULL: usize = 1;
 const LISTED: usize = 20;
 
 /// Adds means of ensembles with their standard errors, and standard deviations of the members.
-fn statistics(summary: Told, ensembles: &[&EnsembleDocument]) -> Told {
+fn statistics(summary: Summary, ensembles: &[&EnsembleDocument]) -> Summary {
     if ensembles.len() <= IN_FULL {
         return ensembles.iter().fold(summary, |summary, ensemble| {
             summary
@@ -140,7 +146,7 @@ fn statistics(summary: Told, ensembles: &[&EnsembleDocument]) -> Told {
                 .maybe("deviation of l", ensemble.deviation_l.as_ref().map(|s| spread(s, "σ")))
         });
     }
-    let row = |summary: Told, ensemble: &&EnsembleDocument| {
+    let row = |summary: Summary, ensemble: &&EnsembleDocument| {
         let points =
             format!("l, points {} to {}", ensemble.first, ensemble.first + ensemble.count - 1);
         summary.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))

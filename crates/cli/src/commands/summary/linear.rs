@@ -1,6 +1,6 @@
 //! Summaries of linear theory: stability, boundary, response.
 
-use super::{Told, again, digits};
+use super::{Summary, again, digits};
 use crate::commands::job::Product;
 use stickslip::{
     BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
@@ -11,7 +11,7 @@ use stickslip::{
 const CRITICAL: usize = 10;
 
 impl Product for StabilityDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let model = self.parameters.model_parameters();
         let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, CRITICAL));
         let stable = if self.stable { "stable" } else { "unstable" };
@@ -34,7 +34,7 @@ impl Product for StabilityDocument {
         let snakes = snaking.flatten();
         let snakes =
             snakes.map(|at| format!("; the line snakes above α = {}", digits(at.alpha, CRITICAL)));
-        let told = Told::new(headline + &snakes.unwrap_or_default())
+        let summary = Summary::new(headline + &snakes.unwrap_or_default())
             .maybe("critical α", critical.map(|at| digits(at.alpha, CRITICAL)))
             .maybe("critical r", critical.map(|at| digits(at.r, CRITICAL)))
             .maybe("ω there", critical.map(|at| format!("{} k/Γ", digits(at.omega, CRITICAL))))
@@ -51,9 +51,9 @@ impl Product for StabilityDocument {
                 "trapped for ever from",
                 self.trapping.alpha.map(|a| format!("α = {}", digits(a, 7))),
             );
-        let told = match snaking {
-            Some(snaking) => across(told, snaking),
-            None => told,
+        let summary = match snaking {
+            Some(snaking) => across(summary, snaking),
+            None => summary,
         };
         let error = self.certificate.largest_error;
         let root = |root: &ComplexDocument| {
@@ -65,13 +65,14 @@ impl Product for StabilityDocument {
         let limits = self.limits.as_ref();
         let least = limits.and_then(|limits| limits.least_depth_limit);
         let length = limits.and_then(|limits| limits.memory_length);
-        let told = told
+        let summary = summary
             .maybe("always stable below", least.map(|b| format!("b = {}", digits(b, 7))))
             .maybe(
                 "always stable below rT",
                 length.map(|l| format!("{} σ, without a depth limit", digits(l, 7))),
             );
-        told.maybe("leading growth exponent", self.roots.first().map(root))
+        summary
+            .maybe("leading growth exponent", self.roots.first().map(root))
             .row("growth exponents", format!("{}, {certain}", self.roots.len()))
             .remarks(&self.remarks)
             .next(again("-o stability.json --plot roots.svg"))
@@ -79,9 +80,10 @@ impl Product for StabilityDocument {
 }
 
 /// Adds the onset of snaking of a line, if there is one.
-fn across(told: Told, snaking: Option<&SnakingDocument>) -> Told {
-    let Some(at) = snaking else { return told.row("snakes above", "no α") };
-    told.row("snakes above", format!("α = {}", digits(at.alpha, CRITICAL)))
+fn across(summary: Summary, snaking: Option<&SnakingDocument>) -> Summary {
+    let Some(at) = snaking else { return summary.row("snakes above", "no α") };
+    summary
+        .row("snakes above", format!("α = {}", digits(at.alpha, CRITICAL)))
         .row("ω of snaking", format!("{} k/Γ", digits(at.omega, CRITICAL)))
         .row("wavelength of snaking", format!("{} σ", digits(at.wavelength, CRITICAL)))
 }
@@ -94,7 +96,7 @@ fn criticality(name: CriticalityName) -> &'static str {
 }
 
 impl Product for BoundaryDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let points = self.r.len();
         let lowest = self.alpha.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = self.alpha.iter().copied().fold(0.0, f64::max);
@@ -103,34 +105,34 @@ impl Product for BoundaryDocument {
         let limits = self.limits.as_ref();
         if points == 0 {
             let stable = format!("steady motion is stable at every α and r from {first} to {last}");
-            return least(Told::new(stable), limits).remarks(&self.remarks);
+            return least(Summary::new(stable), limits).remarks(&self.remarks);
         }
-        let told =
-            Told::new(format!("αc from {low} to {high} at {points} r from {first} to {last}"));
+        let summary =
+            Summary::new(format!("αc from {low} to {high} at {points} r from {first} to {last}"));
         let sub = self.onset.criticality.iter();
         let sub = sub.filter(|c| **c == Some(CriticalityName::Subcritical)).count();
-        let told = told
+        let summary = summary
             .row("r", format!("{points} from {first} to {last}"))
             .row("αc", format!("from {low} to {high}"));
-        let told = match limits {
-            Some(_) => least(told, limits),
-            None => told
+        let summary = match limits {
+            Some(_) => least(summary, limits),
+            None => summary
                 .row("subcritical at", format!("{sub} of them"))
                 .row("stretches of the curve", self.branches.len().to_string()),
         };
-        told.remarks(&self.remarks).next(again("-o boundary.csv --plot boundary.svg"))
+        summary.remarks(&self.remarks).next(again("-o boundary.csv --plot boundary.svg"))
     }
 }
 
 /// Adds the conditions under which steady motion is stable at every α.
-fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
+fn least(summary: Summary, limits: Option<&LimitColumns>) -> Summary {
     let depths = limits.map(|limits| limits.least_depth_limit.iter().copied().flatten());
     let depths: Vec<f64> = depths.into_iter().flatten().collect();
     let lowest = depths.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = depths.iter().copied().fold(0.0, f64::max);
     let [low, high] = [lowest, highest].map(|b| digits(b, 7));
     let range = (!depths.is_empty()).then(|| format!("b = {low} to {high}, by r"));
-    told.maybe("always stable below", range).maybe(
+    summary.maybe("always stable below", range).maybe(
         "always stable below rT",
         limits
             .and_then(|limits| limits.memory_length)
@@ -139,7 +141,7 @@ fn least(told: Told, limits: Option<&LimitColumns>) -> Told {
 }
 
 impl Product for ResponseDocument {
-    fn told(&self) -> Told {
+    fn summary(&self) -> Summary {
         let model = self.parameters.model_parameters();
         let [alpha, r] = [model.alpha, model.r].map(|value| digits(value, 7));
         let leading = self.modes.first().map(|mode| {
@@ -147,14 +149,15 @@ impl Product for ResponseDocument {
             format!("{re} + {im} i k/Γ")
         });
         let from = digits(self.valid_from, 7);
-        let told = Told::new(format!(
+        let summary = Summary::new(format!(
             "{} modes at α = {alpha}, r = {r}: from t = {from} on their sum is accurate to {:.0e} of the first",
             self.modes.len(),
             self.valid_to
         ));
         let deviations = self.samples.deviation.iter().flatten();
         let largest = deviations.fold(0.0_f64, |most, d| most.max(d.abs()));
-        told.maybe("leading mode", leading)
+        summary
+            .maybe("leading mode", leading)
             .row("valid from", format!("t = {from}"))
             .row("largest deviation", format!("{} σ", digits(largest, 7)))
             .remarks(&self.remarks)

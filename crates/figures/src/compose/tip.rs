@@ -48,7 +48,9 @@ pub(crate) fn run_title(run: &RunDocument) -> String {
 
 /// Model and path of a raster.
 pub(crate) fn raster_title(parameters: &Raster) -> String {
-    format!("{}, {}", model_name(&parameters.model_parameters()), path_name(parameters))
+    let stiffness = parameters.stiffness_across;
+    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+    format!("{}{stiffness}, {}", model_name(&parameters.model_parameters()), path_name(parameters))
 }
 
 fn path_name(parameters: &Raster) -> String {

@@ -96,17 +96,11 @@ impl Boundary {
         if low <= 0.0 {
             return refused("needs numbers above 0, such as 0.05 and 3");
         }
-        if !(2..=Self::MOST_POINTS).contains(&self.points) {
-            let why = format!("must be from 2 to {}", Self::MOST_POINTS);
-            return Err(Refused::number("points", self.points as f64, why));
-        }
-        Ok(())
+        judge_points(self.points)
     }
 
     fn refused(&self, why: impl ToString) -> Refused {
-        let [low, high] = self.r_range.map(Typed);
-        let value = Some(format!("{low}:{high}:{}", self.points));
-        Refused { parameter: "r_range".into(), value, why: why.to_string() }
+        refused_range("r_range", self.r_range, self.points, why)
     }
 
     /// The boundary of the basic model, with criticality and all stretches of the curve.
@@ -175,6 +169,40 @@ impl Boundary {
         };
         Ok((found, remarks(&along, &left_out)))
     }
+}
+
+/// Rejects too few or too many values of a range.
+fn judge_points(points: usize) -> Result<(), Refused> {
+    if (2..=Boundary::MOST_POINTS).contains(&points) {
+        return Ok(());
+    }
+    let why = format!("must be from 2 to {}", Boundary::MOST_POINTS);
+    Err(Refused::number("points", points as f64, why))
+}
+
+/// Rejects a range that is not of finite numbers above 0, the first below the second, or with too few or too many values.
+pub(crate) fn judge_range(
+    name: &'static str,
+    [low, high]: [f64; 2],
+    points: usize,
+) -> Result<(), Refused> {
+    if !(high.is_finite() && 0.0 < low && low < high) {
+        let why = "must be two finite numbers above 0, the first below the second";
+        return Err(refused_range(name, [low, high], points, why));
+    }
+    judge_points(points)
+}
+
+/// A rejection of a range, with its value as typed.
+pub(crate) fn refused_range(
+    name: &'static str,
+    ends: [f64; 2],
+    points: usize,
+    why: impl ToString,
+) -> Refused {
+    let [low, high] = ends.map(Typed);
+    let value = Some(format!("{low}:{high}:{points}"));
+    Refused { parameter: name.into(), value, why: why.to_string() }
 }
 
 impl Question for Boundary {

@@ -1,12 +1,12 @@
 //! The question `raster-boundary`: the threshold for ripples that grow from line to line, against the pitch; for a
 //! tip that is free to move across the scan, also the thresholds of bunching and snaking.
 
+use super::boundary::{judge_range, refused_range};
 use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::{
-    Ask, Boundary, Context, Document, Failure, Law, Question, RasterKindName, Refused, SpacingName,
-    Tip, Typed,
+    Ask, Context, Document, Failure, Law, Question, RasterKindName, Refused, SpacingName, Tip,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,25 +63,9 @@ impl Question for RasterBoundary {
 }
 
 impl RasterBoundary {
-    /// Rejects an invalid range, or too few or too many points.
-    fn judged(&self) -> Result<(), Refused> {
-        let [low, high] = self.pitch_range;
-        if !(high.is_finite() && 0.0 < low && low < high) {
-            let why = "must be two finite numbers above 0, the first below the second";
-            return Err(Refused { why: why.into(), ..self.pitches() });
-        }
-        if !(2..=Boundary::MOST_POINTS).contains(&self.points) {
-            let why = format!("must be from 2 to {}", Boundary::MOST_POINTS);
-            return Err(Refused::number("points", self.points as f64, why));
-        }
-        Ok(())
-    }
-
     /// A rejection of the range, with its value as typed.
     fn pitches(&self) -> Refused {
-        let [low, high] = self.pitch_range.map(Typed);
-        let value = Some(format!("{low}:{high}:{}", self.points));
-        Refused { parameter: "pitch_range".into(), value, why: String::new() }
+        refused_range("pitch_range", self.pitch_range, self.points, "")
     }
 }
 
@@ -91,7 +75,7 @@ impl Ask for RasterBoundary {
     }
 
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
-        self.judged()?;
+        judge_range("pitch_range", self.pitch_range, self.points)?;
         let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
         left(self.length, &self.law.into(), self.r)?;
         Ok(Self { width_y, ..self })

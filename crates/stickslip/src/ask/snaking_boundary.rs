@@ -1,12 +1,11 @@
 //! The question `snaking-boundary`: the threshold above which a single line snakes, over the stiffness across the scan
 //! or over the velocity, and the onset of stick-slip beside it.
 
+use super::boundary::{judge_range, refused_range};
 use super::lines::footprint;
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
-use crate::{
-    Ask, Boundary, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip, Typed,
-};
+use crate::{Ask, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{self as stability, Snaking, StabilityError};
@@ -164,23 +163,8 @@ impl SnakingBoundary {
 
     /// Rejects an invalid range, or too few or too many points.
     fn judged(&self) -> Result<(), Refused> {
-        let Line { name, ends: [low, high], .. } = self.range()?;
-        if !(high.is_finite() && 0.0 < low && low < high) {
-            return Err(self
-                .refused(name, "must be two finite numbers above 0, the first below the second"));
-        }
-        if !(2..=Boundary::MOST_POINTS).contains(&self.points) {
-            let why = format!("must be from 2 to {}", Boundary::MOST_POINTS);
-            return Err(Refused::number("points", self.points as f64, why));
-        }
-        Ok(())
-    }
-
-    fn refused(&self, name: &'static str, why: impl ToString) -> Refused {
-        let ends = self.stiffness_range.or(self.r_range).unwrap_or_default();
-        let [low, high] = ends.map(Typed);
-        let value = Some(format!("{low}:{high}:{}", self.points));
-        Refused { parameter: name.into(), value, why: why.to_string() }
+        let Line { name, ends, .. } = self.range()?;
+        judge_range(name, ends, self.points)
     }
 }
 
@@ -242,7 +226,7 @@ impl Ask for SnakingBoundary {
         let Line { name, ends, .. } = line;
         let failed = |error: StabilityError| match error {
             StabilityError::Stopped => Failure::Cancelled,
-            error => self.refused(name, error).into(),
+            error => refused_range(name, ends, self.points, error).into(),
         };
         let at = |value: f64| place(&footprint, law, line.at(value));
         let (mut found, mut left_out) = (SnakingBoundaryFound::default(), vec![]);

@@ -1,17 +1,14 @@
 //! `stickslip run --stiffness-across`.
 
 use super::integration::Integrated;
-use super::record::Sink;
-use super::write::{Target, Written};
+use super::write::{Target, Written, finish_lines, print_remarks};
 use crate::arguments::RunArguments;
 use crate::commands::ask::refusal;
-use crate::commands::{job, summary, verify};
+use crate::commands::{summary, verify};
 use crate::failure::Failure;
 use crate::host;
 use crate::made::pictured;
-use crate::message::remark;
-use std::path::Path;
-use stickslip::{Order, Physical, RunEnd, RunFormat, became_across, history_across};
+use stickslip::{Order, Physical, RunEnd, became_across, history_across};
 use stickslip_outcome::WatchedAcross;
 use stickslip_tip::planar::{PlanarScenario, Trajectory};
 use stickslip_tip::stop;
@@ -39,18 +36,11 @@ pub(super) fn write(
 ) -> Result<(), Failure> {
     let end = end(scenario, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
-    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
-        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
-    }
+    print_remarks(order, &end);
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
-            let Sink::Lines(mut stream) = integrated.record.sink else {
-                unreachable!("lines are written to a stream")
-            };
-            stream.line(&end)?;
-            stream.finish()?;
-            job::after(&end, &summary::of_lines(&end), &fields, order.output != Path::new("-"))?;
+            finish_lines(order, integrated.record.sink, &fields, &end)?;
         }
         Target::Document(job) => {
             let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());

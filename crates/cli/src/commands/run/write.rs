@@ -52,6 +52,26 @@ fn end(
     Ok(RunEnd { interrupted: interrupt.signal().is_some(), ..found? })
 }
 
+/// Prints the remarks of a run whose document goes to standard output; beside a file they are printed with the result.
+pub(super) fn print_remarks(order: &Order, end: &RunEnd) {
+    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
+        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
+    }
+}
+
+/// Writes the last line, and prints the summary and the requested fields.
+pub(super) fn finish_lines(
+    order: &Order,
+    sink: Sink,
+    fields: &Fields,
+    end: &RunEnd,
+) -> Result<(), Failure> {
+    let Sink::Lines(mut stream) = sink else { unreachable!("lines are written to a stream") };
+    stream.line(end)?;
+    stream.finish()?;
+    job::after(end, &summary::of_lines(end), fields, order.output != Path::new("-"))
+}
+
 /// Writes the whole document, or the last line; and the figure.
 pub(super) fn all(
     order: &Order,
@@ -63,23 +83,14 @@ pub(super) fn all(
     let end = end(scenario, initial, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
     let reached = signal.map(|_| end.end);
-    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
-        // Beside a file they are printed with the result.
-        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
-    }
+    print_remarks(order, &end);
     let steps = integrated.record.steps.take();
     let (wider, support) = (*scenario.model.wider(), scenario.support());
     let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
-            let Sink::Lines(mut stream) = integrated.record.sink else {
-                unreachable!("lines are written to a stream")
-            };
-            stream.line(&end)?;
-            stream.finish()?;
-            let summary = summary::of_lines(&end);
-            job::after(&end, &summary, &fields, order.output != Path::new("-"))?;
+            finish_lines(order, integrated.record.sink, &fields, &end)?;
         }
         Target::Document(job) => {
             let samples = &integrated.record.samples;

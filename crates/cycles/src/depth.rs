@@ -31,11 +31,11 @@ pub(super) struct LinearHeights {
 }
 
 impl LinearHeights {
-    /// `told` is the contribution of the history to g, `slope` that to the slope of the groove at the stages; `None`
+    /// `history` is the contribution of the history to g, `slope` that to the slope of the groove at the stages; `None`
     /// if the equations are singular.
     pub(super) fn new(
         equation: &Embedding,
-        told: Stages,
+        history: Stages,
         (slope, own): (&Vector, &OwnGroove),
         (d, heights, carved): (&Stages, &Heights, &Carved),
     ) -> Option<Self> {
@@ -46,8 +46,8 @@ impl LinearHeights {
         let (mut groove, mut rate) = ([0.0; STAGES], [0.0; STAGES]);
         own_height.add(&weighted, &mut groove);
         own_height.add(carved.rate().as_ref().unwrap_or(&weighted), &mut rate);
-        let groove = Vector::from_fn(|i, _| told[i] + groove[i] * times);
-        let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading[i] * told[i]);
+        let groove = Vector::from_fn(|i, _| history[i] + groove[i] * times);
+        let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading[i] * history[i]);
         let q = Square::from_fn(|i, k| alpha * changing[i][k] * values[i][k]) + Square::identity();
         let inverse = q.try_inverse()?;
         // A stage that moves on sees the slope where it is, and the others see it move.

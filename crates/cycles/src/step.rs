@@ -72,17 +72,17 @@ pub(super) struct Solved<'a> {
 }
 
 impl<'a> LinearStep<'a> {
-    /// `told` is the history in which the equations are solved, `past` the one in which they are linearised. `None` if
+    /// `solved` is the history in which the equations are solved, `past` the one in which they are linearised. `None` if
     /// the equations are singular.
     pub(super) fn new(
         equation: &'a Embedding,
-        (past, told): (PastOfStep<'a>, PastOfStep<'_>),
+        (past, solved): (PastOfStep<'a>, PastOfStep<'_>),
         step: Solved<'a>,
     ) -> Option<Self> {
         let Solved { extension, h, d, carved, .. } = step;
         let law = equation.law();
         let between = OwnGroove::new(&equation.tip, d);
-        let (weighted, past_slope) = (carved.weighted(), told.slope());
+        let (weighted, past_slope) = (carved.weighted(), solved.slope());
         // What is carved in a unit step: of one of length h it is h times as much, unless it heals.
         let (mut own, mut own_slope) = ([0.0; STAGES], [[0.0; STAGES]; STAGES]);
         between.add_slope(&weighted, &mut own);
@@ -105,7 +105,7 @@ impl<'a> LinearStep<'a> {
             own => law.alpha * own,
         });
         let heights = step.heights.and_then(|heights| {
-            LinearHeights::new(equation, told.height(), (&groove, &between), (d, heights, carved))
+            LinearHeights::new(equation, solved.height(), (&groove, &between), (d, heights, carved))
         });
         if let Some(heights) = &heights {
             velocity_slope -= heights.stiffness();
@@ -144,8 +144,8 @@ impl<'a> LinearStep<'a> {
     ) -> Option<(Sensitivity, Option<Sensitivity>)> {
         // With H = by_force and V = ∂v/∂d, δd = (1 - HV)⁻¹ H δv = (H⁻¹ - V)⁻¹ δv.
         let gain = inverted(self.carrying.to_force - self.velocity_slope)?;
-        let told = self.heights_by_state();
-        self.stages_by_state(&told, &gain, &mut room.of_stages);
+        let by_state = self.heights_by_state();
+        self.stages_by_state(&by_state, &gain, &mut room.of_stages);
         let mut stages = state.contracted(&room.of_stages);
         let constants = self.constants(free, share, &gain);
         for i in 0..STAGES {
@@ -156,7 +156,7 @@ impl<'a> LinearStep<'a> {
         let heights = self
             .heights
             .as_ref()
-            .map(|heights| heights.follow(&told, (free, share), state, &stages));
+            .map(|heights| heights.follow(&by_state, (free, share), state, &stages));
         self.carry_state((free, share), (&stages, heights.as_ref()), state, room);
         Some((stages, heights))
     }
@@ -187,8 +187,8 @@ impl<'a> LinearStep<'a> {
         [by_length, by_parameter, to_force * missed].map(|force| gain * force)
     }
 
-    /// ∂d/∂X = gain ∂v/∂X, by component of X. `told` is the derivative of the heights.
-    fn stages_by_state(&self, told: &[Vector], gain: &Square, into: &mut Vec<Stages>) {
+    /// ∂d/∂X = gain ∂v/∂X, by component of X. `by_state` is the derivative of the heights.
+    fn stages_by_state(&self, by_state: &[Vector], gain: &Square, into: &mut Vec<Stages>) {
         let modes = self.past.terms.len();
         into.clear();
         into.resize(1 + 2 * modes, [0.0; STAGES]);
@@ -198,8 +198,8 @@ impl<'a> LinearStep<'a> {
         let (re, im) = into[1..].split_at_mut(modes);
         products(&by_past, self.past.exponentials, re, im);
         if let Some(heights) = &self.heights {
-            for (stages, told) in into.iter_mut().zip(told) {
-                *stages = Stages::from(Vector::from(*stages) + gain * heights.force(told));
+            for (stages, height) in into.iter_mut().zip(by_state) {
+                *stages = Stages::from(Vector::from(*stages) + gain * heights.force(height));
             }
         }
         let Carrying { to_force, by_velocity, .. } = &self.carrying;
@@ -212,11 +212,11 @@ impl<'a> LinearStep<'a> {
             return vec![];
         }
         let left = &self.carved.left;
-        let told = self.past.exponentials.iter().zip(self.past.terms);
-        let told = told.map(|(e, term)| e.map(|e| e / term.exponent));
-        let told: Vec<[Complex<f64>; STAGES]> = told.collect();
-        let re = told.iter().map(|e| Vector::from_fn(|i, _| e[i].re * left[i]));
-        let im = told.iter().map(|e| Vector::from_fn(|i, _| -e[i].im * left[i]));
+        let scaled = self.past.exponentials.iter().zip(self.past.terms);
+        let scaled = scaled.map(|(e, term)| e.map(|e| e / term.exponent));
+        let scaled: Vec<[Complex<f64>; STAGES]> = scaled.collect();
+        let re = scaled.iter().map(|e| Vector::from_fn(|i, _| e[i].re * left[i]));
+        let im = scaled.iter().map(|e| Vector::from_fn(|i, _| -e[i].im * left[i]));
         let inertia = self.equation.wider.inertia.map(|_| Vector::zeros());
         [Vector::zeros()].into_iter().chain(re).chain(im).chain(inertia).collect()
     }

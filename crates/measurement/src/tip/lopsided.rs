@@ -41,7 +41,7 @@ pub(super) fn asymmetry(tip: &MeasuredTip) -> Option<f64> {
     let fit = project(&columns, &residuals)?;
     let effective = effective(residuals.len(), correlation(&fit.residuals));
     let asymmetry = *fit.coefficients.last()?;
-    // Both sums are over all rows, of which so many count.
+    // Both sums are over all rows, of which `effective` are independent.
     let error = (squares(&fit.residuals) / (squares(&own) * effective)).sqrt();
     (asymmetry.abs() > SIGNIFICANT * error).then_some(asymmetry)
 }

@@ -89,9 +89,9 @@ fn both_halves_of_a_measured_profile_are_found() {
     );
     for (half, width) in [(&found.forward, 25.0), (&found.backward, 40.0)] {
         let truth = alpha(width, sigma);
-        let told = half.critical_alpha;
-        eprintln!("{width}: {told:?} for {truth}, apex {}", half.apex);
-        assert!((told.value / truth - 1.0).abs() < 0.06, "{told:?} for {truth}");
+        let critical = half.critical_alpha;
+        eprintln!("{width}: {critical:?} for {truth}, apex {}", half.apex);
+        assert!((critical.value / truth - 1.0).abs() < 0.06, "{critical:?} for {truth}");
         assert!((half.apex + 10.0).abs() < 0.2, "{}", half.apex);
     }
     // An even fit hides all of it.

@@ -88,7 +88,7 @@ fn request(made: &Made) -> RippleRequest {
     }
 }
 
-fn told(made: &Made, found: &Ripples) -> String {
+fn summary(made: &Made, found: &Ripples) -> String {
     let Ripples { alpha, r, .. } = found;
     format!(
         "α {} in [{:.4}, {:.4}] {:.4}, r {} in [{:.4}, {:.4}] {:.4}, misfit {:.3}, λ {:.3} ± {:.3}, {:.2} ± {:.2}°, gain {:.2}",
@@ -117,7 +117,7 @@ fn alpha_and_r_follow_from_an_image_of_ripples() {
     {
         let image = image(&mut made, pixels, noise, 7 + pixels as u64, mirrored);
         let found = ripples(&image, &request(&made)).unwrap();
-        let all = told(&made, &found);
+        let all = summary(&made, &found);
         eprintln!("{all}");
         assert!((found.alpha.value / made.alpha - 1.0).abs() < 0.05, "{all}");
         assert!((found.r.value / made.r - 1.0).abs() < 0.05, "{all}");
@@ -172,7 +172,7 @@ fn study_of_200_images() {
             let image = image(&mut made, pixels, noise, (100 * i + k) as u64, mirrored);
             match ripples(&image, &request(&made)) {
                 Ok(found) if found.misfit < Ripples::LEAST_MISFIT => {
-                    println!("not explained: {}", told(&made, &found));
+                    println!("not explained: {}", summary(&made, &found));
                 }
                 Ok(found) => {
                     all += 1;
@@ -184,7 +184,7 @@ fn study_of_200_images() {
                         "{above} {r} {pitch} {pixels} {noise} {mirrored:?} {} {}: {}",
                         !found.forward,
                         !found.upward,
-                        told(&made, &found)
+                        summary(&made, &found)
                     );
                 }
                 Err(error) => println!("{above} {r} {pitch} {pixels} {noise}: {error}"),

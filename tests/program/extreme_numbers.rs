@@ -71,7 +71,7 @@ fn the_option_at_fault_is_named() {
         ("stability --alpha 1e300 --r 1 --re-above -1", "--alpha 1e300"),
         (
             "units --damping 1e300kg/s --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity 1m/s",
-            "the quantities",
+            "--damping and --stiffness",
         ),
     ] {
         folder.refuses(line, &[option]);

@@ -82,8 +82,10 @@ fn sizes_are_judged_before_anything_is_made_of_them() {
     for n in ["18446744073709551615", "100000000000", "1000000000", "10000001"] {
         folder.refuses(&format!("sweep --r 1:2:{n} --alpha 1"), &["10000000 are accepted"]);
         folder.refuses(&format!("sweep --r 1 --alpha 1:2:{n}"), &["10000000 are accepted"]);
-        folder.refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000 are accepted"]);
+        folder
+            .refuses(&format!("sweep --r 1 --alpha 1 --beta 0:1:{n}"), &["10000000 are accepted"]);
     }
+    folder.refuses("sweep --r 1 --alpha 1 --beta 0:1:10001", &["10000 are accepted"]);
 }
 
 #[test]

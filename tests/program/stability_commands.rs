@@ -329,14 +329,14 @@ fn unusable_input_is_refused_by_name_with_advice_and_nothing_on_standard_output(
         (&format!("{response} --pulse 1,2,3 --until 3"), "--until 3", "15.86"),
         (&format!("{response} --pulse 1,2,3 --until 30 --sample-at 5"), "--sample-at 5", "15.86"),
         (&format!("{response} --pulse 1,2,3 --until 30 --modes 0"), "--modes 0", "1 to 1000"),
-        (&format!("units {GIVEN}"), "--indentation-rate, --velocity", "--alpha or --r"),
+        (&format!("units {GIVEN}"), "--indentation-rate and --velocity", "--alpha or --r"),
         (&format!("units {GIVEN} --v0 1um/s --N 1um/s --r 1"), "--r", "leave out 1"),
         (&format!("units {GIVEN} --v0 1um --N 1um/s"), "--velocity 1um", "1um/s"),
         (&format!("units {GIVEN} --v0 0m/s --N 1um/s"), "--velocity 0m/s", "above 0"),
         (&format!("units {GIVEN} --alpha 1 --r 1 -o units.npz"), "--output units.npz", ".csv"),
         (
             "units --gamma 1kg/s --a 1N --N 1m/s --v0 1m/s --alpha 1 --r 1",
-            "--stiffness, --tip-width",
+            "--stiffness and --tip-width",
             "leave",
         ),
     ];

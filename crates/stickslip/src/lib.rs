@@ -69,6 +69,7 @@ pub use ask::measured_tip::{
     MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
     SideDocument, SidesDocument,
 };
+pub use ask::points::{Points, each_point};
 pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
 pub use ask::raster_boundary::{
     RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
@@ -77,6 +78,7 @@ pub use ask::raster_stability::{
     RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterKindName,
     RasterStability, RasterStabilityDocument, RasterStabilityFound,
 };
+pub use ask::raster_sweep::{RasterSweep, RasterSweepDocument};
 pub use ask::response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
 pub use ask::run::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
@@ -89,6 +91,10 @@ pub use ask::snaking_boundary::{
     SnakingBoundary, SnakingBoundaryDocument, SnakingBoundaryFound, SnakingCrossing,
 };
 pub use ask::stability::{Stability, StabilityDocument};
+pub use ask::sweep::Sweep;
+pub use ask::units::{
+    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, Units, UnitsDocument,
+};
 pub use ask::walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
 pub use ask::walker_motion::{CircleDocument, WalkerRegime};
 pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
@@ -120,8 +126,7 @@ pub use documents::raster::{
     ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PatternDocument,
     RasterCompareDocument, RasterCompareFound, RasterCompareParameters, RasterCompared,
     RasterComparedWork, RasterFound, RasterHistory, RasterLine, RasterRegimeName, RasterSamples,
-    RasterSurfaceDocument, RasterSweepDocument, RasterSweepFound, RasterSweepParameters,
-    RasterSweepPoint, RasterWork,
+    RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint, RasterWork,
 };
 pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
 pub use documents::reproduction::{
@@ -142,9 +147,6 @@ pub use documents::sweep::{
     StatisticsDocument, SweepDocument, SweepFound, SweepParameters, SweepPoint, SweepRunParameters,
 };
 pub use documents::table::{Array, Column, Named, Tabular};
-pub use documents::units::{
-    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, UnitsDocument, UnitsParameters,
-};
 pub use documents::verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
 };

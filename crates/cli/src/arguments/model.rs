@@ -1,4 +1,4 @@
-//! Tip, r and α: the options of every command that needs a model, or only a tip.
+//! The footprint: options of every command that needs one.
 
 use super::named::named;
 use clap::Args;
@@ -33,49 +33,4 @@ impl TipArguments {
         let Self { tip, beta, width, tip_file } = self;
         tip.is_some() || beta.is_some() || width.is_some() || tip_file.is_some()
     }
-}
-
-/// Commands that require r add `mut_arg("r", |r| r.required(true))`.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Model")]
-pub(crate) struct ModelArguments {
-    #[command(flatten)]
-    pub(crate) tip: TipArguments,
-
-    /// Dimensionless support velocity Γ v0/(k σ), (12); above 0.
-    #[arg(long, value_name = "R", allow_hyphen_values = true)]
-    pub(crate) r: Option<f64>,
-
-    /// Dimensionless indentation rate Γ N a/(σ² k²), (13); 0 or above.
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
-    pub(crate) alpha: Option<f64>,
-
-    /// Indentation rate given as αc(r) + D, D above the critical one (below, if negative).
-    #[arg(long, value_name = "D", allow_hyphen_values = true)]
-    pub(crate) alpha_above: Option<f64>,
-
-    #[command(flatten)]
-    pub(crate) wider: WiderArguments,
-}
-
-/// Options of the extended model.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Extended model")]
-pub(crate) struct WiderArguments {
-    /// Depth limit b of (61), in kσ²/a; above 0: the tip indents at the rate α exp(-|u|/b) [default: none].
-    #[arg(long, value_name = "B", allow_hyphen_values = true)]
-    pub(crate) depth_limit: Option<f64>,
-
-    /// Healing time T: the surface relaxes as exp(-t/T); in Γ/k, above 0 [default: never].
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub(crate) healing_time: Option<f64>,
-
-    /// Inertia of the tip, in Γ²/k; above 0 [default: none].
-    #[arg(long, value_name = "M", allow_hyphen_values = true)]
-    pub(crate) inertia: Option<f64>,
-
-    /// No spring and no support: a particle driven by its own groove. There is no --r then, --alpha may be below 0,
-    /// and the initial surface is flat.
-    #[arg(long)]
-    pub(crate) no_spring: bool,
 }

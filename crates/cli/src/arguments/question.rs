@@ -2,6 +2,7 @@
 
 use super::TipArguments;
 use super::interval::Interval;
+use super::range::Range;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use serde_json::{Map, Value, json};
@@ -14,7 +15,7 @@ use stickslip::parameter::{Kind, Parameter, parameters};
 pub(crate) trait Questions {
     /// The parameters of all of them.
     fn parameters() -> Vec<&'static Parameter>;
-    /// The formats of their documents.
+    /// The formats of their documents; none if no document has such parameters.
     fn formats() -> Vec<&'static str>;
 }
 
@@ -66,6 +67,9 @@ impl<Q: Questions> Args for Options<Q> {
                 Kind::Tip => TipArguments::augment_args(command),
                 _ => command.next_help_heading(None).arg(argument(parameter)),
             });
+        if Q::formats().is_empty() {
+            return command.next_help_heading(None);
+        }
         let file = Arg::new("parameters")
             .long("parameters")
             .value_name("FILE.json")
@@ -95,7 +99,7 @@ impl<Q: Questions> FromArgMatches for Options<Q> {
         } else {
             TipArguments::default()
         };
-        let parameters = matches.get_one("parameters").cloned();
+        let parameters = matches.try_get_one("parameters").ok().flatten().cloned();
         Ok(Self { given, tip, parameters, refused_range, question: PhantomData })
     }
 
@@ -158,7 +162,7 @@ fn argument(parameter: &Parameter) -> Arg {
         }
         Kind::Text => valued,
         Kind::Ends => valued.value_parser(value_parser!(Interval)),
-        Kind::Numbers => valued.value_parser(value_parser!(f64)).value_delimiter(','),
+        Kind::Numbers => valued.value_parser(value_parser!(Range)).value_delimiter(','),
         _ => valued.value_parser(value_parser!(f64)),
     }
 }
@@ -213,8 +217,8 @@ fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMa
             json!(interval.numbers().map(number))
         }
         Kind::Numbers => {
-            let all = matches.get_many::<f64>(name).into_iter().flatten();
-            Value::Array(all.map(|value| number(*value)).collect())
+            let ranges = matches.get_many::<Range>(name).into_iter().flatten();
+            Value::Array(ranges.flat_map(Range::values).map(number).collect())
         }
         _ => number(*matches.get_one::<f64>(name).unwrap_or(&f64::NAN)),
     };

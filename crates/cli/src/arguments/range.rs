@@ -2,6 +2,9 @@
 
 use std::str::FromStr;
 
+/// Largest number of values.
+const MOST: usize = 10_000_000;
+
 /// Values of a parameter: one value, N evenly spaced from LO to HI, or a list.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Range {
@@ -18,13 +21,17 @@ impl FromStr for Range {
         let parsed = match parts.as_slice() {
             [list] => list.split(',').map(number).collect::<Option<_>>().map(Self::Listed),
             [low, high, points] => number(low).zip(number(high)).and_then(|(low, high)| {
-                let points = points.trim().parse().ok().filter(|n| *n >= 2 && low < high)?;
+                let points =
+                    points.trim().parse().ok().filter(|n| (2..=MOST).contains(n) && low < high)?;
                 Some(Self::Even { low, high, points })
             }),
             _ => None,
         };
         parsed.ok_or_else(|| {
-            "a number, LO:HI:N with LO below HI and N of 2 or more, or V1,V2,…".into()
+            format!(
+                "a finite number, LO:HI:N with LO below HI and N of 2 or more (at most {MOST} are accepted), or \
+                 V1,V2,…"
+            )
         })
     }
 }
@@ -47,14 +54,6 @@ impl Range {
         match self {
             Self::Even { points, .. } => *points,
             Self::Listed(values) => values.len(),
-        }
-    }
-
-    /// Smallest value.
-    pub(crate) fn low(&self) -> f64 {
-        match self {
-            Self::Even { low, .. } => *low,
-            Self::Listed(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
         }
     }
 }

@@ -1,7 +1,27 @@
-//! The part of a sweep to compute.
+//! How the points of a sweep are computed: which of them, and how many at a time.
 
+use clap::Args;
 use std::str::FromStr;
 use stickslip::ShardDocument;
+
+/// How the points of a grid are computed.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Work")]
+pub(crate) struct WorkArguments {
+    /// Number of points computed in parallel [default: the number of cores].
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+
+    /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`: the part of this
+    /// task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N if
+    /// the array contains only some of N parts.
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+
+    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another.
+    #[arg(long, conflicts_with = "plot")]
+    pub(crate) if_needed: bool,
+}
 
 /// Part I of N of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,12 +4,11 @@ use super::examples::examples;
 use super::named::named;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
-use super::shard::Shard;
-use super::sweep_start::SweepRunArguments;
-use super::{InUnitsArguments, OutletArguments};
+use super::{InUnitsArguments, Options, OutletArguments, Questions, WorkArguments};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use stickslip::TipName;
+use stickslip::parameter::{Parameter, parameters};
+use stickslip::{Sweep, TipName};
 
 /// Find the motion that the tip settles into, over a grid of α, r and any other parameter of the model or of the
 /// initial condition.
@@ -44,48 +43,11 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "FILE", help_heading = "Model")]
     pub(crate) tip_file: Option<PathBuf>,
 
-    /// Support velocities.
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) r: Option<Range>,
-
-    /// Indentation rates.
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) alpha: Option<Range>,
-
-    /// Indentation rates as αc(r) + D.
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Model")]
-    pub(crate) alpha_above: Option<Range>,
+    #[command(flatten)]
+    pub(crate) options: Options<Swept>,
 
     #[command(flatten)]
-    pub(crate) wider: WiderRanges,
-
-    #[command(flatten)]
-    pub(crate) run: SweepRunArguments,
-
-    /// Largest residual of the equation of motion (18) on a cycle, in units of kσ/Γ; or error of a run, in σ; from
-    /// 1e-11 to 1e-4.
-    #[arg(
-        long,
-        value_name = "E",
-        default_value = "1e-9",
-        allow_hyphen_values = true,
-        help_heading = "Accuracy"
-    )]
-    pub(crate) tolerance: f64,
-
-    /// Number of points computed in parallel [default: the number of cores].
-    #[arg(long, value_name = "N", help_heading = "Work")]
-    pub(crate) threads: Option<usize>,
-
-    /// Compute only part I of N of the points; `stickslip sweep merge` combines the parts. `slurm`: the part of this
-    /// task of an array job whose numbers begin at 1, by SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT; slurm/N if
-    /// the array contains only some of N parts.
-    #[arg(long, value_name = "I/N", help_heading = "Work")]
-    pub(crate) shard: Option<Shard>,
-
-    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another.
-    #[arg(long, conflicts_with = "plot", help_heading = "Work")]
-    pub(crate) if_needed: bool,
+    pub(crate) work: WorkArguments,
 
     #[command(flatten)]
     pub(crate) in_units: InUnitsArguments,
@@ -99,25 +61,18 @@ pub(crate) struct SweepArguments {
     pub(crate) plot: Option<PathBuf>,
 }
 
-/// Options of the extended model, each a range.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Extended model")]
-pub(crate) struct WiderRanges {
-    /// Depth limit b of (61), in kσ²/a; above 0 [default: none].
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(crate) depth_limit: Option<Range>,
+/// The parameters of a sweep, which are no document as they stand.
+#[derive(Debug)]
+pub(crate) struct Swept;
 
-    /// Healing time of the surface, in Γ/k; above 0 [default: never].
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(crate) healing_time: Option<Range>,
+impl Questions for Swept {
+    fn parameters() -> Vec<&'static Parameter> {
+        parameters::<Sweep>().iter().collect()
+    }
 
-    /// Inertia of the tip, in Γ²/k; above 0 [default: none].
-    #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
-    pub(crate) inertia: Option<Range>,
-
-    /// Not available in `sweep`.
-    #[arg(long)]
-    pub(crate) no_spring: bool,
+    fn formats() -> Vec<&'static str> {
+        vec![]
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -1,8 +1,10 @@
 //! `stickslip units`.
 
 use super::examples::examples;
-use super::{ModelArguments, OutletArguments};
+use super::{Options, OutletArguments, Questions};
 use clap::Args;
+use stickslip::parameter::{Parameter, parameters};
+use stickslip::{Units, UnitsDocument};
 
 /// Convert measured quantities to the numbers of the model, and back.
 ///
@@ -73,10 +75,24 @@ pub(crate) struct UnitsArguments {
     pub(crate) velocity: Option<String>,
 
     #[command(flatten)]
-    pub(crate) model: ModelArguments,
+    pub(crate) options: Options<Given>,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
+}
+
+/// The dimensionless numbers of the question.
+#[derive(Debug)]
+pub(crate) struct Given;
+
+impl Questions for Given {
+    fn parameters() -> Vec<&'static Parameter> {
+        parameters::<Units>().iter().collect()
+    }
+
+    fn formats() -> Vec<&'static str> {
+        vec![UnitsDocument::FORMAT]
+    }
 }
 
 const USAGE: &str =

@@ -1,54 +1,11 @@
-//! From the options of a model to a model.
+//! From the options of a footprint to a footprint.
 
 use super::judged::judge_table;
-use crate::arguments::{TipArguments, WiderArguments};
+use crate::arguments::TipArguments;
 use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
-use stickslip::{GaussianDocument, Indentation, NamedTip, Refused, TipName, judge_details};
-use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider, WiderError};
-
-/// Rejects models without steady motion: without a support, or with a divergent history integral.
-pub(crate) fn refuse_endless(tip: &TipArguments, wider: &WiderArguments) -> Result<(), Failure> {
-    if wider.no_spring {
-        let message =
-            "without a spring nothing drags the tip: there is no steady motion behind a support";
-        return Err(Failure::input("--no-spring", message));
-    }
-    if tip.tip == Some(TipName::Cosine) && wider.healing_time.is_none() {
-        let message = "never decays, so that the groove integral of steady motion diverges: give --healing-time";
-        return Err(Failure::input("--tip cosine", message));
-    }
-    Ok(())
-}
-
-/// The extensions of the basic model in the options.
-pub(crate) fn wider(arguments: &WiderArguments) -> Wider {
-    let WiderArguments { depth_limit, healing_time, inertia, no_spring } = *arguments;
-    Wider { depth_limit, healing_time, inertia, spring: !no_spring }
-}
-
-/// The indentation rate as α or αc(r) + D.
-fn one_of(alpha: Option<f64>, alpha_above: Option<f64>) -> Result<Indentation, Failure> {
-    if alpha.is_some() && alpha_above.is_some() {
-        return Err(Failure::input("--alpha and --alpha-above", "give one of them, not both"));
-    }
-    Ok(Indentation { alpha, alpha_above })
-}
-
-/// The model with this law and r, α given directly or as αc(r) + D.
-pub(crate) fn model_under(
-    (wider, tip): (Wider, TipFunction),
-    r: f64,
-    (alpha, alpha_above): (Option<f64>, Option<f64>),
-) -> Result<Model, Failure> {
-    let indentation = one_of(alpha, alpha_above)?.resolved(&tip, wider, r)?;
-    Ok(indentation.model(&tip, wider, r)?)
-}
-
-/// The error for a rejected parameter of the extended model, with its option.
-pub(crate) fn refused_wider(error: &WiderError) -> Failure {
-    Refused::from(*error).into()
-}
+use stickslip::{GaussianDocument, NamedTip, judge_details};
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, TipFunction};
 
 /// The footprint in the options.
 pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {

@@ -1,96 +1,206 @@
 //! `stickslip sweep`.
 
-mod axes;
 pub(crate) mod divided;
-mod grid;
 pub(crate) mod merge;
-mod point;
-mod raster;
-mod started;
-mod work;
 
-use super::finished::Finished;
+use super::finished::{Finished, Part};
 use super::job::{Job, judge_places};
-use crate::arguments::{SweepArguments, SweepThen};
-use crate::arithmetic::arithmetic;
+use super::progress::Progress;
+use crate::arguments::{
+    InUnitsArguments, OutletArguments, Range, RasterSweepArguments, SweepArguments, SweepThen,
+    TipArguments, WorkArguments,
+};
 use crate::commands::in_units::scales;
+use crate::commands::model::tip;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::message::remark;
 use divided::Divided;
-use grid::Grid;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use stickslip::{Document, Physical, SweepDocument, SweepFound, SweepPoint};
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip::{
+    Ask, Context, Document, Physical, Points, RasterSweep, RasterSweepPoint, Sweep, Tip,
+    each_point, parameter,
+};
 use stickslip_figures::judge_sweep;
-use work::compute;
 
 const MOST_THREADS: usize = 4096;
+/// Largest number of footprints; each is prepared separately.
+const MOST_TIPS: usize = 10_000;
+
+impl Part for RasterSweepPoint {
+    const NAME: &'static str = "point";
+    const WHOLE: &'static str = "sweep";
+
+    fn index(&self) -> usize {
+        self.index
+    }
+}
 
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     match &arguments.then {
         Some(SweepThen::Merge(merged)) => return merge::merge(merged),
-        Some(SweepThen::Raster(rasters)) => return raster::sweep(rasters),
+        Some(SweepThen::Raster(rasters)) => return raster(rasters),
         None => {}
     }
-    let threads = threads(arguments.threads)?;
-    let read = [("--tip-file", arguments.tip_file.as_deref())];
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &read)?;
-    let grid = Grid::asked(arguments)?;
-    let tip_file = arguments.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, grid.parameters.velocity())?;
-    if arguments.plot.is_some() {
+    let SweepArguments { work, in_units, outlet, plot, tip_file, .. } = arguments;
+    let place = Place { work, in_units, outlet, plot: plot.as_deref() };
+    place.judge(&[("--tip-file", tip_file.as_deref())])?;
+    let mut values = arguments.options.values()?;
+    values.insert("tips".into(), tips(arguments)?);
+    values.insert("width".into(), json!(arguments.width.as_ref().map(Range::values)));
+    values.insert("beta".into(), json!(arguments.beta.as_ref().map(Range::values)));
+    let question = parameter::question::<Sweep>(values)?;
+    let grid = Sweep { shard: work.shard.map(Into::into), ..question }.grid()?;
+    if plot.is_some() {
         // Before hours of work.
-        judge_sweep(&grid.parameters).map_err(|error| Failure::input("--plot", error))?;
+        judge_sweep(&grid).map_err(|error| Failure::input("--plot", error))?;
     }
-    let job = Job::open::<SweepDocument>(&arguments.outlet, arguments.plot.as_deref())?;
-    let indices: Vec<usize> = grid.indices().collect();
-    let is_done = |file| merge::is_done::<SweepDocument>(file, &grid.parameters, &indices);
-    if arguments.if_needed && job.file().is_some_and(is_done) {
-        return Ok(());
-    }
-    let finished = match job.file() {
-        Some(file) => Finished::beside(file, &grid.parameters, |index| grid.parameters.has(index))?,
-        None => Finished::in_memory(),
-    };
-    let interrupt = Interrupt::listen()?;
-    let work = (threads, grid.together());
-    let mut finished = compute(&indices, finished, work, &interrupt, |indices, take| {
-        judged(indices, &grid, take);
-    })?;
-    let points = finished.take_in_order();
-    let found = SweepFound { points, ensembles: None, arithmetic: Some(arithmetic()), crc32: None };
-    let document: SweepDocument = Document::new(grid.parameters, found, vec![]);
-    job.finish(document.sealed()?.in_units(scales.as_ref()))?;
-    finished.remove();
-    Ok(())
+    place.answer(grid, tip_file.as_deref())
 }
 
-/// Number of threads; 0 means the number of cores.
-fn threads(asked: Option<usize>) -> Result<usize, Failure> {
-    match asked {
-        None => Ok(0),
-        Some(threads) if (1..=MOST_THREADS).contains(&threads) => Ok(threads),
-        Some(threads) => {
+/// The pattern of a raster over pitch and α.
+fn raster(arguments: &RasterSweepArguments) -> Result<(), Failure> {
+    let RasterSweepArguments { options, work, in_units, outlet, plot } = arguments;
+    let place = Place { work, in_units, outlet, plot: plot.as_deref() };
+    place.judge(&options.files())?;
+    let question = parameter::question::<RasterSweep>(options.values()?)?;
+    let question = RasterSweep { shard: work.shard.map(Into::into), ..question };
+    let grid = question.resolved(&Context::default())?;
+    place.answer(grid, options.tip.tip_file.as_deref())
+}
+
+/// The footprints, widths times β.
+fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
+    let SweepArguments { tip: name, tip_file, beta, width, .. } = arguments;
+    let count = |range: &Option<Range>| range.as_ref().map_or(1, Range::points);
+    for (option, tips) in [("--beta", count(beta)), ("--width", count(width))] {
+        if tips > MOST_TIPS {
+            let message = format!("{tips} values; at most {MOST_TIPS} are accepted");
+            return Err(Failure::input(option, message));
+        }
+    }
+    let values = |range: &Option<Range>| match range {
+        Some(range) => range.values().into_iter().map(Some).collect(),
+        None => vec![None],
+    };
+    let (widths, betas) = (values(width), values(beta));
+    let both = widths.iter().flat_map(|width| betas.iter().map(move |beta| (*width, *beta)));
+    let one = |(width, beta)| {
+        let tip_file = tip_file.clone();
+        tip(&TipArguments { tip: *name, beta, width, tip_file }).map(Tip)
+    };
+    Ok(json!(both.map(one).collect::<Result<Vec<Tip>, Failure>>()?))
+}
+
+/// How points are computed, and where they go.
+struct Place<'a> {
+    work: &'a WorkArguments,
+    in_units: &'a InUnitsArguments,
+    outlet: &'a OutletArguments,
+    plot: Option<&'a Path>,
+}
+
+impl Place<'_> {
+    fn judge(&self, read: &[(&'static str, Option<&Path>)]) -> Result<(), Failure> {
+        if let Some(threads) = self.work.threads.filter(|n| !(1..=MOST_THREADS).contains(n)) {
             let message = format!("must be 1 to {MOST_THREADS}");
-            Err(Failure::input(format!("--threads {threads}"), message))
+            return Err(Failure::input(format!("--threads {threads}"), message));
         }
+        judge_places(self.outlet, self.plot, read)
+    }
+
+    /// Computes the points that are not saved yet, each saved when it is complete, and writes the document.
+    fn answer<Q: Ask + Points>(&self, grid: Q, tip_file: Option<&Path>) -> Result<(), Failure>
+    where
+        Document<Q>: Divided<Point = Q::Point, Parameters = Q>,
+        Q::Point: Part,
+    {
+        let scales = scales(self.in_units, tip_file, grid.support_velocity())?;
+        let job = Job::open::<Document<Q>>(self.outlet, self.plot)?;
+        let indices = grid.indices();
+        let is_done = |file| merge::is_done::<Document<Q>>(file, &grid, &indices);
+        if self.work.if_needed && job.file().is_some_and(is_done) {
+            return Ok(());
+        }
+        let has = |index| indices.binary_search(&index).is_ok();
+        let finished = match job.file() {
+            Some(file) => Finished::beside(file, &grid, has)?,
+            None => Finished::in_memory(),
+        };
+        let threads = self.work.threads.unwrap_or(0);
+        let mut finished = compute(&grid, &indices, finished, threads)?;
+        let points = finished.take_in_order();
+        let document = <Document<Q> as Divided>::of(grid, points);
+        job.finish(document.sealed()?.in_units(scales.as_ref()))?;
+        finished.remove();
+        Ok(())
     }
 }
 
-/// These points; if a library panics, each by itself, and a point with an error where it does so again.
-fn judged(indices: &[usize], grid: &Grid, take: &mut dyn FnMut(SweepPoint)) {
-    let mut missing = indices.to_vec();
-    let mut each = |point: SweepPoint| {
-        missing.retain(|index| *index != point.index);
-        take(point);
+/// Computes all points that are not finished yet.
+///
+/// # Errors
+/// A signal arrived, or a point could not be saved.
+fn compute<Q: Points>(
+    grid: &Q,
+    indices: &[usize],
+    mut finished: Finished<Q::Point>,
+    threads: usize,
+) -> Result<Finished<Q::Point>, Failure>
+where
+    Q::Point: Part,
+{
+    let done: HashSet<usize> = finished.parts().iter().map(Part::index).collect();
+    let missing: Vec<usize> =
+        indices.iter().copied().filter(|index| !done.contains(index)).collect();
+    let count = indices.len();
+    if let (Some(path), false) = (finished.path(), done.is_empty()) {
+        remark(format_args!(
+            "stickslip: {} of {count} points are in {}",
+            done.len(),
+            path.display()
+        ));
+    }
+    let interrupt = Interrupt::listen()?;
+    let so_far = Arc::new(AtomicUsize::new(done.len()));
+    let (path, known) = (finished.path().map(Path::to_owned), Arc::clone(&so_far));
+    interrupt.or_else(move |signal| {
+        unfinished(known.load(Ordering::Relaxed), count, path.as_deref(), signal)
+    });
+    let mut progress = Progress::new(done.len() as f64, count as f64).at_every_call();
+    let mut kept: io::Result<()> = Ok(());
+    let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
+    let computed = each_point(grid, &missing, threads, &context, |point| {
+        kept = finished.add(point);
+        let done = so_far.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.counted(done as f64, || format!("{done} of {count} points"));
+        kept.is_ok()
+    });
+    kept.map_err(|error| {
+        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
+        Failure::Write { target, error }
+    })?;
+    if let Some(signal) = interrupt.signal() {
+        return Err(unfinished(finished.parts().len(), count, finished.path(), signal));
+    }
+    computed?;
+    Ok(finished)
+}
+
+fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
+    let message = match path {
+        Some(path) => format!(
+            "{done} of {count} points are in {}: the same command continues from there",
+            path.display()
+        ),
+        None => format!(
+            "{done} of {count} points were computed and none are kept: -o FILE.json would keep them"
+        ),
     };
-    if catch_unwind(AssertUnwindSafe(|| point::points(indices, grid, &mut each))).is_ok() {
-        return;
-    }
-    for index in missing {
-        let alone = AssertUnwindSafe(|| point::points(&[index], grid, take));
-        if catch_unwind(alone).is_err() {
-            let error = "the computation failed for an unknown reason: please report it";
-            take(SweepPoint { error: Some(error.into()), ..grid.place(index).empty(index, None) });
-        }
-    }
+    Failure::Unfinished { signal, message }
 }

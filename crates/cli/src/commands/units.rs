@@ -1,68 +1,73 @@
 //! `stickslip units`.
 
-mod solve;
-
+use super::ask::option;
 use super::job::{Job, format, judge_places};
-use super::model::tip;
 use crate::arguments::{Format, UnitsArguments};
 use crate::failure::Failure;
-use solve::Given;
-use stickslip::exponents::failed;
-use stickslip::{CriticalUnits, UnitsDocument};
-use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
-use stickslip_tip::{TipFunction, Wider};
-use stickslip_units::Physical;
+use crate::files::input::{TipFile, read_tip};
+use serde_json::json;
+use stickslip::{Units, UnitsDocument, parameter};
+use stickslip_units::Unit;
 
 pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
-    let read = [("--tip-file", arguments.model.tip.tip_file.as_deref())];
-    judge_places(&arguments.outlet, None, &read)?;
-    if format(arguments.outlet.format, &arguments.outlet.output, "")? == Format::Npz {
+    let UnitsArguments { options, outlet, .. } = arguments;
+    judge_places(outlet, None, &options.files())?;
+    if format(outlet.format, &outlet.output, "")? == Format::Npz {
         let message = "there are no arrays to write: take .json or .csv";
-        let named = format!("--output {}", arguments.outlet.output.display());
+        let named = format!("--output {}", outlet.output.display());
         return Err(Failure::input(named, message));
     }
-    let tip = tip(&arguments.model.tip)?;
-    let given = Given::read(arguments, &tip)?;
-    let physical = given.solved()?;
-    let job = Job::open::<UnitsDocument>(&arguments.outlet, None)?;
-    job.write(document(arguments, &tip, &given, &physical)?)
+    let question = question(arguments)?;
+    let job = Job::open::<UnitsDocument>(outlet, None)?;
+    job.write(question.answered().map_err(|failure| as_typed(failure, arguments))?)
 }
 
-fn document(
-    arguments: &UnitsArguments,
-    tip: &TipFunction,
-    given: &Given,
-    physical: &Physical,
-) -> Result<UnitsDocument, Failure> {
-    let model = physical.model(tip.clone()).map_err(|error| {
-        Failure::input("the quantities", format!("{error}; check their units and prefixes"))
-    })?;
-    let (at_r, at_alpha) = (
-        critical(&Wider::default(), tip, model.r()),
-        critical_r(&Wider::default(), tip, model.alpha()),
-    );
-    let check = "check the units and prefixes of the quantities";
-    let stable = unstable_count(&model).map_err(|error| match error {
-        StabilityError::TooFarApart { .. } => {
-            Failure::input("the quantities", format!("{error}; {check}"))
-        }
-        error => failed(&error, check).into(),
-    })? == 0;
-    let scales = physical.scales();
-    let (indentation, velocity) = (at_r.ok(), at_alpha.ok());
-    let with = |alpha: f64, r: f64| physical.with_alpha_r(alpha, r);
-    let why = |name: &str, error: Option<StabilityError>| error.map(|e| format!("{name}: {e}"));
-    let remarks = why("critical indentation rate", at_r.err())
-        .into_iter()
-        .chain(why("critical velocity", at_alpha.err()));
-    let critical = CriticalUnits {
-        alpha: indentation.map(|at| at.alpha),
-        indentation_rate: indentation.map(|at| with(at.alpha, at.r).indentation_rate),
-        period: indentation.map(|at| at.period * scales.time),
-        wavelength: indentation.map(|at| at.wavelength * scales.length),
-        r: velocity.map(|at| at.r),
-        velocity: velocity.map(|at| with(at.alpha, at.r).velocity),
-    };
-    let parameters = given.parameters(tip, arguments.model.alpha_above);
-    Ok(UnitsDocument::new(parameters, physical, &model, critical, stable, remarks.collect()))
+/// The rejection of a quantity with its value as typed.
+fn as_typed(failure: stickslip::Failure, arguments: &UnitsArguments) -> Failure {
+    let stickslip::Failure::Refused(refused) = failure else { return failure.into() };
+    let mut typed = quantities(arguments).into_iter();
+    match typed.find_map(|(name, text, _)| text.filter(|_| refused.parameter == name)) {
+        Some(text) => Failure::input(format!("{} {text}", option(&refused.parameter)), refused.why),
+        None => refused.into(),
+    }
+}
+
+/// Name, text if given, and unit of each quantity.
+fn quantities(given: &UnitsArguments) -> [(&'static str, Option<&str>, Unit); 6] {
+    [
+        ("damping", given.damping.as_deref(), Unit::Damping),
+        ("stiffness", given.stiffness.as_deref(), Unit::Stiffness),
+        ("tip_width", given.tip_width.as_deref(), Unit::Length),
+        ("indentation_rate", given.indentation_rate.as_deref(), Unit::Velocity),
+        ("slope_force", given.slope_force.as_deref(), Unit::Force),
+        ("velocity", given.velocity.as_deref(), Unit::Velocity),
+    ]
+}
+
+/// The question of the options, with quantities in SI units.
+fn question(arguments: &UnitsArguments) -> Result<Units, Failure> {
+    let mut values = arguments.options.values()?;
+    for (name, text, unit) in quantities(arguments) {
+        let Some(text) = text else { continue };
+        let named = || format!("{} {text}", option(name));
+        let value = unit.parse(text).map_err(|error| Failure::input(named(), error))?;
+        values.insert(name.into(), json!(value));
+    }
+    let question: Units = parameter::question(values)?;
+    // A measured tip brings its σ along, unless α and r are to tell another.
+    let numbers = usize::from(question.r.is_some())
+        + usize::from(question.alpha.or(question.alpha_above).is_some());
+    if question.tip_width.is_some() || question.left_out() <= numbers {
+        return Ok(question);
+    }
+    Ok(Units { tip_width: sigma_of(arguments)?, ..question })
+}
+
+/// σ in m from a tip file that `stickslip tip` wrote for a profile with a unit.
+fn sigma_of(arguments: &UnitsArguments) -> Result<Option<f64>, Failure> {
+    let Some(path) = &arguments.options.tip.tip_file else { return Ok(None) };
+    match read_tip(path)? {
+        TipFile::Measured(measured) => Ok(measured.sigma_metres),
+        _ => Ok(None),
+    }
 }

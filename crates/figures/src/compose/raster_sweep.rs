@@ -52,11 +52,12 @@ fn title(document: &RasterSweepDocument) -> String {
         PathName::OneWay | PathName::Repeat => "one-way",
     };
     let limit = parameters
+        .law
         .depth_limit
         .map_or(String::new(), |b| format!(", b = {}", Quantity::new(b, "kσ²/a").said(&short(b))));
     let length = Quantity::new(parameters.length, "σ");
     let length = length.said(&format!("{} σ", short(parameters.length)));
-    let (tip, r) = (tip_name(&parameters.tip), short(parameters.r));
+    let (tip, r) = (tip_name(&(&parameters.tip.0).into()), short(parameters.r));
     format!("{tip}, r = {r}{limit}, {path}, {} lines of {length}", parameters.lines)
 }
 

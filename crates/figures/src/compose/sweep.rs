@@ -8,7 +8,7 @@ use super::drawn::{Drawn, View};
 use super::tip::tip_name;
 use crate::error::FigureError;
 use crate::number::short;
-use stickslip::{FigureDocument, ModelParameters, SweepDocument, SweepParameters};
+use stickslip::{FigureDocument, ModelParameters, SweepDocument, SweepParameters, Tip};
 use varied::varied;
 
 /// Rejects a grid that no picture can show, before its points are computed.
@@ -48,7 +48,7 @@ fn fixed(parameters: &SweepParameters) -> String {
     let mut said = vec![];
     match (beta.as_deref().map(<[f64]>::len), tips.first()) {
         (Some(2..), _) => said.push("triple Gaussian".to_owned()),
-        (_, Some(tip)) => said.push(tip_name(tip)),
+        (_, Some(tip)) => said.push(tip_name(&(&tip.0).into())),
         (_, None) => {}
     }
     let mut one = |name: &str, values: &[f64]| {
@@ -66,9 +66,9 @@ fn fixed(parameters: &SweepParameters) -> String {
 fn models(parameters: &SweepParameters) -> Vec<ModelParameters> {
     let first = |values: &Option<Vec<f64>>| values.as_ref().and_then(|v| v.first().copied());
     let (alpha, alpha_above) = (first(&parameters.alpha), first(&parameters.alpha_above));
-    let model = |tip: &stickslip::TipDocument| {
+    let model = |tip: &Tip| {
         let (alpha, r) = (alpha.or(alpha_above)?, *parameters.r.first()?);
-        Some(ModelParameters::papers(tip.clone(), alpha, alpha_above, r))
+        Some(ModelParameters::papers((&tip.0).into(), alpha, alpha_above, r))
     };
     parameters.tips.first().and_then(model).into_iter().collect()
 }

@@ -18,7 +18,6 @@ pub(crate) mod stability;
 pub(crate) mod surface;
 pub(crate) mod sweep;
 pub(crate) mod table;
-pub(crate) mod units;
 pub(crate) mod verification;
 pub(crate) mod verify;
 pub(crate) mod work;

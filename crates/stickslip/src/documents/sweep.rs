@@ -13,7 +13,7 @@ pub use shard::ShardDocument;
 pub use start::SweepRunParameters;
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, InUnits, Question, TipDocument};
+use crate::{Document, InUnits, Question, Tip};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
@@ -51,7 +51,7 @@ impl Question for SweepParameters {
 #[serde(deny_unknown_fields)]
 pub struct SweepParameters {
     /// Footprints f: widths times β, if they vary.
-    pub tips: Vec<TipDocument>,
+    pub tips: Vec<Tip>,
     /// Widths of the footprints, if several were given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<Vec<f64>>,

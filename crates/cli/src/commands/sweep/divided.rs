@@ -1,5 +1,6 @@
 //! Sweeps computed in parts: conditions for combining documents, and detection of changes.
 
+use crate::arithmetic::arithmetic;
 use crate::commands::finished::Part;
 use crate::commands::job::Product;
 use crate::failure::Failure;
@@ -7,8 +8,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::{self, Write};
 use stickslip::{
-    EnsembleDocument, Physical, RasterSweepDocument, RasterSweepParameters, RasterSweepPoint,
-    ShardDocument, Software, SweepDocument, SweepParameters, SweepPoint,
+    Document, EnsembleDocument, Physical, RasterSweep, RasterSweepDocument, RasterSweepFound,
+    RasterSweepPoint, ShardDocument, Software, SweepDocument, SweepFound, SweepParameters,
+    SweepPoint,
 };
 use stickslip_figures::{Drawn, FigureError, judge_sweep};
 
@@ -22,6 +24,9 @@ pub(crate) trait Divided:
     type Parameters: PartialEq;
     /// The value of the field `format`.
     const FORMAT: &'static str;
+
+    /// The document of these points.
+    fn of(parameters: Self::Parameters, points: Vec<Self::Point>) -> Self;
 
     /// The parameters of the document.
     fn parameters(&self) -> &Self::Parameters;
@@ -79,10 +84,14 @@ pub(crate) struct Held<'a, P> {
 
 /// Implements the methods that return fields of the same name.
 macro_rules! by_fields {
-    ($point:ty, $parameters:ty) => {
+    ($point:ty, $parameters:ty, $found:expr) => {
         type Point = $point;
         type Parameters = $parameters;
         const FORMAT: &'static str = Self::FORMAT;
+
+        fn of(parameters: $parameters, points: Vec<$point>) -> Self {
+            Document::new(parameters, $found(points), vec![])
+        }
 
         fn held(&mut self) -> Held<'_, $point> {
             let found = &mut self.answer;
@@ -117,7 +126,12 @@ macro_rules! by_fields {
 }
 
 impl Divided for SweepDocument {
-    by_fields!(SweepPoint, SweepParameters);
+    by_fields!(SweepPoint, SweepParameters, |points| SweepFound {
+        points,
+        ensembles: None,
+        arithmetic: Some(arithmetic()),
+        crc32: None
+    });
 
     fn velocity(&self) -> Option<f64> {
         self.parameters.velocity()
@@ -134,7 +148,11 @@ impl Divided for SweepDocument {
 }
 
 impl Divided for RasterSweepDocument {
-    by_fields!(RasterSweepPoint, RasterSweepParameters);
+    by_fields!(RasterSweepPoint, RasterSweep, |points| RasterSweepFound {
+        points,
+        arithmetic: Some(arithmetic()),
+        crc32: None
+    });
 
     fn velocity(&self) -> Option<f64> {
         Some(self.parameters.r)

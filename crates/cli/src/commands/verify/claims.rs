@@ -4,7 +4,6 @@
 //! Samples are evaluated from the dense history, or from a repetition of the run if none was kept; the result of the
 //! run is recomputed from that repetition.
 
-use crate::commands::model::model_under;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::message::say;
@@ -14,8 +13,8 @@ use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
-    ClaimDocument, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
-    SampleLine, SteadyState, became, became_across, sample_across,
+    ClaimDocument, Indentation, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument,
+    RunEnd, SampleLine, SteadyState, became, became_across, sample_across,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::planar::PlanarScenario;
@@ -224,11 +223,11 @@ impl Claims {
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let computed = SteadyState::of(&scenario.model);
         self.judge_if("steady_state", steady, computed.as_ref(), &digits);
-        let law = (*scenario.model.wider(), scenario.model.tip().clone());
-        let above = parameters.alpha_above.filter(|_| law.0.spring);
-        let model = above.and_then(|d| model_under(law, parameters.r, (None, Some(d))).ok());
-        if let Some(model) = model {
-            let (claimed, computed) = (json!(parameters.alpha), json!(model.alpha()));
+        let (law, tip) = (*scenario.model.wider(), scenario.model.tip());
+        let above = parameters.alpha_above.filter(|_| law.spring);
+        let resolved = |d| Indentation::above_critical(d).resolved(tip, law, parameters.r).ok();
+        if let Some(Indentation { alpha: Some(alpha), .. }) = above.and_then(resolved) {
+            let (claimed, computed) = (json!(parameters.alpha), json!(alpha));
             self.judge("parameters.alpha", &claimed, &computed, &digits);
         }
     }

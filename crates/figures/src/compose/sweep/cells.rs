@@ -5,7 +5,6 @@ use crate::cells::ascending;
 use crate::compose::labels::{ALPHA, R};
 use stickslip::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
-    TipDocument,
 };
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::{TipFunction, Wider};
@@ -72,13 +71,11 @@ fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64
     let parameters = &document.parameters;
     let of_r = slow.label == R;
     let r = if of_r { slow.values[i] } else { parameters.r.first().copied().unwrap_or(f64::NAN) };
-    let tip: Option<&TipDocument> =
-        if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
-    let tip: Option<TipFunction> = tip.and_then(|tip| tip.tip().ok());
+    let tip = if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
     // What the points say costs nothing.
     let here = |point: &&SweepPoint| slow.place(point) == i;
     let known = document.points.iter().filter(here).find_map(|point| point.critical_alpha);
-    let of = |value: &dyn Fn(&TipFunction) -> Option<f64>| tip.as_ref().and_then(value);
+    let of = |value: &dyn Fn(&TipFunction) -> Option<f64>| tip.and_then(|tip| value(&tip.0));
     let onset =
         known.or_else(|| of(&|tip| critical(&Wider::default(), tip, r).ok().map(|c| c.alpha)));
     let trapped = of(&|tip| trapping_alpha(tip, r).ok());

@@ -17,4 +17,4 @@ pub use height_map::HeightMap;
 pub use heights::RasterSurfaceDocument;
 pub use lines::{KeptLine, LineHistory, LineRegimeName, RasterHistory, RasterLine, RasterSamples};
 pub use pattern::{PatternDocument, RasterRegimeName};
-pub use sweep::{RasterSweepDocument, RasterSweepFound, RasterSweepParameters, RasterSweepPoint};
+pub use sweep::{RasterSweepFound, RasterSweepPoint};

@@ -1,8 +1,8 @@
 //! `stickslip/raster-sweep`.
 
 use super::RasterRegimeName;
+use crate::PatternDocument;
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, PathName, PatternDocument, Question, ShardDocument, TipDocument};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;
@@ -19,67 +19,6 @@ pub struct RasterSweepFound {
     /// CRC-32 (IEEE) of the JSON `[parameters,points,arithmetic]`, as for `stickslip/sweep`.
     #[serde(default)]
     pub crc32: Option<u32>,
-}
-
-/// A sweep of rasters and the question that it answers.
-pub type RasterSweepDocument = Document<RasterSweepParameters>;
-
-impl Question for RasterSweepParameters {
-    const FORMAT: &'static str = "stickslip/raster-sweep";
-    type Answer = RasterSweepFound;
-}
-
-/// A grid of pitches times α, the last varying fastest, and the common parameters.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterSweepParameters {
-    /// Footprint f.
-    pub tip: TipDocument,
-    /// Dimensionless support velocity r (12).
-    pub r: f64,
-    /// b of (61), in kσ²/a.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_limit: Option<f64>,
-    /// Healing time T, in Γ/k.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub healing_time: Option<f64>,
-    /// M, in Γ²/k.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<f64>,
-    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null where the tip has its own f(x,y).
-    pub width_y: Option<f64>,
-    /// κ_y, the spring constant across the lines over that along them; absent if the tip is held on its lines.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffness_across: Option<f64>,
-    /// The path of the support from one line to the next.
-    pub path: PathName,
-    /// Distances of the lines, in σ.
-    pub pitch: Vec<f64>,
-    /// Dimensionless indentation rates α (13).
-    pub alpha: Vec<f64>,
-    /// Lines of each raster.
-    pub lines: usize,
-    /// X, the distance that the support moves along each line, in σ.
-    pub length: f64,
-    /// Requested error of x0 on each line, in σ.
-    pub tolerance: f64,
-    /// Part of the points in this document; by default all.
-    #[serde(default)]
-    pub shard: Option<ShardDocument>,
-}
-
-impl RasterSweepParameters {
-    /// The part in this document; by default the whole.
-    #[must_use]
-    pub fn part(&self) -> ShardDocument {
-        self.shard.unwrap_or(ShardDocument::WHOLE)
-    }
-
-    /// Number of points of the whole grid.
-    #[must_use]
-    pub fn points(&self) -> usize {
-        self.pitch.len().saturating_mul(self.alpha.len())
-    }
 }
 
 /// One raster of the grid.

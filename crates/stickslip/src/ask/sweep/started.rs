@@ -1,8 +1,7 @@
 //! A point that is a run: the result of `stickslip run` with the same options.
 
-use crate::failure::Failure;
-use stickslip::{
-    Ask, Context, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
+use crate::{
+    Ask, Context, Failure, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
     SweepRunParameters, Tip,
 };
 use stickslip_outcome::{Motion, Observer, judge};
@@ -39,7 +38,7 @@ pub(super) fn scenario(
             run.until,
         )
     };
-    Ok(question.resolved(&Context::default())?.prepared()?)
+    question.resolved(&Context::default())?.prepared()
 }
 
 /// Number of samples of l in the second half of a run.

@@ -1,0 +1,112 @@
+//! Questions whose answer is a list of points, each computed independently of the others.
+
+use crate::{Context, Failure, Question};
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
+
+/// Groups of points per thread: some take longer than others.
+const GROUPS_PER_THREAD: usize = 4;
+
+/// A question about a grid of parameters. A point depends on its own parameters alone: points may be computed in any
+/// order, company and place.
+pub trait Points: Question {
+    /// The answer at one point.
+    type Point: Send;
+
+    /// The indices of the points of this part of the grid.
+    fn indices(&self) -> Vec<usize>;
+
+    /// Index of a point.
+    fn index(point: &Self::Point) -> usize;
+
+    /// Largest number of points that gain from being computed together.
+    fn together(&self) -> usize {
+        1
+    }
+
+    /// Computes these points, and passes each to `take` as soon as it is complete.
+    fn compute(&self, indices: &[usize], take: &mut dyn FnMut(Self::Point));
+
+    /// The point with this index, which could not be computed for this reason.
+    fn failed(&self, index: usize, why: &str) -> Self::Point;
+}
+
+/// Computes points on this number of threads (0 means one per core), and passes each to `keep` as soon as it is
+/// complete, until one cannot be kept.
+///
+/// # Errors
+/// The work is cancelled, or no threads can be started.
+pub fn each_point<Q: Points>(
+    question: &Q,
+    indices: &[usize],
+    threads: usize,
+    context: &Context,
+    keep: impl FnMut(Q::Point) -> bool + Send,
+) -> Result<(), Failure> {
+    // More threads than points would have nothing to do.
+    let threads = threads.min(indices.len().max(1));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| Failure::Failed(format!("cannot start threads: {error}")))?;
+    let groups = GROUPS_PER_THREAD * pool.current_num_threads();
+    let size = indices.len().div_ceil(groups).clamp(1, question.together());
+    let keep = Mutex::new(keep);
+    let group = |indices: &[usize]| -> Option<()> {
+        let mut is_kept = true;
+        let mut take = |point| {
+            // A cancelled computation makes no point.
+            if is_kept && !context.is_cancelled() {
+                is_kept = keep.lock().unwrap_or_else(PoisonError::into_inner)(point);
+            }
+        };
+        if !context.is_cancelled() {
+            let mut work = || {
+                safely(question, indices, &mut take);
+                Ok(())
+            };
+            context.keeping(&mut work).ok();
+        }
+        (is_kept && !context.is_cancelled()).then_some(())
+    };
+    pool.install(|| indices.par_chunks(size).with_max_len(1).try_for_each(group));
+    if context.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
+}
+
+/// Computes these points; if a library panics, each of those left by itself, and a point with an error where it
+/// panics again.
+fn safely<Q: Points>(question: &Q, indices: &[usize], take: &mut dyn FnMut(Q::Point)) {
+    let mut missing = indices.to_vec();
+    let mut each = |point| {
+        missing.retain(|index| *index != Q::index(&point));
+        take(point);
+    };
+    if catch_unwind(AssertUnwindSafe(|| question.compute(indices, &mut each))).is_ok() {
+        return;
+    }
+    for index in missing {
+        let alone = AssertUnwindSafe(|| question.compute(&[index], take));
+        if catch_unwind(alone).is_err() {
+            let why = "the computation failed for an unknown reason: please report it";
+            take(question.failed(index, why));
+        }
+    }
+}
+
+/// All points of this part, by rising index, with progress.
+///
+/// # Errors
+/// As [`each_point`].
+pub(crate) fn all_points<Q: Points>(
+    question: &Q,
+    context: &Context,
+) -> Result<Vec<Q::Point>, Failure> {
+    let indices = question.indices();
+    let mut points = Vec::with_capacity(indices.len());
+    each_point(question, &indices, 0, context, |point| {
+        points.push(point);
+        context.counted(points.len(), indices.len(), "points").is_ok()
+    })?;
+    points.sort_by_key(Q::index);
+    Ok(points)
+}

@@ -34,6 +34,7 @@ mod people;
 mod physical_units;
 mod pictures;
 mod prose_numbers;
+mod quantities;
 mod raster_commands;
 mod raster_sweeps;
 mod reference;

@@ -9,6 +9,7 @@ pub use crate::host::{Host, Pace, Supply};
 pub use crate::made::{Document, Made};
 
 use crate::arguments::{Cli, Command};
+use crate::commands::quantities::{Translated, translated};
 use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
@@ -16,6 +17,7 @@ use crate::message::harmless;
 use crate::{done, host, made};
 use clap::{ArgAction, CommandFactory, FromArgMatches};
 use serde::Serialize;
+use std::ffi::OsString;
 use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -44,15 +46,15 @@ pub fn call<'a>(
     words: impl IntoIterator<Item = &'a str>,
     host: &Arc<Host>,
 ) -> Result<Option<Made>, Refusal> {
-    let cli = parse(words)?;
     let _lent = Lent::to(host);
+    let (cli, line) = parse(words)?;
     match stop::where_asked_by(host.stop(), || done(&cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own words for what it did not find.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {
             Err(Refusal::Stopped(failure.to_string()))
         }
-        Err(failure) => Err(failure.into()),
+        Err(failure) => Err(line.restored(failure).into()),
     }
 }
 
@@ -67,12 +69,12 @@ pub fn runs(
     host: &Arc<Host>,
 ) -> Result<Vec<Result<Made, Refusal>>, (usize, Refusal)> {
     let order = |(words, own): &(Vec<String>, Arc<Host>)| {
-        let cli = parse(words.iter().map(String::as_str))?;
+        let _lent = Lent::to(own);
+        let (cli, line) = parse(words.iter().map(String::as_str))?;
         let Command::Run(arguments) = &cli.command else {
             return Err(Refusal::Input("several commands at once are runs".into()));
         };
-        let _lent = Lent::to(own);
-        many::order_of(arguments).map_err(Refusal::from)
+        many::order_of(arguments).map_err(|failure| line.restored(failure).into())
     };
     let orders = commands.iter().enumerate();
     let orders = orders.map(|(number, command)| order(command).map_err(|e| (number, e)));
@@ -121,7 +123,7 @@ fn parser() -> &'static Mutex<clap::Command> {
     PARSER.get_or_init(|| Mutex::new(Cli::command().no_binary_name(true)))
 }
 
-fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
+fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<(Cli, Translated), Refusal> {
     let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     let refused = |error: clap::Error| {
         let said = error.render().to_string();
@@ -130,8 +132,10 @@ fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Cli, Refusal> {
         let said = said.split("\n\nFor more information").next().unwrap_or_default();
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
     };
-    let matches = parser.try_get_matches_from_mut(words).map_err(refused)?;
-    Cli::from_arg_matches(&matches).map_err(refused)
+    let words = words.into_iter().map(OsString::from).collect();
+    let line = translated(words, &mut parser)?;
+    let matches = parser.try_get_matches_from_mut(&line.words).map_err(refused)?;
+    Ok((Cli::from_arg_matches(&matches).map_err(refused)?, line))
 }
 
 /// An option of a command, as described in its help.

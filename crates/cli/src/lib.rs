@@ -25,8 +25,9 @@ mod message;
 mod sign_of_life;
 
 use arguments::{Cli, Command, FIRST_SCREEN};
-use clap::Parser;
 use clap::error::ErrorKind as Misread;
+use clap::{CommandFactory, Parser};
+use commands::quantities::translated;
 use failure::Failure;
 use message::{say, say_lines};
 use std::io::ErrorKind;
@@ -40,7 +41,11 @@ pub fn arguments() -> clap::Command {
 
 /// Runs the program, as called from a shell.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let line = match translated(std::env::args_os().collect(), &mut Cli::command()) {
+        Ok(line) => line,
+        Err(failure) => return failed(&failure),
+    };
+    let cli = match Cli::try_parse_from(&line.words) {
         Ok(cli) => cli,
         Err(error) => return answered(&error),
     };
@@ -58,13 +63,15 @@ pub fn main() -> ExitCode {
     sign_of_life::end();
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            if !failure.is_silent() {
-                say(format_args!("stickslip: {failure}"));
-            }
-            failure.exit_code()
-        }
+        Err(failure) => failed(&line.restored(failure)),
     }
+}
+
+fn failed(failure: &Failure) -> ExitCode {
+    if !failure.is_silent() {
+        say(format_args!("stickslip: {failure}"));
+    }
+    failure.exit_code()
 }
 
 fn done(command: &Command) -> Result<(), Failure> {

@@ -149,6 +149,10 @@ def number(value):
         return str(value)
     if isinstance(value, Integral):
         return repr(int(value))
+    unit, amount = getattr(value, "units", None) or getattr(value, "unit", None), getattr(value, "magnitude", getattr(value, "value", None))
+    if unit is not None and amount is not None and str(unit) not in ("", "1", "dimensionless"):
+        # A quantity (pint, Astropy): `20.0nm`.
+        return repr(float(amount)) + (f"{unit:~C}" if hasattr(unit, "dimensionality") else str(unit)).replace(" ", "").replace("**1", "")
     if hasattr(value, "__float__"):
         return repr(float(value))
     return str(value)

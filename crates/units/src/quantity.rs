@@ -17,6 +17,10 @@ pub enum Unit {
     Force,
     /// s
     Time,
+    /// kg
+    Mass,
+    /// 1/s
+    Rate,
 }
 
 impl std::fmt::Display for Unit {
@@ -34,6 +38,8 @@ impl Unit {
             Self::Velocity => &["m/s"],
             Self::Force => &["N"],
             Self::Time => &["s"],
+            Self::Mass => &["kg"],
+            Self::Rate => &["1/s", "/s", "rad/s"],
         }
     }
 
@@ -45,6 +51,8 @@ impl Unit {
             Self::Velocity => "1um/s",
             Self::Force => "10nN",
             Self::Time => "5ms",
+            Self::Mass => "20pg",
+            Self::Rate => "50/s",
         }
     }
 
@@ -84,7 +92,7 @@ impl Unit {
             Self::Length => &["meter", "meters", "metre", "metres"],
             Self::Force => &["newton", "newtons"],
             Self::Time => &["second", "seconds", "sec"],
-            Self::Damping | Self::Stiffness | Self::Velocity => &[],
+            Self::Damping | Self::Stiffness | Self::Velocity | Self::Mass | Self::Rate => &[],
         };
         bases.iter().find_map(|base| match unit.strip_suffix(base)? {
             "" => Some(1.0),
@@ -172,6 +180,9 @@ mod tests {
             (Unit::Damping, "1e-8kg/s", 1e-8),
             (Unit::Damping, "1uNs/m", 1e-6),
             (Unit::Damping, "1 mN s/m", 1e-3),
+            (Unit::Mass, "20pg", 2e-14),
+            (Unit::Rate, "50/s", 50.0),
+            (Unit::Rate, "2 rad/ms", 2e3),
         ];
         for (unit, text, wanted) in read {
             close(unit.parse(text).unwrap(), wanted);

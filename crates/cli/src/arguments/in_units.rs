@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[command(next_help_heading = "Physical units")]
 pub(crate) struct InUnitsArguments {
     /// Also report the result in nm, s and nN, with the scales in a document of `stickslip units`, `tip` or `fit`, or
-    /// in any document with physical units; its α and r do not matter.
+    /// in any document with physical units; its α and r do not matter. Options then take quantities, such as --until 2s; a
+    /// number without a unit is one of the model, with or without scales.
     ///
     /// Tables and pictures are in these units, and their columns and axes are named accordingly (x0_nm); in a JSON
     /// document `physical` contains them in addition to the dimensionless numbers.

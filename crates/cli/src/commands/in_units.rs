@@ -22,14 +22,26 @@ pub(crate) fn scales(
     tip_file: Option<&Path>,
     r: Option<f64>,
 ) -> Result<Option<KnownScales>, Failure> {
+    let (scales, origin) = with_origin(arguments, tip_file, r)?;
+    origin.into_iter().for_each(remark);
+    Ok(scales)
+}
+
+/// The scales, and a remark on the origin of σ if it is that of a measured tip.
+pub(crate) fn with_origin(
+    arguments: &InUnitsArguments,
+    tip_file: Option<&Path>,
+    r: Option<f64>,
+) -> Result<(Option<KnownScales>, Option<String>), Failure> {
     if let Some(path) = &arguments.units {
-        return of_document(path).map(Some);
+        return of_document(path).map(|scales| (Some(scales), None));
     }
     let given = Given::read(arguments)?;
     if given.is_empty() {
-        return Ok(None);
+        return Ok((None, None));
     }
-    given.with_width_of(tip_file)?.scales(r).map(Some)
+    let (given, origin) = given.with_width_of(tip_file)?;
+    Ok((Some(given.scales(r)?), origin))
 }
 
 /// The unit of length and the unit of height in m, for an image; 1 without units.
@@ -71,15 +83,14 @@ impl Given {
         [sigma, stiffness, damping, velocity, slope_force].iter().all(Option::is_none)
     }
 
-    /// Adds the σ of a measured tip, with a message.
-    fn with_width_of(self, tip_file: Option<&Path>) -> Result<Self, Failure> {
-        let Some(path) = tip_file.filter(|_| self.sigma.is_none()) else { return Ok(self) };
-        let TipFile::Measured(measured) = read_tip(path)? else { return Ok(self) };
-        if let Some(sigma) = measured.sigma_metres {
-            let nanometres = sigma * 1e9;
-            remark(format_args!("σ = {nanometres} nm, that of --tip-file {}", path.display()));
-        }
-        Ok(Self { sigma: measured.sigma_metres, ..self })
+    /// Adds the σ of a measured tip, with a remark.
+    fn with_width_of(self, tip_file: Option<&Path>) -> Result<(Self, Option<String>), Failure> {
+        let Some(path) = tip_file.filter(|_| self.sigma.is_none()) else { return Ok((self, None)) };
+        let TipFile::Measured(measured) = read_tip(path)? else { return Ok((self, None)) };
+        let origin = measured
+            .sigma_metres
+            .map(|sigma| format!("σ = {} nm, that of --tip-file {}", sigma * 1e9, path.display()));
+        Ok((Self { sigma: measured.sigma_metres, ..self }, origin))
     }
 
     /// The scales of these options. Options that lack a companion or contradict each other are rejected.
@@ -150,7 +161,8 @@ struct WithScales {
     scales: Option<KnownScales>,
 }
 
-fn of_document(path: &Path) -> Result<KnownScales, Failure> {
+/// The scales in a document.
+pub(crate) fn of_document(path: &Path) -> Result<KnownScales, Failure> {
     let named = || format!("--units {}", path.display());
     let document: Scaled = serde_json::from_reader(open("--units", path)?)
         .map_err(|error| Failure::input(named(), format!("no document: {error}")))?;

@@ -10,6 +10,7 @@ pub(crate) mod figures;
 pub(crate) mod fit;
 pub(crate) mod model;
 pub(crate) mod plot;
+pub(crate) mod quantities;
 pub(crate) mod raster;
 pub(crate) mod response;
 pub(crate) mod run;

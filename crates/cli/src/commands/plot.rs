@@ -12,6 +12,7 @@ use crate::files::input::{open, read_document};
 use std::path::Path;
 use stickslip::{BoundaryDocument, FigureDocument};
 use stickslip_figures::{self as figures, AnimationFormat, FigureError, Size, View, Width};
+use stickslip_units::Unit;
 
 pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     if let Some(format) = AnimationFormat::of(&arguments.output) {
@@ -27,9 +28,12 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         return Err(Failure::input(option, why));
     }
     let size = size(arguments)?;
+    let along_x = range("--x-range", arguments.x_range.as_deref())?;
+    let along_y = range("--y-range", arguments.y_range.as_deref())?;
     let view = View {
-        x_range: range("--x-range", arguments.x_range.as_deref())?,
-        y_range: range("--y-range", arguments.y_range.as_deref())?,
+        x_range: along_x.map(|(range, _)| range),
+        y_range: along_y.map(|(range, _)| range),
+        range_units: [along_x, along_y].map(|range| range.and_then(|(_, unit)| unit)),
         scales: None,
     };
     let units = ("--units", arguments.in_units.units.as_deref());
@@ -87,20 +91,43 @@ fn width(arguments: &PlotArguments) -> Result<Option<Width>, Failure> {
     width.transpose()
 }
 
-fn range(option: &str, typed: Option<&str>) -> Result<Option<[f64; 2]>, Failure> {
+/// A range and its unit among those of axes, if it has one.
+type InUnit = ([f64; 2], Option<&'static str>);
+
+fn range(option: &str, typed: Option<&str>) -> Result<Option<InUnit>, Failure> {
+    const UNITS: [Option<(Unit, f64, &str)>; 6] = [
+        None,
+        Some((Unit::Length, 1e9, "nm")),
+        Some((Unit::Time, 1.0, "s")),
+        Some((Unit::Force, 1e9, "nN")),
+        Some((Unit::Velocity, 1e9, "nm/s")),
+        Some((Unit::Rate, 1.0, "1/s")),
+    ];
     let Some(typed) = typed else { return Ok(None) };
+    let number = |text: &str, unit: Option<(Unit, f64, &str)>| {
+        let bare = text.trim().parse::<f64>().ok();
+        let value = match unit {
+            Some((unit, times, _)) if bare != Some(0.0) => {
+                unit.parse(text).ok().map(|value| value * times)
+            }
+            _ => bare,
+        };
+        value.filter(|value| value.abs() < 1e100)
+    };
     let numbers = typed.split_once(':').and_then(|(low, high)| {
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.abs() < 1e100);
-        Some([number(low)?, number(high)?])
+        let in_unit =
+            |unit| Some(([number(low, unit)?, number(high, unit)?], unit.map(|(.., name)| name)));
+        UNITS.into_iter().find_map(in_unit)
     });
     match numbers {
-        Some(range) if figures::can_be_drawn(range) => Ok(Some(range)),
-        Some([low, high]) if low < high => {
+        Some((range, unit)) if figures::can_be_drawn(range) => Ok(Some((range, unit))),
+        Some(([low, high], _)) if low < high => {
             let advice = "the range is too narrow for an axis: HI must be above LO by 1e-12 of the larger of them, and by 1e-100";
             Err(Failure::input(format!("{option} {typed}"), advice))
         }
         _ => {
-            let advice = "needs two finite numbers LO:HI with LO below HI, such as 400:420";
+            let advice =
+                "needs two finite numbers LO:HI with LO below HI, such as 400:420 or 3um:6um";
             Err(Failure::input(format!("{option} {typed}"), advice))
         }
     }

@@ -85,6 +85,8 @@ fn example(of: Unit) -> &'static str {
         Unit::Velocity => "um/s",
         Unit::Stiffness => "N/m",
         Unit::Damping => "kg/s",
+        Unit::Mass => "kg",
+        Unit::Rate => "1/s",
     }
 }
 

@@ -12,6 +12,8 @@ pub struct View {
     pub x_range: Option<[f64; 2]>,
     /// First and last ordinate of the first panel, and of all panels with the same axis label.
     pub y_range: Option<[f64; 2]>,
+    /// Units of the two ranges, such as nm; without one a range is in the unit of its axis.
+    pub range_units: [Option<&'static str>; 2],
     /// Scales for axes in nm, s and nN; by default those of the document, if it has any.
     pub scales: Option<KnownScales>,
 }

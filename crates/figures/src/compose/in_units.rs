@@ -5,7 +5,6 @@ use super::View;
 use super::labels::L;
 use super::labels::{LAG, LAG_OF_STEADY_SUPPORT, SPRING, SPRING_FORCE};
 use super::quantity::settle;
-#[cfg(feature = "animation")]
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
 use crate::scene::{Moment, Scene};
@@ -44,6 +43,16 @@ fn scaled(label: &str, scales: &KnownScales) -> Option<Axis> {
     let dimension = Dimension::of_unit(unit)?;
     let label = format!("{name} ({})", dimension.unit());
     Some(Axis { factor: dimension.factor(scales)?, label })
+}
+
+/// Rejects a range whose unit is not that of its axis.
+pub(super) fn judge_ranges(panel: &PanelDocument, view: &View) -> Result<(), FigureError> {
+    let labels = [&panel.x_label, &panel.y_label];
+    let mut units = view.range_units.into_iter().zip(labels);
+    let other = units.find_map(|(unit, label)| {
+        unit.filter(|unit| !label.ends_with(&format!(" ({unit})"))).zip(Some(label))
+    });
+    other.map_or(Ok(()), |(unit, label)| Err(FigureError::Unit(unit, label.clone())))
 }
 
 /// The options of a figure converted to the model's units, with the axes of its first panel.

@@ -35,7 +35,7 @@ use crate::error::FigureError;
 use crate::scene::{Scene, Shot};
 #[cfg(feature = "animation")]
 use in_units::InUnits;
-use in_units::{asked_of, in_units};
+use in_units::{asked_of, in_units, judge_ranges};
 use quantity::settle;
 use serde::Serialize;
 use std::io::Read;
@@ -59,6 +59,7 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
     let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
     let Some(scales) = known else {
         let mut figure = shown(document, view)?;
+        figure.panels.first().map_or(Ok(()), |first| judge_ranges(first, view))?;
         settle(&mut figure, None);
         return Ok(figure);
     };
@@ -67,7 +68,9 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
         let whole = shown(document, &View::default())?;
         view = whole.panels.first().map_or(view, |first| asked_of(first, &scales, &view));
     }
-    Ok(in_units(shown(document, &view)?, &scales))
+    let figure = in_units(shown(document, &view)?, &scales);
+    figure.panels.first().map_or(Ok(()), |first| judge_ranges(first, &view))?;
+    Ok(figure)
 }
 
 /// The motion in a document; in nm, s and nN if the shot or the document contains the scales of an experiment.

@@ -22,8 +22,15 @@ pub(super) fn write(arguments: &PlotArguments, format: AnimationFormat) -> Resul
     let named = || format!("{option} {}", arguments.document.display());
     let document = figures::saved(open(option, &arguments.document)?)
         .map_err(|error| Failure::input(named(), error))?;
-    let shot =
-        Shot { times, scales: scales(&arguments.in_units, None, one_r(arguments, &*document))? };
+    let scales = scales(&arguments.in_units, None, one_r(arguments, &*document))?;
+    let known = scales.or_else(|| document.physical().map(|physical| physical.scales));
+    let unit = if known.is_some_and(|known| known.time.is_some()) { "s" } else { "Γ/k" };
+    if let Some((_, Some(given))) =
+        times.filter(|(_, given)| given.is_some_and(|given| given != unit))
+    {
+        return Err(undrawn(&FigureError::Unit(given, format!("of times in {unit}"))));
+    }
+    let shot = Shot { times: times.map(|(times, _)| times), scales };
     let failed = |error: FigureError| match error {
         FigureError::Damaged(_) | FigureError::Nothing(_) | FigureError::Still(_) => {
             Failure::input(named(), error)

@@ -52,6 +52,7 @@ impl Dimension {
             "kσ⁴/a" => Self::VOLUME,
             "k/(Γσ²)" => Self::LYAPUNOV,
             "Γ²/k" => Self::INERTIA,
+            "k²σ²/(aΓ)" => Self::INDENTATION,
             _ => return None,
         })
     }
@@ -73,6 +74,17 @@ impl Dimension {
     /// Exponents of nm, s and nN.
     fn powers(self) -> [(&'static str, i32); 3] {
         [("nN", self.force), ("nm", self.length + self.height), ("s", self.time)]
+    }
+
+    /// A quantity in nm, s and nN as a number of the model; `None` if a scale that it needs is unknown.
+    ///
+    /// Products of decimals such as 40 nm/(20 nm) miss the decimal that they stand for by units of the last place: within four of
+    /// them the number of 15 digits is taken, so that a quantity has the bits of the number that is typed in its place.
+    pub fn number(self, quantity: f64, scales: &KnownScales) -> Option<f64> {
+        let number = quantity / self.factor(scales)?;
+        let typed: f64 = format!("{number:.14e}").parse().ok()?;
+        let is_same = (typed - number).abs() <= 4.0 * f64::EPSILON * number.abs();
+        Some(if is_same { typed } else { number })
     }
 
     /// The suffix of names of such numbers, such as `nm_per_s`.

@@ -80,6 +80,7 @@ const DIMENSIONLESS: [&str; 36] = [
     "free",
     "solve-for",
     "over",
+    "only",
     "unit",
     "grid",
     "tip",

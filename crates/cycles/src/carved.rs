@@ -64,7 +64,8 @@ impl Carved {
         by_columns(&self.bare, &self.weights)
     }
 
-    /// Weights of these contributions, of ∂/∂h and of ∂/∂`η_k` at the end of the step.
+    /// Weights of the stages k at the end of the step: of the contributions, of their derivatives with respect to h, and
+    /// of those with respect to `η_k`.
     pub(super) fn at_end(&self) -> [Stages; 3] {
         let row = |matrix: &Matrix, factors: &Stages| -> Stages {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])

@@ -57,7 +57,7 @@ pub(super) const MOST_WORK: f64 = 4e8;
 /// Largest estimated residual as a fraction of the allowed one, because the residual within a step may exceed the
 /// estimate.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
-/// Residual that can be reached, in units of the residual below which meshes no longer help.
+/// The residual is accepted within this factor of the one below which finer meshes no longer reduce it.
 const MARGIN: f64 = 2.0;
 /// Largest size of the last correction: its error is of the order of its square.
 const ENOUGH: f64 = 1e-8;

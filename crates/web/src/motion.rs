@@ -21,7 +21,7 @@ enum Way {
 }
 
 impl Motion {
-    /// Makes the run, as far as it comes before the page's patience ends; `now` is the time in milliseconds.
+    /// Computes the run up to the page's limit of computing time; `now` is the time in milliseconds.
     pub(crate) fn of(asked: &Asked, now: fn() -> f64) -> Result<Self, Refusal> {
         if asked.until > MOST_TIME {
             return Err(Refusal::TooLong(asked.until));

@@ -73,7 +73,7 @@ pub(super) struct Lines {
     pub(super) kind: Kind,
     pub(super) r: f64,
     mass: f64,
-    /// β
+    /// Relative change of the indentation rate with the height of the surface, -sign(u)/b; 0 without a depth limit.
     pub(super) steepness: f64,
     /// E
     pub(super) beside: f64,
@@ -82,7 +82,7 @@ pub(super) struct Lines {
     pub(super) odd: Vec<Vec<Sequence>>,
 }
 
-/// What of the law enters.
+/// The parameters of the law that enter the determinant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Terms {
     pub(super) r: f64,

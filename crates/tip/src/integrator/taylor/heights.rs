@@ -72,7 +72,7 @@ impl<M: Memory> Integrator<'_, M> {
         spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= *weight);
     }
 
-    /// Where the heights of the pieces of a step lead.
+    /// The place of the corner |u| = 0 relative to a step whose pieces have these heights.
     pub(super) fn at_corner(&self, heights: Option<Along>, total: f64) -> AtCorner {
         let Some((corner, heights)) = self.corner.as_ref().zip(heights) else {
             return AtCorner::Apart;
@@ -81,8 +81,7 @@ impl<M: Memory> Integrator<'_, M> {
     }
 }
 
-/// How long a step may be for its heights to err by so little that it does not show in a displacement; `strength` is
-/// α/b.
+/// Longest step over which the error of the heights changes a displacement by at most `error`; `strength` is α/b.
 pub(crate) fn length_by_heights(
     corner: &Corner,
     height: &Series,
@@ -93,12 +92,12 @@ pub(crate) fn length_by_heights(
     length::length(height.coefficients(), error / felt)
 }
 
-/// How steep heights are over a step, as an interpolant of them errs beside one of the displacement.
+/// Ratio of the interpolation error of the heights over a step to that of the displacement.
 pub(crate) fn steepness(corner: &Corner, over_step: &Series) -> f64 {
     Outlook::of(over_step).steepest / depth(corner)
 }
 
-/// Where the heights of the pieces of a step from t lead.
+/// The place of the corner |u| = 0 relative to a step from t whose pieces have these heights.
 pub(crate) fn at_corner(corner: &Corner, heights: &Along, (t, total): (f64, f64)) -> AtCorner {
     if corner.keeps(heights.nodes) {
         return AtCorner::Apart;

@@ -52,6 +52,38 @@ fn both_coordinates_are_those_of_the_cells() {
     }
 }
 
+/// Lobes across of another width, and a table that is no product of functions of x and y.
+#[test]
+fn footprints_of_several_products_are_those_of_the_cells() {
+    let folder = Folder::new("compare-across-footprints");
+    let lobe = |amplitude: f64, center: f64, center_y: f64, width_y: f64| {
+        serde_json::json!({
+            "amplitude": amplitude, "center": center, "width": 1.0, "center_y": center_y, "width_y": width_y
+        })
+    };
+    let lobes = [
+        lobe(1.0, 0.0, 0.0, 1.0),
+        lobe(-0.4, 2.0, 0.0, 0.8),
+        lobe(-0.4, -2.0, 0.0, 0.8),
+        lobe(-0.2, 0.0, 1.8, 0.8),
+        lobe(-0.2, 0.0, -1.8, 0.8),
+    ];
+    folder.write("star.json", serde_json::json!({ "gaussians": lobes }).to_string());
+    let mut table = "x,y,f\n".to_string();
+    for (i, j) in (0..18).flat_map(|j| (0..18).map(move |i| (i, j))) {
+        let (x, y) = (0.5 * f64::from(i), 0.5 * f64::from(j));
+        let f = (1.0 - 0.5 * x * x + 0.1 * x * x * y * y) * (-0.5 * x * x - y * y / 2.4).exp();
+        table += &format!("{x},{y},{f:e}\n");
+    }
+    folder.write("saddle.csv", table);
+    for (tip, most) in [("star.json", 1e-8), ("saddle.csv", 1e-8)] {
+        let document = folder.prints_json(&format!("{CASE} --tip-file {tip}"));
+        let found = differences(&document);
+        println!("{tip}: {found:?}");
+        assert!(found.iter().all(|d| *d < most && *d > 0.0), "{tip}: {found:?}");
+    }
+}
+
 /// Noise, a profile and a table u0(x,y) change the motion by far more than the two sides are apart.
 #[test]
 fn both_sides_meet_the_same_surface() {

@@ -228,6 +228,17 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
     ] {
         folder.refuses(&format!("{line} {options}"), &words);
     }
+    let mut rough = "x,y,f\n".to_string();
+    for (i, j) in (0..69).flat_map(|j| (0..69).map(move |i| (i, j))) {
+        let (x, y) = (0.125 * f64::from(i), 0.125 * f64::from(j));
+        let noise = 1.0 + 0.05 * (1e4 * (12.9 * x + 78.2 * y).sin()).fract();
+        rough += &format!("{x},{y},{:e}\n", noise * (-0.2 * (x * x + y * y)).exp());
+    }
+    folder.write("rough.csv", rough);
+    folder.refuses(
+        &format!("{line} --stiffness-across 1 --tip-file rough.csv"),
+        &["products", "smooth its table"],
+    );
     folder.refuses("surface run.json --far-behind", &["--far-behind", "across"]);
     folder
         .refuses("surface run.json --y-range -1:1 --width-y 1", &["--width-y", "part of the run"]);

@@ -283,7 +283,7 @@ impl Raster {
             RasterError::Free { error: PlanarError::Kick(kick), .. } => {
                 Refused::number("kick_across", *kick, error)
             }
-            RasterError::Free { error: PlanarError::Footprint { .. }, .. } => {
+            RasterError::Free { error: PlanarError::Products(_), .. } => {
                 Refused::whole("tip", error)
             }
             RasterError::Free { .. } => {

@@ -17,15 +17,12 @@ pub(super) fn layers_through(
     let grid = Grid::of(x, y, f)?;
     let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     // Coefficients along x for every y, then along y for every x of the lattice.
-    let rows: Vec<(f64, Vec<f64>)> =
-        grid.rows.iter().map(|row| table::lattice_through(&grid.x, row)).collect();
-    let (spacing, columns) = (rows[0].0, rows[0].1.len());
-    let column = |i: usize| -> Vec<f64> { rows.iter().map(|(_, row)| row[i]).collect() };
-    let across: Vec<(f64, Vec<f64>)> =
-        (0..columns).map(|i| table::lattice_through(&grid.y, &column(i))).collect();
-    let spacing_y = across[0].0;
+    let (spacing, rows) = table::lattice_through(&grid.x, &slices(&grid.rows));
+    let column = |i: usize| -> Vec<f64> { rows.iter().map(|row| row[i]).collect() };
+    let columns: Vec<Vec<f64>> = (0..rows[0].len()).map(column).collect();
+    let (spacing_y, across) = table::lattice_through(&grid.y, &slices(&columns));
     let layer = |k: usize| -> Option<Layer> {
-        let along: Vec<f64> = across.iter().map(|(_, column)| column[k]).collect();
+        let along: Vec<f64> = across.iter().map(|column| column[k]).collect();
         let size = along.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         if size <= NOTHING * largest {
             return None;
@@ -34,7 +31,11 @@ pub(super) fn layers_through(
         let across = Across { center: k as f64 * spacing_y, width: WIDTH_PER_SPACING * spacing_y };
         TipFunction::gaussian_sum(terms).ok().map(|along| Layer { along, across })
     };
-    Ok((0..across[0].1.len()).filter_map(layer).collect())
+    Ok((0..across[0].len()).filter_map(layer).collect())
+}
+
+fn slices(rows: &[Vec<f64>]) -> Vec<&[f64]> {
+    rows.iter().map(Vec::as_slice).collect()
 }
 
 /// Values of f on a full rectangular grid, one row for every y.

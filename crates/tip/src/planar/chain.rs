@@ -9,10 +9,14 @@
 //! ```
 //!
 //! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: M p³/6 products, with the layers in
-//! SIMD lanes.
+//! SIMD lanes. For a footprint of several products each has a groove with layers of its own, and their forces add up. If
+//! the function across is a sum of Gaussians, the layers that are read differ from those that visits contribute to: the
+//! former are [`Bells`] and follow the same ladder, whose end is some orders beyond the layers in use.
 
+use super::bells::Bells;
 use super::ground::Ground;
-use super::layers::{LANES, Lanes, ROOTS, slopes, values};
+use super::layers::{LANES, Lanes, ROOTS};
+use super::part::Part;
 use super::spline::Jet;
 use super::weighing::Weighing;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
@@ -33,10 +37,6 @@ pub(super) struct Acting {
     pub(super) extension: f64,
     /// y0
     pub(super) y: f64,
-    /// η
-    pub(super) eta: f64,
-    /// v
-    pub(super) width: f64,
     /// w now and σ/b, with a depth limit.
     pub(super) depth: Option<(f64, f64)>,
     /// Height and derivatives of the initial surface, undecayed part, unless it is flat.
@@ -50,38 +50,126 @@ pub(super) type Curvatures = [f64; 3];
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     order: usize,
-    groups: usize,
-    /// Row k: coefficients of t^k of A, n after n, each of all layers.
-    rows: Vec<Lanes>,
-    /// Of ψ, then of φ, as they are to be multiplied by `A_m0` and `A_m1`; the highest power first, so that each product of two
-    /// series is a sum along both.
-    layers: Vec<Lanes>,
-    /// α g⁽ⁿ⁾(0)
-    sources: [f64; MOST_ORDER + 1],
+    /// The groove of each product of the footprint.
+    grooves: Vec<Groove>,
     /// Coefficients of the forces along and across.
     pub(super) force: [[f64; MOST_ORDER]; 2],
-    /// Coefficients of x0', likewise the highest first, and of y0'.
-    along: [f64; MOST_ORDER],
-    across: [f64; MOST_ORDER],
-    /// Coefficients of x0 and y0 minus their values at the start.
-    displacement: [Series; 2],
-    /// Those of the height under the tip and of w, with a depth limit.
+    motion: Motion,
+    /// Coefficients of the height under the tip and of w, with a depth limit.
     weighing: Weighing,
     ground: Ground,
 }
 
+/// The motion as a series.
+#[derive(Debug, Clone)]
+struct Motion {
+    /// Coefficients of x0', the highest first, and of y0'.
+    along: [f64; MOST_ORDER],
+    across: [f64; MOST_ORDER],
+    /// Coefficients of x0 and y0 minus their values at the start.
+    displacement: [Series; 2],
+}
+
+/// The groove of a product g(x) h(y).
+#[derive(Debug, Clone)]
+struct Groove {
+    order: usize,
+    groups: usize,
+    /// v, and η at the start.
+    width: f64,
+    eta: f64,
+    /// Row k: coefficients of t^k of A, n after n, each of all layers.
+    rows: Vec<Lanes>,
+    /// Layers of visits.
+    visits: Ladder,
+    /// Layers that are read, where they differ.
+    read: Option<Ladder>,
+    /// α g⁽ⁿ⁾(0)
+    sources: [f64; MOST_ORDER + 1],
+}
+
+/// Layers under the tip as series: of each order ψ, then φ; the highest order first, so that each product of two series is
+/// a sum along both.
+#[derive(Debug, Clone)]
+struct Ladder {
+    order: usize,
+    groups: usize,
+    layers: Vec<Lanes>,
+}
+
+impl Ladder {
+    fn new(order: usize, groups: usize) -> Self {
+        Self { order, groups, layers: vec![[0.0; LANES]; order * 2 * groups] }
+    }
+
+    /// ψ and φ at the start.
+    fn first(&self) -> (&[Lanes], &[Lanes]) {
+        self.layers[(self.order - 1) * 2 * self.groups..].split_at(self.groups)
+    }
+
+    /// Sets ψ and φ at the start.
+    fn stand_at(&mut self, bells: &Bells, eta: f64, room: &mut Vec<Lanes>) {
+        let (psi, phi) =
+            self.layers[(self.order - 1) * 2 * self.groups..].split_at_mut(self.groups);
+        bells.read(eta, phi, psi, room);
+    }
+
+    /// Orders from k down.
+    #[inline(always)]
+    fn down_from(&self, groups: usize, k: usize) -> &[Lanes] {
+        &self.layers[(self.order - 1 - k) * 2 * groups..]
+    }
+
+    /// φ of order k + 1 by `φ' = ψ y0'/v`, and ψ of its neighbours. ψ of the last layer lacks the neighbour above.
+    #[inline(always)]
+    fn advance(&mut self, groups: usize, k: usize, motion: &Motion, width: f64) {
+        let both = 2 * groups;
+        let scale = INVERSE[k + 1] / width;
+        let known = (self.order - 1 - k) * both;
+        let (new, before) = self.layers[known - both..].split_at_mut(both);
+        let (psi, phi) = new.split_at_mut(groups);
+        let before = before.chunks_exact(both);
+        for (g, phi) in phi.iter_mut().enumerate() {
+            let mut sum = [0.0; LANES];
+            for (psi, across) in before.clone().zip(&motion.across[..=k]) {
+                add(&mut sum, &psi[g], *across);
+            }
+            *phi = times(&sum, scale);
+        }
+        let (psi, phi) = (psi.as_flattened_mut(), phi.as_flattened());
+        let highest = groups * LANES - 1;
+        psi[0] = -phi[1];
+        for m in 1..highest {
+            psi[m] = ROOTS[m] * phi[m - 1] - ROOTS[m + 1] * phi[m + 1];
+        }
+        psi[highest] = ROOTS[highest] * phi[highest - 1];
+    }
+
+    /// The neighbour above the last layer of a single Gaussian: `ψ = √m φ_{m-1} - η φ_m`, after [`advance`](Self::advance).
+    #[inline(always)]
+    fn close(&mut self, groups: usize, k: usize, y: &Series, (eta, width): (f64, f64)) {
+        let both = 2 * groups;
+        let known = (self.order - 1 - k) * both;
+        let (new, before) = self.layers[known - both..].split_at_mut(both);
+        let mut top = 0.0;
+        for (phi, y) in before.chunks_exact(both).zip(&y.coefficients()[1..]) {
+            top += y * phi[both - 1][LANES - 1];
+        }
+        let top = eta * new[both - 1][LANES - 1] + top / width;
+        new[groups - 1][LANES - 1] -= top;
+    }
+}
+
 impl Chain {
-    pub(super) fn new(order: usize) -> Self {
+    /// A chain for a number of products.
+    pub(super) fn new(order: usize, products: usize) -> Self {
+        let zero = [0.0; MOST_ORDER];
+        let displacement = [Series::zero(order), Series::zero(order)];
         Self {
             order,
-            groups: 0,
-            rows: vec![],
-            layers: vec![],
-            sources: [0.0; MOST_ORDER + 1],
-            force: [[0.0; MOST_ORDER]; 2],
-            along: [0.0; MOST_ORDER],
-            across: [0.0; MOST_ORDER],
-            displacement: [Series::zero(order), Series::zero(order)],
+            grooves: vec![Groove::new(order); products],
+            force: [zero; 2],
+            motion: Motion { along: zero, across: zero, displacement },
             weighing: Weighing::new(order),
             ground: Ground::new(),
         }
@@ -93,7 +181,7 @@ impl Chain {
 
     /// Coefficients of x0 and y0, minus their values at the start.
     pub(super) fn displacement(&self) -> &[Series; 2] {
-        &self.displacement
+        &self.motion.displacement
     }
 
     /// Coefficients of the height under the tip, with a depth limit.
@@ -106,40 +194,34 @@ impl Chain {
         self.weighing.weights()
     }
 
-    /// Number of entries in a row.
-    fn stride(&self) -> usize {
-        (self.order + 1) * self.groups
+    /// Room for the initial values of the groove of a product: A, for n = 0 to the order. `of_tip` are the derivatives of g
+    /// at 0.
+    pub(super) fn start(
+        &mut self,
+        product: usize,
+        groups: usize,
+        (alpha, of_tip): (f64, &[f64]),
+    ) -> &mut [Lanes] {
+        self.grooves[product].start(groups, alpha, of_tip)
     }
 
-    /// Index of the layers at the start.
-    fn first_layers(&self) -> usize {
-        (self.order - 1) * 2 * self.groups
+    /// Computes the layers of a product under the tip, after [`start`](Self::start).
+    pub(super) fn stand_at(
+        &mut self,
+        product: usize,
+        bells: &Bells,
+        eta: f64,
+        room: &mut Vec<Lanes>,
+    ) {
+        self.grooves[product].stand_at(bells, eta, room);
     }
 
-    /// Room for the initial values of a series with this number of groups of layers: A, for n = 0 to the order.
-    pub(super) fn start(&mut self, groups: usize, alpha: f64, of_tip: &[f64]) -> &mut [Lanes] {
-        if groups != self.groups {
-            self.groups = groups;
-            self.rows = vec![[0.0; LANES]; self.order * self.stride()];
-            self.layers = vec![[0.0; LANES]; self.order * 2 * groups];
-        }
-        self.sources.iter_mut().zip(of_tip).for_each(|(source, of_tip)| *source = alpha * of_tip);
-        let stride = self.stride();
-        &mut self.rows[..stride]
-    }
-
-    /// Computes the layers under the tip, after [`start`](Self::start).
-    pub(super) fn stand_at(&mut self, eta: f64) {
-        let first = self.first_layers();
-        let (psi, phi) = self.layers[first..].split_at_mut(self.groups);
-        values(eta, 1.0, phi);
-        slopes(eta, phi, psi);
-    }
-
-    /// Depth of the groove under the tip at the start, from the values written to the room of
+    /// Depth of the grooves under the tip at the start, from the values written to the room of
     /// [`start`](Self::start), without the initial surface.
     pub(super) fn depth_now(&self) -> f64 {
-        dot(&self.layers[self.first_layers() + self.groups..], &self.rows[..self.groups])
+        let depth =
+            |groove: &Groove| dot(groove.reading().first().1, &groove.rows[..groove.groups]);
+        self.grooves.iter().map(depth).sum()
     }
 
     /// Computes the series from the values written to the room of [`start`](Self::start), and from the forces.
@@ -149,95 +231,68 @@ impl Chain {
         }
         if let Some((weight, _)) = acting.depth {
             let relief = acting.relief.map_or(0.0, |jet| jet[0][0]);
-            self.weighing.start(relief - self.depth_now(), weight, self.groups);
+            self.weighing.start(relief - self.depth_now(), weight);
         }
         run(self, acting);
     }
 
-    /// Curvatures of the surface of the past at the start; `room` has the size of as many groups of layers.
-    pub(super) fn curvatures(&self, eta: f64, width: f64, room: &mut Vec<Lanes>) -> Curvatures {
-        let groups = self.groups;
-        let (psi, phi) = self.layers[self.first_layers()..].split_at(groups);
-        room.resize(groups, [0.0; LANES]);
-        slopes(eta, psi, room);
-        room.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
-        let of = |n: usize, layers: &[Lanes]| dot(layers, &self.rows[n * groups..][..groups]);
-        [-of(2, phi), -of(1, psi) / width, -of(0, room) / (width * width)]
+    /// Curvatures of the surface of the past at the start.
+    pub(super) fn curvatures(&self, parts: &[Part], room: &mut Vec<Lanes>) -> Curvatures {
+        let mut sum = [0.0; 3];
+        for (groove, part) in self.grooves.iter().zip(parts) {
+            let curvatures = groove.curvatures(&part.bells, room);
+            sum.iter_mut().zip(curvatures).for_each(|(sum, curvature)| *sum += curvature);
+        }
+        sum
     }
 
-    /// The coefficients for a number of groups: if the compiler knows it, it unrolls the loops over them.
+    /// The coefficients. If the compiler knows the number of groups of a single groove, it unrolls the loops over them.
     #[inline(always)]
-    fn coefficients(&mut self, groups: usize, acting: &Acting) {
+    fn coefficients(&mut self, known: Option<usize>, acting: &Acting) {
         if let Some((_, velocity)) = acting.inertia {
-            self.along[MOST_ORDER - 1] = velocity;
+            self.motion.along[MOST_ORDER - 1] = velocity;
         }
         for k in 0..self.order {
-            let [across, along] = self.reading(groups, k);
-            let [mut along, mut across] = [along, across / acting.width];
+            let (mut along, mut across) = (0.0, 0.0);
+            for groove in &self.grooves {
+                let [slope, beside] = groove.slopes(known, k);
+                along += slope;
+                across += beside / groove.width;
+            }
             if acting.relief.is_some() {
                 let jet = self.ground.at(k);
                 (along, across) = (along - jet[1][0], across - jet[0][1]);
             }
             self.advance(k, [along, across], acting);
             if k + 1 < self.order {
-                self.next_layers(groups, k, acting);
-                self.next_row(groups, k, acting);
-                self.next_height(groups, k, acting);
+                for groove in &mut self.grooves {
+                    groove.next(known, k, (&self.motion, &mut self.weighing), acting);
+                }
+                self.next_height(known, k, acting);
             }
         }
-    }
-
-    /// Coefficients of order k of `Σ_m ψ_m A_m0` and `Σ_m φ_m A_m1`.
-    #[inline(always)]
-    fn reading(&self, groups: usize, k: usize) -> [f64; 2] {
-        let (both, stride) = (2 * groups, (self.order + 1) * groups);
-        let layers = self.layers[(self.order - 1 - k) * both..].chunks_exact(both);
-        let (mut across, mut along) = ([0.0; LANES], [0.0; LANES]);
-        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
-            let ((psi, phi), (value, slope)) = (layers.split_at(groups), row.split_at(groups));
-            for (psi, value) in psi.iter().zip(value) {
-                add_product(&mut across, psi, value);
-            }
-            for (phi, slope) in phi.iter().zip(slope) {
-                add_product(&mut along, phi, slope);
-            }
-        }
-        [total(&across), total(&along)]
     }
 
     /// The next coefficients of the initial surface under the tip, and with a depth limit of height and weight.
     #[inline(always)]
-    fn next_height(&mut self, groups: usize, k: usize, acting: &Acting) {
+    fn next_height(&mut self, known: Option<usize>, k: usize, acting: &Acting) {
         let mut relief = 0.0;
         if acting.relief.is_some() {
-            self.ground.advance(&self.along, &self.across, acting.healing);
+            let Motion { along, across, .. } = &self.motion;
+            self.ground.advance(along, across, acting.healing);
             relief = self.ground.at(k + 1)[0][0];
         }
         if let Some((_, rate)) = acting.depth {
-            let height = relief - self.depth(groups, k + 1);
-            self.weighing.advance(k, height, rate);
+            let depth: f64 = self.grooves.iter().map(|groove| groove.depth(known, k + 1)).sum();
+            self.weighing.advance(k, relief - depth, rate);
         }
     }
 
-    /// Coefficient of order k of the depth `Σ_m φ_m A_m0`.
-    #[inline(always)]
-    fn depth(&self, groups: usize, k: usize) -> f64 {
-        let (both, stride) = (2 * groups, (self.order + 1) * groups);
-        let layers = self.layers[(self.order - 1 - k) * both..].chunks_exact(both);
-        let mut sum = [0.0; LANES];
-        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
-            for (phi, value) in layers[groups..].iter().zip(&row[..groups]) {
-                add_product(&mut sum, phi, value);
-            }
-        }
-        total(&sum)
-    }
-
-    /// The next coefficients of velocities and displacements, from those of the forces of the groove.
+    /// The next coefficients of velocities and displacements, from those of the forces of the grooves.
     #[inline(always)]
     fn advance(&mut self, k: usize, groove: [f64; 2], acting: &Acting) {
         let next = INVERSE[k + 1];
-        let [x, y] = &mut self.displacement;
+        let Motion { along, across, displacement: [x, y] } = &mut self.motion;
         let (extension, y_now) = match k {
             0 => (acting.extension, acting.y),
             1 => (acting.support - x.at(1), y.at(1)),
@@ -245,57 +300,147 @@ impl Chain {
         };
         let (pull, at) = (groove[0] + (extension + self.force[0][k]), MOST_ORDER - 1 - k);
         match acting.inertia {
-            None => self.along[at] = pull,
+            None => along[at] = pull,
             Some((mass, _)) if k + 1 < self.order => {
-                self.along[at - 1] = (pull - self.along[at]) * next / mass;
+                along[at - 1] = (pull - along[at]) * next / mass;
             }
             Some(_) => {}
         }
-        self.across[k] = groove[1] + (self.force[1][k] - acting.stiffness * y_now);
-        x.set(k + 1, self.along[at] * next);
-        y.set(k + 1, self.across[k] * next);
+        across[k] = groove[1] + (self.force[1][k] - acting.stiffness * y_now);
+        x.set(k + 1, along[at] * next);
+        y.set(k + 1, across[k] * next);
+    }
+}
+
+impl Groove {
+    fn new(order: usize) -> Self {
+        Self {
+            order,
+            groups: 0,
+            width: 1.0,
+            eta: 0.0,
+            rows: vec![],
+            visits: Ladder::new(order, 0),
+            read: None,
+            sources: [0.0; MOST_ORDER + 1],
+        }
     }
 
-    /// φ by `φ' = ψ y0'/v`, and ψ of its neighbours; of the last layer by `ψ = √m φ_{m-1} - η φ_m`.
+    /// Number of entries in a row.
+    fn stride(&self) -> usize {
+        (self.order + 1) * self.groups
+    }
+
+    fn start(&mut self, groups: usize, alpha: f64, of_tip: &[f64]) -> &mut [Lanes] {
+        if groups != self.groups {
+            self.groups = groups;
+            self.rows = vec![[0.0; LANES]; self.order * self.stride()];
+            self.visits = Ladder::new(self.order, groups);
+            self.read = None;
+        }
+        self.sources.iter_mut().zip(of_tip).for_each(|(source, of_tip)| *source = alpha * of_tip);
+        let stride = self.stride();
+        &mut self.rows[..stride]
+    }
+
+    fn stand_at(&mut self, bells: &Bells, eta: f64, room: &mut Vec<Lanes>) {
+        (self.eta, self.width) = (eta, bells.width());
+        self.visits.stand_at(&Bells::single(self.width), eta, room);
+        if !bells.is_single() {
+            // Order k of layer m takes order 0 of layer m + k.
+            let groups = self.groups + (self.order - 1).div_ceil(LANES);
+            let read = self.read.get_or_insert_with(|| Ladder::new(self.order, groups));
+            read.stand_at(bells, eta, room);
+        }
+    }
+
+    /// The layers that are read.
     #[inline(always)]
-    fn next_layers(&mut self, groups: usize, k: usize, acting: &Acting) {
-        let both = 2 * groups;
-        let (scale, y) = (INVERSE[k + 1] / acting.width, &self.displacement[1]);
-        let known = (self.order - 1 - k) * both;
-        let (new, before) = self.layers[known - both..].split_at_mut(both);
-        let (psi, phi) = new.split_at_mut(groups);
-        let before = before.chunks_exact(both);
-        for (g, phi) in phi.iter_mut().enumerate() {
-            let mut sum = [0.0; LANES];
-            for (psi, across) in before.clone().zip(&self.across[..=k]) {
-                add(&mut sum, &psi[g], *across);
+    fn reading(&self) -> &Ladder {
+        self.read.as_ref().unwrap_or(&self.visits)
+    }
+
+    fn curvatures(&self, bells: &Bells, room: &mut Vec<Lanes>) -> Curvatures {
+        let (groups, width) = (self.groups, self.width);
+        let (psi, phi) = self.reading().first();
+        let of = |n: usize, layers: &[Lanes]| dot(layers, &self.rows[n * groups..][..groups]);
+        let [along, mixed] = [of(2, phi), of(1, psi)];
+        let bend = bells.bend(self.eta, groups, room);
+        [-along, -mixed / width, -of(0, bend) / (width * width)]
+    }
+
+    /// Coefficients of order k of `Σ_m φ_m A_m1` and `Σ_m ψ_m A_m0`.
+    #[inline(always)]
+    fn slopes(&self, known: Option<usize>, k: usize) -> [f64; 2] {
+        let groups = known.unwrap_or(self.groups);
+        let ladder = self.reading();
+        let wide = known.unwrap_or(ladder.groups);
+        let stride = (self.order + 1) * groups;
+        let layers = ladder.down_from(wide, k).chunks_exact(2 * wide);
+        let (mut across, mut along) = ([0.0; LANES], [0.0; LANES]);
+        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
+            let ((psi, phi), (value, slope)) = (layers.split_at(wide), row.split_at(groups));
+            for (psi, value) in psi.iter().zip(value) {
+                add_product(&mut across, psi, value);
             }
-            *phi = times(&sum, scale);
+            for (phi, slope) in phi[..groups].iter().zip(slope) {
+                add_product(&mut along, phi, slope);
+            }
         }
-        let mut top = 0.0;
-        for (phi, y) in before.zip(&y.coefficients()[1..]) {
-            top += y * phi[both - 1][LANES - 1];
+        [total(&along), total(&across)]
+    }
+
+    /// Coefficient of order k of the depth `Σ_m φ_m A_m0`.
+    #[inline(always)]
+    fn depth(&self, known: Option<usize>, k: usize) -> f64 {
+        let groups = known.unwrap_or(self.groups);
+        let ladder = self.reading();
+        let wide = known.unwrap_or(ladder.groups);
+        let stride = (self.order + 1) * groups;
+        let layers = ladder.down_from(wide, k).chunks_exact(2 * wide);
+        let mut sum = [0.0; LANES];
+        for (layers, row) in layers.zip(self.rows.chunks_exact(stride)) {
+            for (phi, value) in layers[wide..].iter().zip(&row[..groups]) {
+                add_product(&mut sum, phi, value);
+            }
         }
-        let top = acting.eta * phi[groups - 1][LANES - 1] + top / acting.width;
-        let (psi, phi) = (psi.as_flattened_mut(), phi.as_flattened());
-        let highest = groups * LANES - 1;
-        psi[0] = -phi[1];
-        for m in 1..highest {
-            psi[m] = ROOTS[m] * phi[m - 1] - ROOTS[m + 1] * phi[m + 1];
+        total(&sum)
+    }
+
+    /// The next coefficients of layers and of A.
+    #[inline(always)]
+    fn next(
+        &mut self,
+        known: Option<usize>,
+        k: usize,
+        (motion, weighing): (&Motion, &mut Weighing),
+        acting: &Acting,
+    ) {
+        let groups = known.unwrap_or(self.groups);
+        self.visits.advance(groups, k, motion, self.width);
+        self.visits.close(groups, k, &motion.displacement[1], (self.eta, self.width));
+        if let Some(read) = &mut self.read {
+            read.advance(read.groups, k, motion, self.width);
         }
-        psi[highest] = ROOTS[highest] * phi[highest - 1] - top;
+        self.next_row(groups, k, (&motion.along, weighing), acting);
     }
 
     /// Row k + 1 of A, by `Σ_i x0'_i A_{n+1,k-i}`.
     #[inline(always)]
-    fn next_row(&mut self, groups: usize, k: usize, acting: &Acting) {
+    fn next_row(
+        &mut self,
+        groups: usize,
+        k: usize,
+        (along, weighing): (&[f64; MOST_ORDER], &mut Weighing),
+        acting: &Acting,
+    ) {
         let stride = (self.order + 1) * groups;
         let (before, after) = self.rows.split_at_mut((k + 1) * stride);
         let row = &mut after[..(self.order - k) * groups];
-        let layers = &self.layers[(self.order - 1 - k) * 2 * groups..];
+        let layers = self.visits.down_from(groups, k);
         let phi = match acting.depth {
             None => &layers[groups..2 * groups],
-            Some(_) => self.weighing.carve(k, groups, layers, 2 * groups),
+            Some(_) => weighing.carve(k, groups, layers),
         };
         let scale = INVERSE[k + 1];
         for (new, source) in row.chunks_exact_mut(groups).zip(&self.sources) {
@@ -308,7 +453,7 @@ impl Chain {
                 add(new, old, -scale * acting.healing);
             }
         }
-        let factors = &self.along[MOST_ORDER - 1 - k..];
+        let factors = &along[MOST_ORDER - 1 - k..];
         let sums = Sums { rows: before, stride, factors, scale };
         let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
         let done = groups + blocks.len() * BLOCK;
@@ -363,11 +508,15 @@ impl Sums<'_> {
 /// bits are the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
-    match chain.groups {
-        2 => chain.coefficients(2, acting),
-        3 => chain.coefficients(3, acting),
-        4 => chain.coefficients(4, acting),
-        groups => chain.coefficients(groups, acting),
+    let known = match &chain.grooves[..] {
+        [groove] if groove.read.is_none() => groove.groups,
+        _ => 0,
+    };
+    match known {
+        2 => chain.coefficients(Some(2), acting),
+        3 => chain.coefficients(Some(3), acting),
+        4 => chain.coefficients(Some(4), acting),
+        _ => chain.coefficients(None, acting),
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Layers {
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
     width: f64,
+    /// Whether a position acts on a tip that is far from it across: then the layers suffice for a tip anywhere.
+    is_wide: bool,
     /// Largest error of the layers.
     allowed: f64,
     center: f64,
@@ -50,10 +52,12 @@ const LEAST_ROOM: (f64, f64) = (0.15, 0.35);
 const SPARE_ROOM: (f64, f64) = (0.1, 0.1);
 
 impl Frame {
-    /// A frame for a Gaussian of this width across, and a footprint of this reach along.
-    pub(super) fn new(width: f64, reach: f64, allowed: f64) -> Self {
+    /// A frame for a function across of Gaussians of this width, one about 0 or `is_wide`, and a footprint of this reach
+    /// along.
+    pub(super) fn new((width, is_wide): (f64, bool), reach: f64, allowed: f64) -> Self {
         Self {
             width,
+            is_wide,
             allowed,
             center: 0.0,
             radii: Radii { tip: 0.0, visits: 0.0 },
@@ -62,11 +66,6 @@ impl Frame {
             cuts: VecDeque::new(),
             layers: Layers { most: 0, changes: 0, error: allowed },
         }
-    }
-
-    /// v
-    pub(super) fn width(&self) -> f64 {
-        self.width
     }
 
     /// η of a position y.
@@ -104,8 +103,7 @@ impl Frame {
             error: state.finite()?,
         };
         while self.known.len() < groups {
-            let count = LANES * (self.known.len() + 1);
-            self.known.push(Radii::of(count, self.allowed).ok_or(Damaged::OutOfRange)?);
+            self.know_next().ok_or(Damaged::OutOfRange)?;
         }
         self.radii = self.known[groups - 1];
         Ok(())
@@ -156,10 +154,16 @@ impl Frame {
     /// The smallest sufficient number of groups of layers for past positions and a tip at this distance.
     fn groups(&mut self, distance: f64) -> Option<usize> {
         while self.known.last().is_none_or(|last| !suits(last, distance)) {
-            let count = LANES * (self.known.len() + 1);
-            self.known.push(Radii::of(count, self.allowed)?);
+            self.know_next()?;
         }
         Some(1 + self.known.partition_point(|radii| !suits(radii, distance)))
+    }
+
+    /// The radii for one group of layers more; `None` beyond the largest number.
+    fn know_next(&mut self) -> Option<()> {
+        let radii = Radii::of(LANES * (self.known.len() + 1), self.allowed)?;
+        self.known.push(if self.is_wide { radii.for_any_tip() } else { radii });
+        Some(())
     }
 
     /// Records a truncation of layers; removes those whose positions are all out of reach.

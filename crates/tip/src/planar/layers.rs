@@ -18,6 +18,7 @@
 //! (`φ_m(η)` are the amplitudes of a coherent state of the harmonic oscillator, T is its displacement operator.)
 
 use crate::elementary::exp;
+use crate::integrator::taylor::MOST_ORDER;
 
 /// Number of layers in a SIMD vector; the number of layers is a multiple of it.
 pub(super) const LANES: usize = 4;
@@ -25,6 +26,8 @@ pub(super) const LANES: usize = 4;
 pub(super) type Lanes = [f64; LANES];
 /// Largest number of layers, for a range of 20 widths: more would cost more than a sum over the history.
 const MOST: usize = 256;
+/// Number of roots: those of the layers, and of some beyond that their series take.
+const MOST_ROOTS: usize = MOST + MOST_ORDER + LANES;
 
 /// `φ_m` at η multiplied by a weight, as many as there is room for.
 pub(super) fn values(eta: f64, weight: f64, phi: &mut [Lanes]) {
@@ -50,10 +53,10 @@ pub(super) fn slopes(eta: f64, phi: &[Lanes], slope: &mut [Lanes]) {
 }
 
 /// √m
-pub(super) const ROOTS: [f64; MOST + LANES] = {
-    let mut roots = [0.0; MOST + LANES];
+pub(super) const ROOTS: [f64; MOST_ROOTS + LANES] = {
+    let mut roots = [0.0; MOST_ROOTS + LANES];
     let mut m = 1;
-    while m < MOST + LANES {
+    while m < MOST_ROOTS + LANES {
         roots[m] = root(m as f64);
         m += 1;
     }
@@ -61,10 +64,10 @@ pub(super) const ROOTS: [f64; MOST + LANES] = {
 };
 
 /// 1/√(m+1)
-const INVERSE_ROOTS: [f64; MOST] = {
-    let mut inverse = [0.0; MOST];
+const INVERSE_ROOTS: [f64; MOST_ROOTS] = {
+    let mut inverse = [0.0; MOST_ROOTS];
     let mut m = 0;
-    while m < MOST {
+    while m < MOST_ROOTS {
         inverse[m] = 1.0 / ROOTS[m + 1];
         m += 1;
     }
@@ -136,6 +139,11 @@ impl Radii {
             low
         };
         (count <= MOST).then(|| Self { tip: largest(error), visits: largest(error_of_visits) })
+    }
+
+    /// The radii for a tip that reads the layers at any distance: as it moves on, its positions are past ones.
+    pub(super) fn for_any_tip(self) -> Self {
+        Self { tip: self.visits, ..self }
     }
 }
 

@@ -8,13 +8,14 @@
 //! ```
 //!
 //! where primed coordinates are those of the tip at t', and w is the weight that a depth limit gives to t' (1 without
-//! one). For f(x,y) = g(x) h(y) with a Gaussian h the surface consists
-//! of a few one-dimensional grooves, which the same positions carve with different weights (`layers`). With
+//! one). Every f(x,y) is a sum of few products g(x) h(y) (`products`). For each of them the surface consists of some
+//! one-dimensional grooves, which the same positions carve with different weights (`layers`). With
 //! exponentials for g the past is one complex number for each exponential and each layer (`modes`), and the equations
 //! are a polynomial system (`chain`). If the tip retreats beyond the range of validity of the exponentials, Gaussians
 //! on a lattice replace them (`lattice`): this occurs after slips of heavy tips, and where the support turns. As κ_y
 //! → ∞ the motion becomes that of [`run`](crate::run()).
 
+mod bells;
 mod chain;
 mod earlier;
 mod extent;
@@ -25,7 +26,9 @@ mod integrator;
 mod lattice;
 mod layers;
 mod modes;
+mod part;
 mod past;
+mod products;
 mod running;
 mod scenario;
 mod spline;
@@ -36,6 +39,7 @@ mod weighing;
 pub use earlier::{EarlierGrooves, GrooveJet, GrooveRows, RowLattice};
 pub use frame::Layers;
 pub use history::{Step, Trajectory, Visit};
+pub use products::ProductsError;
 pub use running::{PlanarRun, PlanarRunning, run};
 pub use scenario::{PlanarError, PlanarScenario};
 pub use texture::{HeightTable, Texture, TextureError};

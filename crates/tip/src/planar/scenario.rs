@@ -1,10 +1,11 @@
 //! Scenarios in two coordinates: all parameters of a run, and errors in them.
 
+use super::products::{Products, ProductsError};
 use super::texture::{HeightTable, Texture, TextureError};
-use crate::footprint::Across;
-use crate::memory::{FitError, MemoryChoice};
+use crate::memory::{FitError, MemoryChoice, accuracy_needed};
 use crate::run::{RunError, Scenario};
-use crate::{Force, IntegrationError, TipFunction};
+use crate::{Force, IntegrationError};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A line y = 0, scanned by a tip that also moves across it.
@@ -43,17 +44,9 @@ pub enum PlanarError {
     /// The footprint is f(x) alone, which does not determine the force across.
     #[error("two coordinates need a footprint f(x,y): give its width across the scan")]
     NoFootprint,
-    /// The footprint has several layers, or lobes across.
-    #[error(
-        "in two coordinates f(x,y) must be a function of x times one Gaussian of y about 0; this one has {layers} such terms{}",
-        if *.lobes { ", with lobes across the scan" } else { "" }
-    )]
-    Footprint {
-        /// Number of products in the footprint.
-        layers: usize,
-        /// Whether some of them have their centers off y = 0.
-        lobes: bool,
-    },
+    /// The footprint is not a sum of few products of a function of x and one of y.
+    #[error(transparent)]
+    Products(#[from] ProductsError),
     /// An option that is available in one coordinate only.
     #[error("{0} is not available in two coordinates")]
     Unavailable(&'static str),
@@ -90,13 +83,25 @@ pub enum PlanarError {
         y: f64,
     },
     /// Exponentials do not fit f'.
-    #[error(transparent)]
+    #[error("{}", without_fft(.0))]
     Fit(#[from] FitError),
     /// An error that also applies to one coordinate.
     #[error(transparent)]
     Along(#[from] RunError),
 }
 
+/// A remedy that there is in two coordinates, too.
+fn without_fft(error: &FitError) -> String {
+    match error {
+        FitError::NotMet { wanted, reached } => format!(
+            "f(x,y) cannot be fitted by exponentials along the scan to {wanted:.1e}, at best to {reached:.1e}: allow a larger tolerance, or smooth its table"
+        ),
+        error => error.to_string(),
+    }
+}
+
+/// Finest accuracy of exponentials with the retreat of a tip that swings back: of use below a tolerance of 1e-11.
+const FINEST: f64 = 5e-14;
 /// Least distance of rows of noise, in σ.
 const LEAST_SPACING: f64 = 0.01;
 
@@ -129,19 +134,15 @@ impl PlanarScenario {
         Ok(Texture::new(&self.along, self.noise_spacing_across, table)?)
     }
 
-    /// The footprint as f(x,y) = g(x) h(y).
+    /// The footprint as a sum of products g(x) h(y), as accurate as the tolerance needs.
     ///
     /// # Errors
-    /// A footprint of another form.
-    pub(super) fn footprint(&self) -> Result<(&TipFunction, Across), PlanarError> {
-        let footprint = self.along.model.tip().footprint().ok_or(PlanarError::NoFootprint)?;
-        match footprint.layers() {
-            [layer] if layer.across.center <= 0.0 => Ok((&layer.along, layer.across)),
-            layers => {
-                let lobes = layers.iter().any(|layer| layer.across.center > 0.0);
-                Err(PlanarError::Footprint { layers: layers.len(), lobes })
-            }
-        }
+    /// A footprint f(x) alone, or one of too many products.
+    pub(super) fn products(&self) -> Result<Arc<Products>, PlanarError> {
+        let model = &self.along.model;
+        let footprint = model.tip().footprint().ok_or(PlanarError::NoFootprint)?;
+        let accuracy = accuracy_needed(model, self.along.tolerance).max(FINEST);
+        Ok(Products::cached(footprint, accuracy)?)
     }
 
     /// # Errors
@@ -158,9 +159,9 @@ impl PlanarScenario {
         {
             return Err(PlanarError::NoiseSpacing(spacing));
         }
-        self.footprint()?;
         let along = &self.along;
         along.validate()?;
+        self.products()?;
         if self.profile_across.is_some() {
             along.validate_rounding(along.start_position.abs().max(along.farthest()))?;
         }

@@ -14,27 +14,22 @@
 //!
 //! and w multiplies the columns of b in all three equations.
 
-use super::chain::{Curvatures, dot};
+use super::chain::Curvatures;
 use super::earlier::{GrooveJet, Under};
-use super::layers::{LANES, Lanes, slopes, values};
-use super::past::Past;
+use super::part::{Part, Room};
 use super::texture::{Field, Texture};
-use crate::TipFunction;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
-use crate::footprint::Across;
 use crate::step::{Depth, Factors, Inertia, Matrix};
 
 /// The data at the start of a step.
 pub(super) struct StageEquations<'a> {
-    /// g and h.
-    pub(super) footprint: (&'a TipFunction, Across),
+    /// The products of the footprint with their pasts.
+    pub(super) parts: &'a [Part],
     pub(super) alpha: f64,
     /// κ_y
     pub(super) stiffness: f64,
-    pub(super) past: &'a Past,
-    /// η of the tip at the start, and v.
-    pub(super) eta: f64,
-    pub(super) width: f64,
+    /// y0 at the start.
+    pub(super) y: f64,
     pub(super) h: f64,
     /// The parts of the forces along and across that do not depend on the displacements of the stages.
     pub(super) pull: [Stages; 2],
@@ -203,10 +198,10 @@ impl StageEquations<'_> {
         let zero = [[0.0; STAGES]; STAGES];
         let value = [self.pull[0], self.pull[1], [0.0; STAGES]];
         let mut forces = Forces { value, slope: [[zero; 3]; 3], curvatures: [0.0; 3] };
-        let mut room = Room::new(self.past.groups());
+        let mut room = Room::default();
         let [along, across, _] = at;
         for (i, (&d, &e)) in along.iter().zip(across).enumerate() {
-            let jet = room.past(self, d, e);
+            let jet = Jet::sum(self.parts, |part| part.at(d, self.y + e, &mut room));
             let strength = self.alpha * self.left[i];
             forces.curvatures = jet.bend.map(|bend| -strength * bend);
             forces.add(strength, i, &jet, [d, self.stiffness * e]);
@@ -228,7 +223,8 @@ impl StageEquations<'_> {
         let weights = self.weights(height);
         for i in 0..STAGES {
             for k in 0..STAGES {
-                let jet = self.of_visit(d[i] - d[k], e[i] - e[k]);
+                let (x, y) = (d[i] - d[k], e[i] - e[k]);
+                let jet = Jet::sum(self.parts, |part| part.of_visit(x, y));
                 let strength = self.alpha * self.carving[i][k] * weights[k];
                 forces.add(strength, i, &jet, [0.0; 2]);
                 forces.move_visit(strength, (i, k), &jet);
@@ -238,22 +234,26 @@ impl StageEquations<'_> {
             }
         }
     }
-
-    /// f and its derivatives at this distance.
-    fn of_visit(&self, x: f64, y: f64) -> Jet {
-        let (along, across) = self.footprint;
-        let (g, (g1, g2)) = (along.value(x), along.slope_and_curvature(x));
-        let (h, z) = (across.value(y), y / self.width);
-        let (h1, h2) = (-z * h / self.width, (z * z - 1.0) * h / (self.width * self.width));
-        Jet { value: g * h, push: [g1 * h, g * h1], bend: [g2 * h, g1 * h1, g * h2] }
-    }
 }
 
 /// An integral over f, or f itself, with first and second derivatives.
-struct Jet {
-    value: f64,
-    push: [f64; 2],
-    bend: [f64; 3],
+pub(super) struct Jet {
+    pub(super) value: f64,
+    pub(super) push: [f64; 2],
+    pub(super) bend: [f64; 3],
+}
+
+impl Jet {
+    /// The sum over all products of the footprint.
+    pub(super) fn sum(parts: &[Part], mut of: impl FnMut(&Part) -> Self) -> Self {
+        let add = |sum: Self, jet: Self| Self {
+            value: sum.value + jet.value,
+            push: std::array::from_fn(|i| sum.push[i] + jet.push[i]),
+            bend: std::array::from_fn(|i| sum.bend[i] + jet.bend[i]),
+        };
+        let none = Self { value: 0.0, push: [0.0; 2], bend: [0.0; 3] };
+        parts.iter().map(&mut of).fold(none, add)
+    }
 }
 
 impl Relief<'_> {
@@ -337,63 +337,36 @@ fn size([along, across, height]: &Unknowns, heights: &Stages) -> f64 {
     relative.fold(largest(along).max(largest(across)), f64::max)
 }
 
-/// Scratch space for the layers at a stage.
-struct Room {
-    groups: usize,
-    /// φ, φ', φ'', and integrals over g, g', g''.
-    layers: Vec<Lanes>,
-}
-
-impl Room {
-    fn new(groups: usize) -> Self {
-        Self { groups, layers: vec![[0.0; LANES]; 6 * groups] }
-    }
-
-    /// ∫ f over the past, at this displacement from the tip.
-    fn past(&mut self, begin: &StageEquations<'_>, d: f64, e: f64) -> Jet {
-        let (of_place, of_past) = self.layers.split_at_mut(3 * self.groups);
-        let [phi, slope, bend] = in_three(of_place, self.groups);
-        let [value, first, second] = in_three(of_past, self.groups);
-        let eta = begin.eta + e / begin.width;
-        values(eta, 1.0, phi);
-        slopes(eta, phi, slope);
-        slopes(eta, slope, bend);
-        bend.as_flattened_mut().iter_mut().zip(phi.as_flattened()).for_each(|(b, phi)| *b -= phi);
-        begin.past.at(d, &mut [&mut *value, &mut *first, &mut *second]);
-        let v = begin.width;
-        Jet {
-            value: dot(phi, value),
-            push: [dot(phi, first), dot(slope, value) / v],
-            bend: [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
-        }
-    }
-}
-
-fn in_three(all: &mut [Lanes], groups: usize) -> [&mut [Lanes]; 3] {
-    let (first, rest) = all.split_at_mut(groups);
-    let (second, third) = rest.split_at_mut(groups);
-    [first, second, third]
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::modes::Modes;
+    use super::super::part::Storage;
+    use super::super::products::Products;
     use super::*;
-    use crate::memory::{Fit, Retreat};
+    use crate::memory::Retreat;
     use crate::step::healing;
+    use crate::{Across, Footprint, Layer, TipFunction};
 
     /// The Jacobian by differences of what is missed, far from a solution.
     #[test]
     fn the_jacobian_is_that_of_the_equations() {
-        let tip = TipFunction::default();
-        let fit = Fit::cached(&tip, 1e-10, Retreat::Small).unwrap();
-        let mut past = Past::new(Modes::new(fit), None);
-        past.resize(4);
-        let mut weighted = vec![[0.0; LANES]; 12];
-        for (k, weighted) in weighted.chunks_exact_mut(4).enumerate() {
-            values(0.4 * k as f64 - 0.5, 1.0, weighted);
-        }
-        past.remember(&[0.3, 0.9, 1.1], &weighted);
+        let of = |width: f64, across: Across| Layer {
+            along: TipFunction::triple_gaussian(0.6, width).unwrap(),
+            across,
+        };
+        let layers =
+            vec![of(1.0, Across::central(1.3)), of(1.2, Across { center: 0.7, width: 0.9 })];
+        let footprint = Footprint::from_layers(layers).unwrap();
+        let products = Products::of(&footprint, 1e-10).unwrap();
+        let storage = Storage::Modes(Retreat::Small, false);
+        let part = |product| {
+            let mut part = Part::new(product, storage).unwrap();
+            part.past.resize(4);
+            let moved = ([0.3, 0.9, 1.1], [-0.65, -0.13, 0.39]);
+            part.remember((&moved.0, &moved.1), &[1.0; 3], (0.0, 1.0), &mut vec![]);
+            part
+        };
+        let parts: Vec<Part> = products.all().iter().map(part).collect();
+        assert_eq!(parts.len(), 2);
         let inertia = Inertia::new(0.4, 0.6, 0.7);
         let limit = Depth { limit: 1.7, side: -1.0 };
         let texture = Texture::waves();
@@ -401,12 +374,10 @@ mod tests {
             [(None, None), (Some(&inertia), None), (Some(&inertia), Some(limit))]
         {
             let equations = StageEquations {
-                footprint: (&tip, Across::central(1.3)),
+                parts: &parts,
                 alpha: 1.4,
                 stiffness: 0.7,
-                past: &past,
-                eta: 0.2,
-                width: 1.3,
+                y: 0.26,
                 h: 0.6,
                 pull: [[0.9; STAGES], [-0.2; STAGES]],
                 carving: healing(0.6, 2.0),

@@ -39,10 +39,9 @@ impl Weighing {
     }
 
     /// Sets the initial values.
-    pub(super) fn start(&mut self, height: f64, weight: f64, groups: usize) {
+    pub(super) fn start(&mut self, height: f64, weight: f64) {
         self.height.set(0, height);
         self.weights.set(0, weight);
-        self.carved.resize(groups, [0.0; LANES]);
     }
 
     /// The coefficients of order k + 1, from that of the height; `rate` is σ/b.
@@ -55,19 +54,13 @@ impl Weighing {
         self.weights.set(k + 1, INVERSE[k + 1] * sum);
     }
 
-    /// The coefficients of order k of `w φ_m`. `layers` are those of φ from the highest power on, each the last of so
-    /// many lanes.
+    /// The coefficients of order k of `w φ_m`. `layers` are ψ and φ of this number of groups, the highest power first.
     #[inline(always)]
-    pub(super) fn carve(
-        &mut self,
-        k: usize,
-        groups: usize,
-        layers: &[Lanes],
-        both: usize,
-    ) -> &[Lanes] {
-        self.carved.fill([0.0; LANES]);
+    pub(super) fn carve(&mut self, k: usize, groups: usize, layers: &[Lanes]) -> &[Lanes] {
+        self.carved.clear();
+        self.carved.resize(groups, [0.0; LANES]);
         let weights = &self.weights.coefficients()[..=k];
-        for (weight, layers) in weights.iter().zip(layers.chunks_exact(both)) {
+        for (weight, layers) in weights.iter().zip(layers.chunks_exact(2 * groups)) {
             for (carved, phi) in self.carved.iter_mut().zip(&layers[groups..]) {
                 for i in 0..LANES {
                     carved[i] += weight * phi[i];

@@ -26,31 +26,46 @@ const REPRODUCED: f64 = 4e-12;
 /// Smallest number of spacings of a coarser lattice.
 const FEWEST: usize = 12;
 
-/// The Gaussians on the coarsest lattice that reproduces the rows: their width, not the spacing of the rows, determines
-/// the length of steps.
+/// The Gaussians through the points (x, f).
 pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, TipFunctionError> {
     validate(x, f)?;
-    let fine = Through::of(on_a_lattice(x, f));
-    let wanted = &fine.samples[..x.len()];
-    let largest = wanted.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let reproduces = |sum: &Through| {
-        let off = |(i, f): (usize, &f64)| (sum.value(i as f64 * fine.spacing) - f).abs();
-        wanted.iter().enumerate().map(off).fold(0.0, f64::max) <= REPRODUCED * largest
+    let (spacing, coefficients) = lattice_through(x, &[f]);
+    Ok(gaussians_of(spacing, &coefficients[0]))
+}
+
+/// Spacing of the coarsest lattice that reproduces the rows of all these functions of x, and for each of them the
+/// coefficients on its points ≥ 0 of the even sum of Gaussians: their width, not the spacing of the rows, determines the length
+/// of steps. The x are those of a valid table.
+pub(crate) fn lattice_through(x: &[f64], functions: &[&[f64]]) -> (f64, Vec<Vec<f64>>) {
+    let fine: Vec<Through> = functions.iter().map(|f| Through::of(on_a_lattice(x, f))).collect();
+    let wanted = |through: &Through| through.samples[..x.len()].to_vec();
+    let wanted: Vec<Vec<f64>> = fine.iter().map(wanted).collect();
+    let largest = wanted.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let reproduces = |sum: &Through, wanted: &[f64]| {
+        let off = |(i, f): (usize, &f64)| (sum.value(i as f64 * fine[0].spacing) - f).abs();
+        wanted.iter().enumerate().all(|at| off(at) <= REPRODUCED * largest)
+    };
+    let coarser = |count: usize| -> Option<Vec<Through>> {
+        let times = (x.len() - 1) as f64 / count as f64;
+        let each = fine.iter().zip(&wanted).map(|(fine, wanted)| {
+            let sum = fine.on(count, times);
+            reproduces(&sum, wanted).then_some(sum)
+        });
+        each.collect()
     };
     // Bisection: a number of spacings that suffices, and one that does not.
     let (mut enough, mut few) = (x.len() - 1, FEWEST);
     let mut coarsest = None;
     while few < enough {
         let middle = few.midpoint(enough);
-        let coarser = fine.on(middle, (x.len() - 1) as f64 / middle as f64);
-        if reproduces(&coarser) {
-            (coarsest, enough) = (Some(coarser), middle);
-        } else {
-            few = middle + 1;
+        match coarser(middle) {
+            Some(sums) => (coarsest, enough) = (Some(sums), middle),
+            None => few = middle + 1,
         }
     }
-    let Through { spacing, coefficients, .. } = coarsest.as_ref().unwrap_or(&fine);
-    Ok(gaussians_of(*spacing, coefficients))
+    let found = coarsest.unwrap_or(fine);
+    let spacing = found.first().map_or(0.0, |through| through.spacing);
+    (spacing, found.into_iter().map(|through| through.coefficients).collect())
 }
 
 /// An even sum of Gaussians through values on a lattice.
@@ -90,13 +105,6 @@ impl Through {
         };
         (nearest - reach..=nearest + reach).map(term).sum()
     }
-}
-
-/// Spacing of the lattice, and coefficients on its points ≥ 0 of the even sum of Gaussians through the points (x, f)
-/// of a valid table.
-pub(crate) fn lattice_through(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
-    let Through { spacing, coefficients, .. } = Through::of(on_a_lattice(x, f));
-    (spacing, coefficients)
 }
 
 /// The Gaussians on the whole lattice, from the coefficients on its points ≥ 0.

@@ -3,9 +3,7 @@
 use super::lines::{line, tip};
 use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Trajectory, run};
 use stickslip_tip::state::State;
-use stickslip_tip::{
-    Footprint, Gaussian2d, MemoryChoice, Model, Noise, Start, SupportPath, TipFunction, Wider, Work,
-};
+use stickslip_tip::{MemoryChoice, Model, Noise, Start, SupportPath, TipFunction, Wider, Work};
 
 fn plain() -> Wider {
     Wider::default()
@@ -148,9 +146,10 @@ fn memory_is_flat() {
 /// Of a line forth and back, by exponentials and by the lattice: wherever it is interrupted, the rest has the same bits.
 #[test]
 fn a_run_taken_up_again_is_the_same() {
-    for depth_limit in [None, Some(3.0)] {
+    let star = || super::footprints::gaussians(&super::footprints::star()).0;
+    for (depth_limit, tip) in [(None, tip(1.0, 1.0)), (Some(3.0), tip(1.0, 1.0)), (None, star())] {
         let wider = Wider { depth_limit, ..plain() };
-        let mut scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], 24.0);
+        let mut scenario = line((tip, wider), 1.2, 0.25, [0.1, 0.2], 24.0);
         let (t, displacement) = (vec![0.0, 6.0, 16.0, 24.0], vec![0.0, 6.0, -4.0, 5.0]);
         scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
         let whole = run(&scenario).unwrap().trajectory;
@@ -225,18 +224,6 @@ fn what_is_not_there_is_refused_by_name() {
     assert!(matches!(error, PlanarError::Kick(_)), "{error}");
     let error = refused(|scenario| with_tip(scenario, TipFunction::default()));
     assert_eq!(error, PlanarError::NoFootprint);
-    let lobes = refused(|scenario| {
-        let term = |amplitude, center_y| Gaussian2d {
-            amplitude,
-            center: 0.0,
-            width: 1.0,
-            center_y,
-            width_y: 1.0,
-        };
-        let terms = [term(1.0, 0.0), term(0.2, 2.0), term(0.2, -2.0)];
-        with_tip(scenario, TipFunction::of_footprint(Footprint::gaussian_sum(&terms).unwrap()));
-    });
-    assert_eq!(lobes, PlanarError::Footprint { layers: 2, lobes: true });
     let unavailable = [
         (
             "a tip without a spring",

@@ -21,13 +21,8 @@ const MOST_ITERATIONS: usize = 200;
 /// What lies farther behind than so many widths is below round-off of f, and left out of the steady past.
 const FAR_BEHIND: f64 = 15.0;
 
-/// f(x,y) = `Σ_k a_k` exp(-(x-`c_k`)²/2) exp(-y²/2v²)
-pub(crate) struct Footprint {
-    /// `a_k`, `c_k`
-    pub(crate) terms: Vec<(f64, f64)>,
-    /// v
-    pub(crate) width: f64,
-}
+/// f, `f_x` and `f_y` at a point.
+pub(crate) struct Footprint(Box<dyn Fn([f64; 2]) -> [f64; 3]>);
 
 /// A motion to be computed. The line is y = 0; the support is at R(t).
 pub(crate) struct Problem {
@@ -73,20 +68,31 @@ pub(crate) struct Motion {
 impl Footprint {
     /// (48) times a Gaussian of the width v across.
     pub(crate) fn triple(beta: f64, width: f64) -> Self {
-        Self { terms: vec![(1.0, 0.0), (-beta / 2.0, -2.0), (-beta / 2.0, 2.0)], width }
+        let term = |a: f64, c: f64| [a, c, 1.0, 0.0, width];
+        Self::gaussians(vec![term(1.0, 0.0), term(-beta / 2.0, -2.0), term(-beta / 2.0, 2.0)])
     }
 
-    /// f, `f_x` and `f_y`.
-    fn jet(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        let v = self.width;
-        let across = (-0.5 * y * y / (v * v)).exp();
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (a, c) in &self.terms {
-            let term = a * (-0.5 * (x - c) * (x - c)).exp();
-            value += term;
-            slope -= (x - c) * term;
-        }
-        [value * across, slope * across, -y / (v * v) * value * across]
+    /// Gaussians of these amplitudes, each with a center and a width along and across.
+    pub(crate) fn gaussians(terms: Vec<[f64; 5]>) -> Self {
+        Self::new(move |[x, y]| {
+            let mut jet = [0.0; 3];
+            for [a, c, w, d, v] in &terms {
+                let (z, s) = ((x - c) / w, (y - d) / v);
+                let term = a * (-0.5 * (z * z + s * s)).exp();
+                jet[0] += term;
+                jet[1] -= z / w * term;
+                jet[2] -= s / v * term;
+            }
+            jet
+        })
+    }
+
+    pub(crate) fn new(jet: impl Fn([f64; 2]) -> [f64; 3] + 'static) -> Self {
+        Self(Box::new(jet))
+    }
+
+    fn jet(&self, at: [f64; 2]) -> [f64; 3] {
+        (self.0)(at)
     }
 }
 

@@ -6,7 +6,8 @@
 //!     λ + κ_y = (α/(r v²)) [φ(λ/r) - φ(0)]        φ(Λ) = ∫_0^∞ g(y) e^{-Λy} dy
 //! ```
 //!
-//! The integral is taken by Gauss's rule, of nothing but (48).
+//! and of a small deviation along the line `λ + 1 = (α/r) ∫_0^∞ g''(y) (1 - e^{-λy/r}) dy`. The integrals are taken by Gauss's
+//! rule, of nothing but (48).
 
 use super::lines::{line, tip};
 use num_complex::Complex;
@@ -29,19 +30,25 @@ fn missed(lambda: Complex<f64>, alpha: f64, stiffness: f64) -> Complex<f64> {
     lambda + stiffness - alpha * (transform(lambda) - transform(Complex::ZERO))
 }
 
+/// The same along the line; twice by parts, g'' is λ²φ - λ g(0), less what the same is at λ = 0.
+fn missed_along(lambda: Complex<f64>, alpha: f64) -> Complex<f64> {
+    let height = 1.0 - (-2.0_f64).exp();
+    lambda + 1.0 + alpha * lambda * (lambda * transform(lambda) - height)
+}
+
 /// The root near this one, by the secant rule.
-fn root(mut lambda: Complex<f64>, alpha: f64, stiffness: f64) -> Complex<f64> {
+fn root(mut lambda: Complex<f64>, missed: impl Fn(Complex<f64>) -> Complex<f64>) -> Complex<f64> {
     let mut before = lambda + 1e-3;
-    let mut value_before = missed(before, alpha, stiffness);
+    let mut value_before = missed(before);
     for _ in 0..60 {
-        let value = missed(lambda, alpha, stiffness);
+        let value = missed(lambda);
         if value.norm() < 1e-15 || (lambda - before).norm() < 1e-15 {
             break;
         }
         let next = lambda - value * (lambda - before) / (value - value_before);
         (before, value_before, lambda) = (lambda, value, next);
     }
-    assert!(missed(lambda, alpha, stiffness).norm() < 1e-13, "{lambda}");
+    assert!(missed(lambda).norm() < 1e-13, "{lambda}");
     lambda
 }
 
@@ -87,25 +94,50 @@ fn growth(y: impl Fn(f64) -> f64, t: f64, d: f64) -> Complex<f64> {
     (0.5 * a + square).ln() / d
 }
 
+/// The motion by series, and by collocation alone.
+fn both_ways(scenario: &PlanarScenario) -> [(&'static str, Trajectory); 2] {
+    let by_series = run(scenario).unwrap();
+    let mut running = PlanarRunning::new(scenario).unwrap().with_fixed_step(0.25);
+    let steps = std::iter::from_fn(|| running.step().unwrap()).collect();
+    let by_collocation = Trajectory::new(Wider::default(), scenario.along.support(), steps);
+    [("series", by_series.trajectory), ("collocation", by_collocation)]
+}
+
 /// Above thresholds and below, by both ways of making steps. Later the motion along the line, unstable too, takes part.
 #[test]
 fn a_small_kick_across_grows_as_linear_theory_says() {
     for (alpha, stiffness) in [(0.95, 0.25), (0.8, 0.25), (1.1, 0.5), (1.5, 1.0)] {
         let (critical, omega) = threshold(stiffness);
-        let lambda = root(Complex::new(0.0, omega), alpha, stiffness);
+        let lambda = root(Complex::new(0.0, omega), |lambda| missed(lambda, alpha, stiffness));
         assert_eq!(alpha > critical, lambda.re > 0.0);
         let scenario = kicked(alpha, stiffness, 1e-4, 45.0, 1e-12);
-        let by_series = run(&scenario).unwrap();
-        let mut running = PlanarRunning::new(&scenario).unwrap().with_fixed_step(0.25);
-        let steps = std::iter::from_fn(|| running.step().unwrap()).collect();
-        let by_collocation = Trajectory::new(Wider::default(), scenario.along.support(), steps);
-        for (name, trajectory) in
-            [("series", &by_series.trajectory), ("collocation", &by_collocation)]
-        {
+        for (name, trajectory) in both_ways(&scenario) {
             let found = growth(|t| trajectory.y0(t), 32.0, 1.5);
             let miss = (found - lambda).norm();
             println!("{alpha} {stiffness} {name}: {found:.9}, theory {lambda:.9}: {miss:.1e}");
             assert!(miss < 3e-7, "{alpha} {stiffness} {name}: {miss:e}");
+        }
+    }
+}
+
+/// A kick along and one across at the same time: to first order neither knows of the other. Half the difference of two runs
+/// with opposite kicks is linear, to their square.
+#[test]
+fn a_small_kick_along_grows_as_linear_theory_says() {
+    for (alpha, stiffness) in [(1.12, 1.0), (1.02, 0.5)] {
+        let lambda = root(Complex::new(0.0, 1.0), |lambda| missed_along(lambda, alpha));
+        assert_eq!(alpha > 1.069036, lambda.re > 0.0, "{lambda}");
+        let pair = [1e-4, -1e-4].map(|kick| {
+            let mut scenario = kicked(alpha, stiffness, kick, 52.0, 1e-12);
+            scenario.along.kick = kick;
+            both_ways(&scenario)
+        });
+        for way in 0..2 {
+            let [(name, up), (_, down)] = [0, 1].map(|sign: usize| &pair[sign][way]);
+            let found = growth(|t| 0.5 * (up.x0(t) - down.x0(t)), 40.0, 1.5);
+            let miss = (found - lambda).norm();
+            println!("{alpha} {stiffness} {name}: {found:.9}, theory {lambda:.9}: {miss:.1e}");
+            assert!(miss < 1e-6, "{alpha} {stiffness} {name}: {miss:e}");
         }
     }
 }

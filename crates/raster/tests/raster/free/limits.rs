@@ -5,7 +5,7 @@
 use super::lines::{footprint, scanned};
 use stickslip_raster::{Area, Free, Line, Path, Plan, RasterError, Scanned, Scanning, volume};
 use stickslip_tip::planar::PlanarError;
-use stickslip_tip::{Footprint, Gaussian2d, MemoryChoice, Model, Wider};
+use stickslip_tip::{MemoryChoice, Model};
 
 fn plan(stiffness: f64, path: Path) -> Plan {
     let (footprint, _) = footprint(0.0, 1.0);
@@ -100,16 +100,4 @@ fn free_rasters_that_cannot_be_are_refused() {
     let mut by_fft = plan(1.0, Path::OneWay);
     by_fft.law.memory = MemoryChoice::Fft;
     assert_eq!(of(refused(&by_fft)), PlanarError::Unavailable("the memory fft"));
-    let term = |amplitude, center_y| Gaussian2d {
-        amplitude,
-        center: 0.0,
-        width: 1.0,
-        center_y,
-        width_y: 1.0,
-    };
-    let lobed =
-        Footprint::gaussian_sum(&[term(1.0, 0.0), term(0.3, 2.0), term(0.3, -2.0)]).unwrap();
-    let model = Model::under(Wider::default(), lobed.path().clone(), 0.5, 1.0).unwrap();
-    let lobed = Plan::new(lobed, model, Path::OneWay, 0.5, 2, 14.0).with_free(Free::new(1.0));
-    assert!(matches!(of(refused(&lobed)), PlanarError::Footprint { lobes: true, .. }));
 }

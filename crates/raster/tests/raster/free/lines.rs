@@ -4,7 +4,7 @@
 
 use super::reference::{Law, Reference, Terms, Way};
 use stickslip_raster::{Area, AreaLine, Free, Line, Path, Plan, Scanned, Scanning};
-use stickslip_tip::{Footprint, Force, Model, Pulse, TipFunction, Wider};
+use stickslip_tip::{Footprint, Force, Gaussian2d, Model, Pulse, TipFunction, Wider};
 
 pub(crate) fn scanned(plan: &Plan) -> Vec<Line> {
     let mut scanning = Scanning::new(plan).unwrap();
@@ -174,6 +174,45 @@ fn lines_of_any_shape_are_those_of_the_direct_sum() {
 }
 
 /// Negative control: a tip that is held on its lines moves otherwise, and so does one that ignores earlier lines.
+/// Lobes of several widths all around, and a table of such a footprint.
+#[test]
+fn lines_of_a_sum_of_products_are_those_of_the_direct_sum() {
+    let lobe = |a: f64, c: f64, w: f64, d: f64, v: f64| [a, c, w, d, v];
+    let star = vec![
+        lobe(1.0, 0.0, 1.0, 0.0, 1.0),
+        lobe(-0.3, -2.0, 0.9, 0.0, 0.8),
+        lobe(-0.3, 2.0, 0.9, 0.0, 0.8),
+        lobe(-0.2, 0.0, 1.1, -1.8, 0.9),
+        lobe(-0.2, 0.0, 1.1, 1.8, 0.9),
+    ];
+    let term = |[amplitude, center, width, center_y, width_y]: &[f64; 5]| Gaussian2d {
+        amplitude: *amplitude,
+        center: *center,
+        width: *width,
+        center_y: *center_y,
+        width_y: *width_y,
+    };
+    let of_terms = Footprint::gaussian_sum(&star.iter().map(term).collect::<Vec<_>>()).unwrap();
+    let place = |n: usize| 0.4 * n as f64;
+    let points = || (0..25).flat_map(|j| (0..25).map(move |i| (place(i), place(j))));
+    let (x, y): (Vec<f64>, Vec<f64>) = points().unzip();
+    let f: Vec<f64> = points().map(|(x, y)| of_terms.value(x, y)).collect();
+    let of_table = Footprint::table(&x, &y, &f).unwrap();
+    for (name, footprint, path) in
+        [("star", &of_terms, Path::Zigzag), ("table", &of_table, Path::OneWay)]
+    {
+        let case = Case { name, path, ..plain() };
+        let (plan, law) = case.plan();
+        let model = Model::new(footprint.path().clone(), case.alpha, 1.0).unwrap();
+        let mut plan = Plan { footprint: footprint.clone(), ..plan };
+        plan.law.model = model;
+        let law = Law { terms: star.clone(), ..law };
+        let (worst, _) = differences(&plan, law, 100);
+        println!("{name}: {worst:?}");
+        assert!(worst.iter().all(|miss| *miss < 3e-8), "{name}: {worst:?}");
+    }
+}
+
 #[test]
 fn a_tip_that_is_held_would_be_found_out() {
     let (plan, _) = plain().plan();

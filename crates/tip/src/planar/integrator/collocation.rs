@@ -1,6 +1,7 @@
 //! Steps by collocation, with their error control.
 
 use super::super::earlier::Under;
+use super::super::part::Part;
 use super::super::scenario::PlanarError;
 use super::super::stages::{Relief, Solution, StageEquations, Unknowns};
 use super::Integrator;
@@ -71,7 +72,10 @@ impl Integrator<'_> {
         let enough = ENOUGH * self.control.target();
         // As far as exponentials and layers hold.
         let look = longest_look(self.model.tip());
-        let room = (self.frame.radius() - self.frame.eta(self.y).abs()) * self.frame.width();
+        let room = |Part { frame, bells, .. }: &Part| {
+            (frame.radius() - frame.eta(self.y).abs()) * bells.width()
+        };
+        let room = self.parts.iter().map(room).fold(f64::INFINITY, f64::min);
         let equations = self.equations(h, inertia.as_ref());
         let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
         self.work.newton_iterations += solved.iterations;
@@ -88,7 +92,7 @@ impl Integrator<'_> {
         }
         let farthest = across.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
         let lowest = along.iter().copied().fold(0.0, f64::min);
-        if farthest > room || lowest < self.past.lowest(self.past.behind()) {
+        if farthest > room || lowest < self.lowest(self.behind()) {
             return Err(Retry::Shorter(0.5 * h));
         }
         if let Some((corner, heights)) = self.corner.as_ref().zip(self.heights(&solution)) {
@@ -112,12 +116,10 @@ impl Integrator<'_> {
         let across = RADAU.c.map(|c| force(1, c) - self.stiffness * self.y);
         let wider = self.wider();
         StageEquations {
-            footprint: self.footprint,
+            parts: &self.parts,
             alpha: self.model.alpha(),
             stiffness: self.stiffness,
-            past: &self.past,
-            eta: self.frame.eta(self.y),
-            width: self.frame.width(),
+            y: self.y,
             h,
             pull: [along, across],
             carving: wider.healing_time.map_or_else(|| carving(h), |time| healing(h, time)),

@@ -6,17 +6,17 @@ mod series;
 
 use super::chain::{Chain, Curvatures};
 use super::earlier::{EarlierGrooves, GrooveJet};
-use super::frame::{Frame, Layers};
+use super::frame::Layers;
 use super::history::Step;
-use super::lattice::Lattice;
-use super::layers::{LANES, Lanes, slopes, values};
-use super::modes::Modes;
-use super::past::{Past, TooFar};
+use super::layers::Lanes;
+use super::part::{Part, Room, Storage};
+use super::past::TooFar;
+use super::products::Products;
 use super::scenario::{PlanarError, PlanarScenario};
-use super::spline::Jet;
+use super::spline;
+use super::stages::Jet;
 use super::texture::{Field, Texture};
 use crate::collocation::Stages;
-use crate::footprint::Across;
 use crate::history::Heights;
 use crate::integrator::Work;
 use crate::integrator::control::Control;
@@ -25,16 +25,18 @@ use crate::integrator::landing::leaves;
 use crate::integrator::taylor::switch::Switch;
 use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
-use crate::memory::{Fit, FitError, Retreat, SteadyPast, accuracy_needed};
-use crate::tip_function::{BAND_OF_A_GAUSSIAN, TipFunction};
+use crate::memory::{Retreat, SteadyPast};
+use crate::tip_function::BAND_OF_A_GAUSSIAN;
 use crate::{Force, Model, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// The state of a tip in motion, and all forces on it.
 pub(super) struct Integrator<'a> {
     model: &'a Model,
-    /// g and h.
-    footprint: (&'a TipFunction, Across),
+    /// The products of the footprint with the past of each.
+    parts: Vec<Part>,
+    products: Arc<Products>,
     /// κ_y
     stiffness: f64,
     /// Along and across.
@@ -46,8 +48,6 @@ pub(super) struct Integrator<'a> {
     field: Field,
     /// The grooves of earlier lines, as they were at the start.
     earlier: Option<&'a EarlierGrooves>,
-    past: Past,
-    frame: Frame,
     control: Control,
     chain: Chain,
     visits: Visits,
@@ -70,9 +70,6 @@ pub(super) struct Integrator<'a> {
     room: Vec<Lanes>,
 }
 
-/// Finest accuracy of exponentials with the retreat of a tip that swings back: of use below a tolerance of 1e-11.
-const FINEST: f64 = 5e-14;
-
 /// Order of the series per decimal digit; its cost is proportional to the third power of the order.
 const ORDER_PER_DIGIT: f64 = 0.7;
 
@@ -83,11 +80,6 @@ const LARGE_KICK: f64 = 0.2;
 fn retreat(along: &Scenario) -> Retreat {
     let is_kicked = along.kick.abs() > along.model.tip().widths(LARGE_KICK);
     if is_kicked || along.model.wider().inertia.is_some() { Retreat::Swing } else { Retreat::Small }
-}
-
-/// Accuracy of exponentials and layers that a run needs.
-fn accuracy(along: &Scenario) -> f64 {
-    accuracy_needed(&along.model, along.tolerance).max(FINEST)
 }
 
 /// Whether any force other than that of its own groove may drive the tip back.
@@ -102,47 +94,43 @@ impl<'a> Integrator<'a> {
         scenario: &'a PlanarScenario,
         earlier: Option<&'a EarlierGrooves>,
     ) -> Result<Self, PlanarError> {
-        let (tip, _) = scenario.footprint()?;
-        let along = &scenario.along;
-        let modes = Modes::new(Fit::cached(tip, accuracy(along), retreat(along))?);
         let goes_back = earlier.is_some() || may_go_back(scenario);
-        let lattice = if goes_back { Lattice::new(tip) } else { None };
-        Self::with(scenario, Past::new(modes, lattice), earlier)
+        Self::with(scenario, Storage::Modes(retreat(&scenario.along), goes_back), earlier)
     }
 
     /// The integrator without exponentials, and so without series.
     pub(super) fn of_lattice(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
-        let lattice = Lattice::new(scenario.footprint()?.0).ok_or(FitError::NeverFades)?;
-        Self::with(scenario, Past::of_lattice(lattice), None)
+        Self::with(scenario, Storage::Lattice, None)
     }
 
     fn with(
         scenario: &'a PlanarScenario,
-        past: Past,
+        storage: Storage,
         earlier: Option<&'a EarlierGrooves>,
     ) -> Result<Self, PlanarError> {
-        let (along, footprint) = (&scenario.along, scenario.footprint()?);
+        let along = &scenario.along;
         let model = &along.model;
-        let reach = footprint.0.reach().ok_or(FitError::NeverFades)?;
+        let products = scenario.products()?;
+        let parts = products.all().iter().map(|product| Part::new(product, storage));
         let control = Control::new(along.tolerance);
         let target = control.target();
         let texture = scenario.texture()?;
         let (x, y) = (along.start_position - along.kick, scenario.kick_across);
+        let order = length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT);
         let mut integrator = Self {
-            frame: Frame::new(footprint.1.width, reach, accuracy(along)),
-            chain: Chain::new(length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT)),
+            parts: parts.collect::<Result<_, _>>()?,
+            chain: Chain::new(order, products.all().len()),
+            products,
             visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
             switch: Switch::new(model.wider().inertia.is_some()),
             corner: None,
             model,
-            footprint,
             stiffness: scenario.stiffness_across,
             force: [&along.force, &scenario.force_across],
             support: along.support(),
             field: texture.field([x, y], [true; 2], target),
             texture,
             earlier,
-            past,
             control,
             t: along.start_time(),
             start: along.start_time(),
@@ -154,27 +142,22 @@ impl<'a> Integrator<'a> {
             work: Work::default(),
             room: vec![],
         };
-        let x = integrator.position();
+        let (t, x) = (integrator.t, integrator.position());
         let range = (y.min(0.0), y.max(0.0));
-        integrator.frame.visit(&mut integrator.past, integrator.t, (x, x), range)?;
-        if along.start == Start::Steady {
-            integrator.remember_steady(along.kick);
-        }
-        integrator.corner = Corner::of(model, integrator.height_now(), target);
-        Ok(integrator)
-    }
-
-    /// Adds the past of a tip in steady motion along the line, up to the point of the kick.
-    fn remember_steady(&mut self, kick: f64) {
         let past = SteadyPast {
-            distance: -kick,
-            velocity: self.model.r(),
-            healing: self.healing(),
-            weight: self.model.steady_weight(),
+            distance: -along.kick,
+            velocity: model.r(),
+            healing: integrator.healing(),
+            weight: model.steady_weight(),
         };
-        let mut phi = vec![[0.0; LANES]; self.past.groups()];
-        values(self.frame.eta(0.0), 1.0, &mut phi);
-        self.past.remember_steady(&past, &phi);
+        for part in &mut integrator.parts {
+            part.frame.visit(&mut part.past, t, (x, x), range)?;
+            if along.start == Start::Steady {
+                part.remember_steady(&past);
+            }
+        }
+        integrator.corner = Corner::of(model, integrator.groove_now().value, target);
+        Ok(integrator)
     }
 
     /// Sets a fixed step, by collocation and without error control.
@@ -192,11 +175,18 @@ impl<'a> Integrator<'a> {
     }
 
     pub(super) fn layers(&self) -> Layers {
-        self.frame.layers()
+        let of = |part: &Part| Layers { error: part.error(), ..part.frame.layers() };
+        let add = |sum: Layers, part: Layers| Layers {
+            most: sum.most + part.most,
+            changes: sum.changes + part.changes,
+            error: sum.error + part.error,
+        };
+        let none = Layers { most: 0, changes: 0, error: self.products.error() };
+        self.parts.iter().map(of).fold(none, add)
     }
 
     pub(super) fn memory_size(&self) -> usize {
-        self.past.size() + self.frame.size()
+        self.parts.iter().map(|part| part.past.size() + part.frame.size()).sum()
     }
 
     /// The next step; `None` at the end.
@@ -204,7 +194,7 @@ impl<'a> Integrator<'a> {
         if self.made.is_empty() && self.t < until {
             let t = self.t;
             let too_far = |TooFar { behind, allowed }| PlanarError::Retreat { t, behind, allowed };
-            self.past.begin().map_err(too_far)?;
+            self.parts.iter_mut().try_for_each(|part| part.past.begin()).map_err(too_far)?;
             if !self.step_by_series(until)? {
                 self.step_by_collocation(until)?;
             }
@@ -217,6 +207,17 @@ impl<'a> Integrator<'a> {
     /// x0
     fn position(&self) -> f64 {
         self.support.position(self.t) - self.extension
+    }
+
+    /// Distance of the tip behind its farthest point.
+    fn behind(&self) -> f64 {
+        self.parts.iter().map(|part| part.past.behind()).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The lowest displacement from the tip that a step may reach.
+    fn lowest(&self, farthest: f64) -> f64 {
+        let lowest = self.parts.iter().map(|part| part.past.lowest(farthest));
+        lowest.fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn wider(&self) -> &'a Wider {
@@ -241,7 +242,7 @@ impl<'a> Integrator<'a> {
 
     /// A motion as one along the scan that carves as fine a groove: waves of f are shortest along the motion.
     fn effective(&self, [along, across]: [f64; 2]) -> f64 {
-        let ratio = BAND_OF_A_GAUSSIAN / (self.footprint.1.width * self.model.tip().band());
+        let ratio = BAND_OF_A_GAUSSIAN / (self.products.width() * self.model.tip().band());
         (along * along + (ratio * across) * (ratio * across)).sqrt()
     }
 
@@ -272,48 +273,34 @@ impl<'a> Integrator<'a> {
         };
         let ((_, farthest), (low, high)) = (range(along), range(across));
         let places = (x + farthest, x + along[along.len() - 1]);
-        self.frame.visit(&mut self.past, self.t, places, (y + low, y + high))?;
-        let groups = self.past.groups();
-        self.room.resize(groups * along.len(), [0.0; LANES]);
-        for ((layers, e), weight) in self.room.chunks_exact_mut(groups).zip(across).zip(weights) {
-            values(self.frame.eta(y + e), *weight, layers);
+        let left = self.wider().left_after(h);
+        for part in &mut self.parts {
+            part.frame.visit(&mut part.past, self.t, places, (y + low, y + high))?;
+            part.remember((along, across), weights, (y, left), &mut self.room);
         }
-        if let Some(time) = self.wider().healing_time {
-            self.past.fade(crate::elementary::exp(-h / time));
-        }
-        self.past.remember(along, &self.room);
         Ok(())
     }
 
     /// Forces on the tip at its position, along and across, after any jump there.
     fn forces_now(&self) -> [f64; 2] {
-        let (groups, alpha) = (self.past.groups(), self.model.alpha());
-        let mut room: [Vec<Lanes>; 5] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
-        let [phi, psi, value, slope, curvature] = &mut room;
-        self.past.at(0.0, &mut [&mut *value, &mut *slope, curvature]);
-        let eta = self.frame.eta(self.y);
-        values(eta, alpha, phi);
-        slopes(eta, phi, psi);
+        let under = self.groove_now().push;
         let force = self.force.map(|force| force.value(self.t.next_up()));
-        let across = super::chain::dot(psi, value) / self.frame.width();
-        let relief = self.relief_now().map_or([0.0; 2], |jet| [jet[1][0], jet[0][1]]);
-        let earlier = self.earlier_now().slope;
-        let under = [relief[0] + earlier[0], relief[1] + earlier[1]];
-        [
-            super::chain::dot(phi, slope) - under[0] + self.extension + force[0],
-            across - under[1] - self.stiffness * self.y + force[1],
-        ]
+        [self.extension + force[0] - under[0], force[1] - self.stiffness * self.y - under[1]]
     }
 
-    /// Height of the surface under the tip.
-    fn height_now(&self) -> f64 {
-        let groups = self.past.groups();
-        let mut room: [Vec<Lanes>; 4] = std::array::from_fn(|_| vec![[0.0; LANES]; groups]);
-        let [phi, value, slope, curvature] = &mut room;
-        self.past.at(0.0, &mut [&mut *value, slope, curvature]);
-        values(self.frame.eta(self.y), self.model.alpha(), phi);
-        let relief = self.relief_now().map_or(0.0, |jet| jet[0][0]);
-        relief + self.earlier_now().height - super::chain::dot(phi, value)
+    /// The surface under the tip.
+    fn groove_now(&self) -> Jet {
+        let (alpha, mut room) = (self.model.alpha(), Room::default());
+        let past = Jet::sum(&self.parts, |part| part.at(0.0, self.y, &mut room));
+        let relief = self.relief_now().unwrap_or_default();
+        let earlier = self.earlier_now();
+        let push = [relief[1][0], relief[0][1]];
+        let bend = [relief[2][0], relief[1][1], relief[0][2]];
+        Jet {
+            value: relief[0][0] + earlier.height - alpha * past.value,
+            push: [0, 1].map(|i: usize| push[i] + earlier.slope[i] - alpha * past.push[i]),
+            bend: [0, 1, 2].map(|i: usize| bend[i] + earlier.curvature[i] - alpha * past.bend[i]),
+        }
     }
 
     /// Sets the field that contains the tip, or that it is about to enter.
@@ -331,7 +318,7 @@ impl<'a> Integrator<'a> {
     }
 
     /// Undecayed part of the initial surface under the tip, with derivatives, unless it is flat.
-    fn relief_now(&self) -> Option<Jet> {
+    fn relief_now(&self) -> Option<spline::Jet> {
         if self.field.is_flat() {
             return None;
         }

@@ -1,6 +1,7 @@
 //! Saved states of the integrator between two steps.
 
 use super::super::history::Step;
+use super::super::part::Part;
 use super::Integrator;
 use crate::collocation::Stages;
 use crate::integrator::Work;
@@ -22,8 +23,10 @@ impl Saved for Integrator<'_> {
         }
         self.control.save(state);
         self.switch.save(state);
-        self.past.save(state);
-        self.frame.save(state);
+        for Part { past, frame, .. } in &self.parts {
+            past.save(state);
+            frame.save(state);
+        }
     }
 
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
@@ -48,8 +51,11 @@ impl Saved for Integrator<'_> {
         };
         self.control.restore(state)?;
         self.switch.restore(state)?;
-        self.past.restore(state)?;
-        self.frame.restore(state, self.past.groups())
+        for Part { past, frame, .. } in &mut self.parts {
+            past.restore(state)?;
+            frame.restore(state, past.groups())?;
+        }
+        Ok(())
     }
 }
 

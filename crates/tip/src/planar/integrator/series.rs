@@ -1,6 +1,7 @@
 //! Steps by Taylor series: long ones, handed out in pieces.
 
 use super::super::chain::Acting;
+use super::super::part::Part;
 use super::super::scenario::PlanarError;
 use super::Integrator;
 use crate::collocation::STAGES;
@@ -70,18 +71,19 @@ impl Integrator<'_> {
     /// The series from here on; false where there is none.
     fn look_ahead(&mut self) -> bool {
         // Grooves of earlier lines have derivatives up to the second only.
-        if self.earlier.is_some() || !self.past.knows_series() {
+        if self.earlier.is_some() || !self.parts.iter().all(|part| part.past.knows_series()) {
             return false;
         }
         let (order, alpha) = (self.chain.order(), self.model.alpha());
-        let room = self.chain.start(self.past.groups(), alpha, self.past.of_tip());
-        self.past.derivatives(alpha, room);
+        for (i, Part { bells, past, frame, .. }) in self.parts.iter().enumerate() {
+            past.derivatives(alpha, self.chain.start(i, past.groups(), (alpha, past.of_tip())));
+            self.chain.stand_at(i, bells, frame.eta(self.y), &mut self.room);
+        }
         for (force, series) in self.force.iter().zip(&mut self.chain.force) {
             if !force.series(self.t, &mut series[..order]) {
                 return false;
             }
         }
-        self.chain.stand_at(self.frame.eta(self.y));
         let acting = Acting {
             depth: self.weight_now(),
             relief: self.relief_now(),
@@ -91,8 +93,6 @@ impl Integrator<'_> {
             inertia: self.wider().inertia.map(|mass| (mass, self.velocity[0])),
             extension: self.extension,
             y: self.y,
-            eta: self.frame.eta(self.y),
-            width: self.frame.width(),
         };
         self.chain.run(&acting);
         true
@@ -148,8 +148,7 @@ impl Integrator<'_> {
         let piece = over * part.min(limited / moved(&ahead).max(f64::MIN_POSITIVE));
         let length = over.min(MOST_PIECES as f64 * piece);
         let fastest = self.effective([ahead[0].fastest, ahead[1].fastest]) / over;
-        let (eta, width) = (self.frame.eta(self.y), self.frame.width());
-        let mut curvatures = self.chain.curvatures(eta, width, &mut self.room);
+        let mut curvatures = self.chain.curvatures(&self.parts, &mut self.room);
         if let Some(jet) = self.relief_now() {
             let relief = [jet[2][0], jet[1][1], jet[0][2]];
             curvatures.iter_mut().zip(relief).for_each(|(sum, relief)| *sum += relief);
@@ -238,11 +237,11 @@ impl Integrator<'_> {
         if let Some(part) = self.leaves_field(parts, [along, across], at) {
             return Some(part);
         }
-        let mut farthest = self.past.behind();
+        let mut farthest = self.behind();
         for ((part, x), y) in parts.iter().zip(along).zip(across) {
             farthest = farthest.max(*x);
-            let is_held = self.frame.eta(self.y + y).abs() <= self.frame.radius();
-            if *x < self.past.lowest(farthest) || !is_held {
+            let is_held = |part: &Part| part.frame.eta(self.y + y).abs() <= part.frame.radius();
+            if *x < self.lowest(farthest) || !self.parts.iter().all(is_held) {
                 return Some(0.7 * part);
             }
         }

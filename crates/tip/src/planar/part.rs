@@ -1,0 +1,116 @@
+//! The memory of one product g(x) h(y) of the footprint: its past, and the layers of it.
+
+use super::bells::Bells;
+use super::chain::dot;
+use super::frame::Frame;
+use super::lattice::Lattice;
+use super::layers::{LANES, Lanes, values};
+use super::modes::Modes;
+use super::past::Past;
+use super::products::Product;
+use super::stages::Jet;
+use crate::TipFunction;
+use crate::memory::{Fit, FitError, Retreat, SteadyPast};
+
+/// g, h, and what all positions of the tip left of them.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub(super) along: TipFunction,
+    pub(super) bells: Bells,
+    pub(super) past: Past,
+    pub(super) frame: Frame,
+    /// Factor from the error of the layers of a single Gaussian to that of f.
+    size: f64,
+}
+
+/// How the past is stored.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Storage {
+    /// Exponentials that allow for this retreat, with a lattice for retreats beyond it or without one.
+    Modes(Retreat, bool),
+    /// The lattice alone.
+    Lattice,
+}
+
+impl Part {
+    /// An empty memory.
+    pub(super) fn new(product: &Product, storage: Storage) -> Result<Self, FitError> {
+        let Product { along, bells, size, slope_error, layer_error } = product;
+        let past = match storage {
+            Storage::Modes(back, with_lattice) => {
+                let modes = Modes::new(Fit::cached(along, *slope_error, back)?);
+                Past::new(modes, if with_lattice { Lattice::new(along) } else { None })
+            }
+            Storage::Lattice => Past::of_lattice(Lattice::new(along).ok_or(FitError::NeverFades)?),
+        };
+        let reach = along.reach().ok_or(FitError::NeverFades)?;
+        let frame = Frame::new((bells.width(), !bells.is_single()), reach, *layer_error);
+        Ok(Self { along: along.clone(), bells: bells.clone(), past, frame, size: *size })
+    }
+
+    /// Bound on the error of f and v `f_y` due to the layers.
+    pub(super) fn error(&self) -> f64 {
+        self.size * self.frame.layers().error
+    }
+
+    /// Adds a steady past on the line y = 0.
+    pub(super) fn remember_steady(&mut self, past: &SteadyPast) {
+        let mut phi = vec![[0.0; LANES]; self.past.groups()];
+        values(self.frame.eta(0.0), 1.0, &mut phi);
+        self.past.remember_steady(past, &phi);
+    }
+
+    /// Adds positions with these weights, given as displacements from the tip at `y`, which then is at the last of them;
+    /// `left` is the undecayed part of the past.
+    pub(super) fn remember(
+        &mut self,
+        (along, across): (&[f64], &[f64]),
+        weights: &[f64],
+        (y, left): (f64, f64),
+        room: &mut Vec<Lanes>,
+    ) {
+        let groups = self.past.groups();
+        room.resize(groups * along.len(), [0.0; LANES]);
+        for ((layers, e), weight) in room.chunks_exact_mut(groups).zip(across).zip(weights) {
+            values(self.frame.eta(y + e), *weight, layers);
+        }
+        if left < 1.0 {
+            self.past.fade(left);
+        }
+        self.past.remember(along, room);
+    }
+
+    /// ∫ g h over the past at a displacement d from the tip along the scan, at y across it.
+    pub(super) fn at(&self, d: f64, y: f64, room: &mut Room) -> Jet {
+        let groups = self.past.groups();
+        let Room { layers, scratch } = room;
+        layers.resize(5 * groups, [0.0; LANES]);
+        let (of_place, of_past) = layers[..5 * groups].split_at_mut(2 * groups);
+        let (phi, slope) = of_place.split_at_mut(groups);
+        let (value, rest) = of_past.split_at_mut(groups);
+        let (first, second) = rest.split_at_mut(groups);
+        let (eta, v) = (self.frame.eta(y), self.bells.width());
+        self.bells.read(eta, phi, slope, scratch);
+        self.past.at(d, &mut [&mut *value, &mut *first, &mut *second]);
+        let bend = self.bells.bend(eta, groups, scratch);
+        Jet {
+            value: dot(phi, value),
+            push: [dot(phi, first), dot(slope, value) / v],
+            bend: [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
+        }
+    }
+
+    /// g h and derivatives at this distance.
+    pub(super) fn of_visit(&self, x: f64, y: f64) -> Jet {
+        let (g, (g1, g2)) = (self.along.value(x), self.along.slope_and_curvature(x));
+        let [h, h1, h2] = self.bells.jet(y);
+        Jet { value: g * h, push: [g1 * h, g * h1], bend: [g2 * h, g1 * h1, g * h2] }
+    }
+}
+
+/// Scratch space for layers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Room {
+    layers: Vec<Lanes>,
+    scratch: Vec<Lanes>,
+}

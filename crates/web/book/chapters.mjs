@@ -38,6 +38,12 @@ function typeset(text) {
     .replaceAll(/(?<![\\$])\$(?!\s)((?:[^$\n]|\n(?!\n))+?)(?<!\s)\$/g, (_, tex) => equation(tex, false));
 }
 
+/** Where the book has a picture that a file of the project shows. */
+function place(file, picture) {
+  const there = normalize(join(dirname(file), picture));
+  return relative(dirname(chapters.get(file)), there.slice('docs/'.length));
+}
+
 /** Where a link leads, seen from a file of the project. */
 function link(file, [whole, mark, label, target]) {
   if (/^(https?:|mailto:|#)/.test(target)) return whole;
@@ -46,7 +52,7 @@ function link(file, [whole, mark, label, target]) {
   if (there === 'docs/README.md' || there === 'docs') return label;
   const from = (place) => relative(dirname(chapters.get(file)), place);
   if (chapters.has(there)) return `${mark}[${label}](${from(chapters.get(there))}${anchor ? `#${anchor}` : ''})`;
-  if (there.startsWith('docs/figures/')) return `${mark}[${label}](${from(there.slice('docs/'.length))})`;
+  if (there.startsWith('docs/figures/')) return `${mark}[${label}](${place(file, path)})`;
   if (!existsSync(join(root, there))) throw new Error(`${file}: ${target} is not there`);
   return label.includes(basename(there)) ? `\`${there}\`` : `${label} (\`${there}\`)`;
 }
@@ -57,6 +63,7 @@ function chapter(file) {
   const parts = text.split(new RegExp(code.source, 'gm'));
   // Code stands at odd places; a link may hold some, and is set before.
   return parts.map((part, n) => (n % 2 ? part : typeset(part))).join('')
+    .replaceAll(/(<img src=")([^"]+)/g, (_, tag, picture) => tag + place(file, picture))
     .replaceAll(/(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)/g, (...found) => link(file, found));
 }
 

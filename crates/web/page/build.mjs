@@ -5,7 +5,7 @@ import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { createHash } from 'node:crypto';
-import { gzipSync } from 'node:zlib';
+import { pack } from './pack.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const made = join(here, '../../../target/site-build/web');
@@ -37,7 +37,7 @@ const questions = declared();
 const style = await readFile(join(here, '../node_modules/uplot/dist/uPlot.min.css'), 'utf8');
 const parts = {
   css: style + (await readFile(join(here, 'page.css'), 'utf8')),
-  module: gzipSync(bytes, { level: 9 }).toString('base64'),
+  module: pack(bytes).toString('base64'),
   worker: within(await script('worker.js')),
   main: within(await script('main.js')),
 };

@@ -1,8 +1,8 @@
 // A worker that is at an older wish while a newer one waits. No browser: a worker of our own, which only notes what it is sent.
 import assert from 'node:assert/strict';
 import { beforeEach, mock, test } from 'node:test';
-import { gzipSync } from 'node:zlib';
-import { hire, prepare } from '../page/src/crew.js';
+import { hire, prepare, unpacked } from '../page/src/crew.js';
+import { pack } from '../page/pack.mjs';
 
 let workers;
 class Noting {
@@ -21,7 +21,7 @@ class Noting {
   }
 }
 globalThis.Worker = Noting;
-prepare('', gzipSync('module').toString('base64'));
+prepare('', pack(Buffer.from('module')).toString('base64'));
 /** Until the module is unpacked and the last worker has that many messages. */
 const sent = async (messages) => {
   const from = performance.now();
@@ -69,4 +69,11 @@ test('one that comes to the newest in time goes on', async () => {
   crew.ask(run(3));
   mock.timers.tick(10_000);
   assert.equal(workers[0].ended, false);
+});
+
+test('what is packed comes back', () => {
+  const bytes = Uint8Array.from({ length: 300_000 }, (_, n) => (n * n) >> (n % 13));
+  const packed = new Uint8Array(pack(bytes));
+  assert.ok(packed.length < bytes.length);
+  assert.deepEqual(new Uint8Array(unpacked(packed)), bytes);
 });

@@ -128,7 +128,7 @@ test('wrong input tells', { skip }, async () => {
   await field.fill('1.2x');
   assert.equal(await field.getAttribute('aria-invalid'), 'true');
   assert.match(await page.locator('#alpha-why').innerText(), /1\.2x/);
-  for (const [name, text, words] of [['alpha', '-1', /alpha .* 0 or above/], ['r', '0', /velocity r .* above 0/], ['until', '1e6', /runs up to t/], ['width', '0', /width/]]) {
+  for (const [name, text, words] of [['alpha', '-1', /alpha .* 0 or above/], ['r', '0', /velocity r .* above 0/], ['until', '1e6', /computes up to t/], ['width', '0', /width/]]) {
     await page.locator(`#${name}-number`).fill(text);
     await page.locator('#error').filter({ hasText: words }).waitFor();
     await page.locator(`#${name}-number`).fill('40');

@@ -87,7 +87,7 @@ test('no code is cut off on the right', { skip: skip || missing }, async () => {
 test('the notices name what the page and the book are made of', { skip }, () => {
   const notices = text(join(site, 'THIRD-PARTY-NOTICES.txt'));
   const locked = JSON.parse(readFileSync(join(root, 'crates/web/package-lock.json'), 'utf8')).packages;
-  for (const name of ['katex', 'uplot']) assert.match(notices, new RegExp(`^${name} ${locked[`node_modules/${name}`].version}: `, 'm'));
+  for (const name of ['katex', 'uplot', 'js-lzma']) assert.match(notices, new RegExp(`^${name} ${locked[`node_modules/${name}`].version}: `, 'm'));
   const crates = readFileSync(join(root, 'crates/web/Cargo.lock'), 'utf8');
   for (const name of ['wasm-bindgen', 'rustfft', 'serde_json']) {
     const version = new RegExp(`name = "${name}"\\nversion = "(.*)"`).exec(crates)[1];

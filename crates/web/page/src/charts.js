@@ -3,12 +3,20 @@ import uPlot from 'uplot';
 import { colour } from './theme.js';
 
 const CHARTS = [
-  { id: 'chart-l', column: 1, label: 'l (σ)', says: 'l, the lag beyond steady drag' },
+  { id: 'chart-l', column: 1, label: 'l (σ)', says: 'l, the reduced lag' },
   { id: 'chart-v', column: 2, label: "x₀′ (kσ/Γ)", says: 'velocity of the tip' },
   { id: 'chart-f', column: 3, label: 'force (kσ)', says: 'lateral force, the extension of the spring' },
   { id: 'chart-y', column: 5, label: 'y0 (σ)', says: 'y0, the distance of the tip from its line', ofFree: true },
 ];
 const HEIGHT = 150;
+
+/** Range of an axis: with a margin, and never so small that round-off looks like motion or that marks coincide. */
+function range(u, low, high) {
+  const least = 1e-6 * Math.max(1, Math.abs(low), Math.abs(high));
+  if (high - low >= least) return uPlot.rangeNum(low, high, 0.1, true);
+  const middle = (low + high) / 2;
+  return [middle - least, middle + least];
+}
 
 export function charts(picked) {
   const sync = uPlot.sync('time');
@@ -22,7 +30,7 @@ export function charts(picked) {
       height: HEIGHT,
       legend: { show: false },
       cursor: { sync: { key: sync.key }, drag: { x: true, y: false } },
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, y: { range } },
       axes: [
         { ...axis, size: 28, font: '12px system-ui' },
         { ...axis, size: 52, label, labelSize: 18, labelFont: '12px system-ui', font: '12px system-ui' },

@@ -1,14 +1,25 @@
 // Workers: what computes does so beside the page, which stays alive.
+import LZMA from 'js-lzma';
 
 /** Address of the worker's script, and the module's bytes once they are unpacked; both come with the page. */
 let script;
 let bytes;
 
+/** The way back from `pack`. */
+export function unpacked(packed) {
+  const plain = new Uint8Array(Number(new DataView(packed.buffer).getBigUint64(5, true)));
+  let [at, end] = [0, 0];
+  LZMA.decompressFile({ readByte: () => packed[at++] }, {
+    writeByte: (byte) => (plain[end++] = byte),
+    writeBytes: (part) => (plain.set(part, end), (end += part.length)),
+  });
+  return plain.buffer;
+}
+
 export function prepare(text, base64) {
   script = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const plain = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-  bytes = new Response(plain).arrayBuffer();
+  bytes = Promise.resolve().then(() => unpacked(packed));
 }
 
 /** A newer wish waits so long for an older one to end by itself. */

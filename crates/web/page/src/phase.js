@@ -2,7 +2,7 @@
 import { colour, sharp } from './theme.js';
 
 /** As `crates/web/src/map.rs` numbers them. */
-export const CLASSES = ['steady', 'one slip in a period', 'two slips', 'three slips or more', 'trapped', 'no end in sight', 'not found'];
+export const CLASSES = ['steady', 'one slip in a period', 'two slips', 'three slips or more', 'trapped', 'not settled', 'not found'];
 const UNKNOWN = 7;
 const CELLS = 64;
 const WHOLE = { r: [0.05, 2], alpha: [0.05, 4] };

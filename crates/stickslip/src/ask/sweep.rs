@@ -153,9 +153,7 @@ impl Sweep {
             alpha_above: self.alpha_above,
             tolerance: self.tolerance,
             shard: self.shard,
-            depth_limit: law.depth_limit,
-            healing_time: law.healing_time,
-            inertia: law.inertia,
+            law,
             axes: axes.0,
             run,
         };

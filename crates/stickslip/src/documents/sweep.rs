@@ -13,7 +13,7 @@ pub use shard::ShardDocument;
 pub use start::SweepRunParameters;
 
 use crate::documents::table::{Column, Named, Tabular};
-use crate::{Document, InUnits, Question, Tip};
+use crate::{Document, InUnits, Law, Question, Tip};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
@@ -48,7 +48,6 @@ impl Question for SweepParameters {
 
 /// The grid: footprints times r times α times further axes, the last varying fastest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
 pub struct SweepParameters {
     /// Footprints f: widths times β, if they vary.
     pub tips: Vec<Tip>,
@@ -67,15 +66,9 @@ pub struct SweepParameters {
     pub tolerance: f64,
     /// Part of the points in this document; by default all.
     pub shard: Option<ShardDocument>,
-    /// b of (61), in kσ²/a, if there is a depth limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_limit: Option<f64>,
-    /// T, in Γ/k, if the surface heals.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub healing_time: Option<f64>,
-    /// M, in Γ²/k, if the tip has inertia.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<f64>,
+    /// Terms added to the basic model.
+    #[serde(flatten)]
+    pub law: Law,
     /// Further parameters that vary.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub axes: Vec<AxisDocument>,
@@ -88,8 +81,7 @@ impl SweepParameters {
     /// The extensions of the basic model.
     #[must_use]
     pub fn wider(&self) -> Wider {
-        let Self { depth_limit, healing_time, inertia, .. } = *self;
-        Wider { depth_limit, healing_time, inertia, spring: true }
+        self.law.into()
     }
 
     /// The value of r, if all points have the same.

@@ -15,7 +15,7 @@
 
 use super::bells::Bells;
 use super::ground::Ground;
-use super::layers::{LANES, Lanes, ROOTS};
+use super::layers::{LANES, Lanes, ROOTS, add_product, dot, total};
 use super::part::Part;
 use super::spline::Jet;
 use super::weighing::Weighing;
@@ -520,15 +520,6 @@ fn run(chain: &mut Chain, acting: &Acting) {
     }
 }
 
-/// Σ_m of products.
-pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        add_product(&mut sums, a, b);
-    }
-    total(&sums)
-}
-
 // Loops throughout: closures that iterators call are not compiled for wider vectors.
 
 #[inline(always)]
@@ -539,23 +530,10 @@ fn add(sum: &mut Lanes, row: &Lanes, factor: f64) {
 }
 
 #[inline(always)]
-fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
-    for i in 0..LANES {
-        sum[i] += a[i] * b[i];
-    }
-}
-
-#[inline(always)]
 fn times(row: &Lanes, factor: f64) -> Lanes {
     let mut product = [0.0; LANES];
     for i in 0..LANES {
         product[i] = factor * row[i];
     }
     product
-}
-
-#[inline(always)]
-fn total(sums: &Lanes) -> f64 {
-    // One after the other: sums in pairs would be made in pairs from the start.
-    ((sums[0] + sums[1]) + sums[2]) + sums[3]
 }

@@ -172,6 +172,30 @@ pub(super) fn recenter(distance: f64, states: &mut [Lanes], groups: usize) {
     }
 }
 
+/// Σ_m of products.
+pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        add_product(&mut sums, a, b);
+    }
+    total(&sums)
+}
+
+// A loop: closures that iterators call are not compiled for wider vectors.
+
+#[inline(always)]
+pub(super) fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
+    for i in 0..LANES {
+        sum[i] += a[i] * b[i];
+    }
+}
+
+#[inline(always)]
+pub(super) fn total(sums: &Lanes) -> f64 {
+    // One after the other: sums in pairs would be made in pairs from the start.
+    ((sums[0] + sums[1]) + sums[2]) + sums[3]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

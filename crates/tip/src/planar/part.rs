@@ -1,10 +1,9 @@
 //! The memory of one product g(x) h(y) of the footprint: its past, and the layers of it.
 
 use super::bells::Bells;
-use super::chain::dot;
 use super::frame::Frame;
 use super::lattice::Lattice;
-use super::layers::{LANES, Lanes, values};
+use super::layers::{LANES, Lanes, dot, values};
 use super::modes::Modes;
 use super::past::Past;
 use super::products::Product;

@@ -22,7 +22,7 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 
 .DEFAULT_GOAL := help
 .PHONY: help run test test-python test-slurm wheel packages deny alone instructions survive judge check wasm outputs bench work-precision \
-	reference timings figures peers fuzz doc install site test-site dist reproducible clean
+	reference timings figures pictures peers fuzz doc install site test-site dist reproducible clean
 
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -101,6 +101,10 @@ timings: ## time whole commands, processor and memory, into data/commands.json, 
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
 	@$(call stickslip,figures --out-dir target/figures)
+
+pictures: ## the pictures of the book, drawn anew in docs/figures (minutes); WORD draws those with it in their names
+	$(CARGO) build --release --locked
+	docs/figures/draw $(WORD)
 
 peers: ## race other programs on one problem at matched error: data/peers.json, data/peers.md
 	python3 peers/race.py data

@@ -43,6 +43,17 @@ fn a_saved_document_is_drawn_as_its_command_drew_it() {
 }
 
 #[test]
+fn the_title_of_a_branch_names_the_terms_of_its_model() {
+    let folder = Folder::new("plot-branch");
+    let law = "--depth-limit 30 --healing-time 15 --inertia 0.3";
+    folder.prints(&format!("continue --r 1 --over alpha --to 1.5 {law} -o c.json --plot c.svg"));
+    let picture = String::from_utf8(folder.read("c.svg")).unwrap();
+    for term in ["b = 30", ">h</tspan>", "= 15", "M = 0.3"] {
+        assert!(picture.contains(term), "{term} in the title");
+    }
+}
+
+#[test]
 fn a_run_without_its_history_is_drawn_from_its_samples() {
     let folder = Folder::new("plot-samples");
     let run =

@@ -2,7 +2,7 @@
 
 use super::drawn::{Drawn, View};
 use super::labels::{ALPHA, R, WIDE};
-use super::tip::tip_name;
+use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::seven_digits;
@@ -41,7 +41,7 @@ impl Drawn for ContinueDocument {
             true => format!("r = {}", seven_digits(model.r)),
             false => format!("α = {}", seven_digits(model.alpha)),
         };
-        let title = format!("Cycles, {}, {fixed}", tip_name(&model.tip));
+        let title = format!("Cycles, {}, {fixed}", law_name(model));
         let mut figure = FigureDocument::new("continue", &title, vec![model.clone()]);
         let branches = Branches::of(self, over_alpha);
         let label = if over_alpha { ALPHA } else { R };

@@ -62,7 +62,7 @@ fn path_name(parameters: &Raster) -> String {
         PathName::Zigzag => "zigzag",
         PathName::Repeat => "one line repeated",
     };
-    let shape = parameters.area.as_ref().map_or("", |_| ", an area of its own");
+    let shape = parameters.area.as_ref().map_or("", |_| ", area from a file");
     format!("{path}{pitch}{shape}")
 }
 

@@ -25,6 +25,7 @@ import tempfile
 import zipfile
 
 HERE = pathlib.Path(__file__).parent
+MEASURED = HERE.parent.parent / "examples" / "measured"
 OF_A_BUILD = re.compile(r"(seconds|speedup|software\.(commit|clean))$")
 
 INPUTS = {
@@ -33,6 +34,7 @@ INPUTS = {
     "table.csv": "x,f\n" + "".join(f"{x / 8},{(1 + x * x / 128) ** -4 if x < 64 else 0}\n" for x in range(65)),
     "tip.json": '{"gaussians":[{"amplitude":1,"center":0,"width":1},{"amplitude":-0.3,"center":2,"width":0.8},'
     '{"amplitude":-0.3,"center":-2,"width":0.8}]}\n',
+    **{name: (MEASURED / name).read_text() for name in ("pit.csv", "ripples.csv")},
 }
 
 # One thing that differs: the command line, the file (or "printed"), what of it (a field, a column; "status"), how

@@ -19,6 +19,7 @@ const MOST_POINTS: usize = 100_000;
 
 /// A grid of pitches times α, the last varying fastest, and the common parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct RasterSweep {
     /// Footprint f of the tip.
     #[schemars(extend("x-option" = option("NAME", "Model", 1)))]

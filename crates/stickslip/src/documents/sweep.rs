@@ -48,6 +48,7 @@ impl Question for SweepParameters {
 
 /// The grid: footprints times r times α times further axes, the last varying fastest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub struct SweepParameters {
     /// Footprints f: widths times β, if they vary.
     pub tips: Vec<Tip>,

@@ -20,8 +20,8 @@ fn sweep() -> Sweep {
 #[test]
 fn points_of_a_sweep_are_the_cycles_of_their_own_questions() {
     let found = sweep().grid().unwrap().ask(&Context::default()).unwrap();
-    assert_eq!(found.points[0].regime, Some(RegimeName::Steady));
-    for (point, alpha) in found.points[1..].iter().zip([1.2, 1.5]) {
+    assert_eq!(found.points.at(0).regime, Some(RegimeName::Steady));
+    for (point, alpha) in found.points.iter().skip(1).zip([1.2, 1.5]) {
         let cycle = Cycle::new(Tip::default(), Indentation::given(alpha), 1.0);
         let cycle = cycle.ask(&Context::default()).unwrap();
         assert_eq!(point.source, Some(SourceName::Cycle));
@@ -51,8 +51,8 @@ fn points_that_are_runs_end_as_those_runs_and_make_ensembles() {
     };
     let run = run.ask(&Context::default()).unwrap();
     let period = run.oscillation.as_ref().map(|found| found.period);
-    assert_eq!(found.points[1].regime, Some(run.regime));
-    assert_eq!(found.points[1].period.map(f64::to_bits), period.map(f64::to_bits));
+    assert_eq!(found.points.at(1).regime, Some(run.regime));
+    assert_eq!(found.points.at(1).period.map(f64::to_bits), period.map(f64::to_bits));
 }
 
 /// Cancelled after its first point, a sweep keeps that point and computes no others.

@@ -110,7 +110,7 @@ impl Document {
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use stickslip::Column;
         let own = |column: Column<'_>| match column {
-            Column::Words(words, _) => Err(words),
+            Column::Words(words, _) => Err(words.iter().collect::<Vec<_>>()),
             // A column of numbers stays one where none of them is there: NaN.
             numbers => Ok(numbers.array().map_or_else(Vec::new, |array| array.values.into_owned())),
         };

@@ -144,9 +144,10 @@ pub use documents::surface::{
 };
 pub use documents::sweep::{
     AxisDocument, AxisName, EnsembleDocument, RegimeCounts, ShardDocument, SourceName,
-    StatisticsDocument, SweepDocument, SweepFound, SweepParameters, SweepPoint, SweepRunParameters,
+    StatisticsDocument, SweepDocument, SweepFound, SweepParameters, SweepPoint, SweepPoints,
+    SweepRunParameters,
 };
-pub use documents::table::{Array, Column, Named, Tabular};
+pub use documents::table::{Array, Column, Named, Rows, Tabular};
 pub use documents::verification::{
     EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
 };

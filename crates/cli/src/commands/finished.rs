@@ -11,9 +11,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
 use std::fs::File;
-use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use stickslip::{KeptLine, Software, SweepPoint};
+use stickslip::{KeptLine, Software, SweepPoint, SweepPoints};
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
@@ -21,14 +21,62 @@ pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
     const NAME: &'static str;
     /// Name of the whole, such as "sweep".
     const WHOLE: &'static str;
+    /// A list of parts.
+    type All: Parts<Self>;
 
     /// Index of the part.
     fn index(&self) -> usize;
 }
 
+/// A list of parts, in the order in which they were finished until it is sorted.
+pub(crate) trait Parts<P>: Default + Extend<P> + Send {
+    fn count(&self) -> usize;
+    fn indices(&self) -> impl Iterator<Item = usize>;
+    fn each(&self) -> impl Iterator<Item = P>;
+    /// Sorts the parts by their index.
+    fn order(&mut self);
+}
+
+impl<P: Part + Send> Parts<P> for Vec<P> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn indices(&self) -> impl Iterator<Item = usize> {
+        self.iter().map(P::index)
+    }
+
+    fn each(&self) -> impl Iterator<Item = P> {
+        self.iter().cloned()
+    }
+
+    fn order(&mut self) {
+        self.sort_by_key(P::index);
+    }
+}
+
+impl Parts<SweepPoint> for SweepPoints {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn indices(&self) -> impl Iterator<Item = usize> {
+        self.indices()
+    }
+
+    fn each(&self) -> impl Iterator<Item = SweepPoint> {
+        self.iter()
+    }
+
+    fn order(&mut self) {
+        self.sort();
+    }
+}
+
 impl Part for SweepPoint {
     const NAME: &'static str = "point";
     const WHOLE: &'static str = "sweep";
+    type All = SweepPoints;
 
     fn index(&self) -> usize {
         self.index
@@ -38,6 +86,7 @@ impl Part for SweepPoint {
 impl Part for KeptLine {
     const NAME: &'static str = "line";
     const WHOLE: &'static str = "raster";
+    type All = Vec<Self>;
 
     fn index(&self) -> usize {
         self.index
@@ -46,8 +95,8 @@ impl Part for KeptLine {
 
 /// The parts finished so far, and the file in which they are saved, if any.
 #[derive(Debug)]
-pub(super) struct Finished<P> {
-    parts: Vec<P>,
+pub(super) struct Finished<P: Part> {
+    parts: P::All,
     kept: Option<Kept>,
 }
 
@@ -81,7 +130,7 @@ fn partial_of(output: &Path) -> PathBuf {
 impl<P: Part> Finished<P> {
     /// No parts, and no file.
     pub(super) fn in_memory() -> Self {
-        Self { parts: vec![], kept: None }
+        Self { parts: P::All::default(), kept: None }
     }
 
     /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
@@ -93,7 +142,7 @@ impl<P: Part> Finished<P> {
     ) -> Result<Self, Failure> {
         let path = partial_of(output);
         let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
-        let opened = open(&path, output, &head, has);
+        let opened = open::<P>(&path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
             if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded) {
                 return Failure::Write { target: path.display().to_string(), error };
@@ -107,14 +156,14 @@ impl<P: Part> Finished<P> {
         Ok(Self { parts, kept: Some(Kept { path, file, is_gone: false, name: P::NAME }) })
     }
 
-    pub(super) fn parts(&self) -> &[P] {
+    pub(super) fn parts(&self) -> &P::All {
         &self.parts
     }
 
     /// Adds a part, and saves it first.
     pub(super) fn add(&mut self, part: P) -> io::Result<()> {
         self.keep(&part)?;
-        self.parts.push(part);
+        self.parts.extend([part]);
         Ok(())
     }
 
@@ -132,17 +181,10 @@ impl<P: Part> Finished<P> {
         self.kept.as_ref().filter(|kept| !kept.is_gone).map(|kept| kept.path.as_path())
     }
 
-    /// The parts by rising index.
-    pub(super) fn in_order(&self) -> Vec<P> {
-        let mut parts = self.parts.clone();
-        parts.sort_by_key(Part::index);
-        parts
-    }
-
-    /// The parts by rising index, without a copy: they leave this list, but not the file.
-    pub(super) fn take_in_order(&mut self) -> Vec<P> {
+    /// The parts by rising index. They leave this list, but not the file.
+    pub(super) fn take_in_order(&mut self) -> P::All {
         let mut parts = std::mem::take(&mut self.parts);
-        parts.sort_unstable_by_key(Part::index);
+        parts.order();
         parts
     }
 
@@ -200,37 +242,41 @@ fn open<P: Part>(
     output: &Path,
     head: &impl Serialize,
     has: impl Fn(usize) -> bool,
-) -> io::Result<(File, Vec<P>)> {
+) -> io::Result<(File, P::All)> {
     let mut first = serde_json::to_vec(head)?;
     first.push(b'\n');
-    let mut text = vec![];
-    if let Some(mut file) = beside::ours(path, MAGIC)? {
-        file.read_to_end(&mut text)?;
-        if text.starts_with(&first) && !beside::has_other_names(&file)? {
-            let (length, parts) = read(path, &text, first.len(), has);
-            // What a kill left of the last line goes.
-            file.set_len(length as u64)?;
-            file.seek(SeekFrom::End(0))?;
-            return Ok((file, parts));
-        }
+    let mut taken_over = None;
+    if let Some(file) = beside::ours(path, MAGIC)? {
+        let mut lines = BufReader::new(&file);
+        let mut text = vec![];
+        lines.read_until(b'\n', &mut text)?;
         // A kill may have left a part of the first line.
-        if !text.starts_with(&first) && !first.starts_with(&text) {
+        if text != first && !first.starts_with(&text) {
             return Err(io::Error::other(other::<P>(&text)));
+        }
+        if text == first {
+            let (length, parts) = read::<P>(path, lines, first.len(), has)?;
+            if !beside::has_other_names(&file)? {
+                // What a kill left of the last line goes.
+                file.set_len(length as u64)?;
+                (&file).seek(SeekFrom::End(0))?;
+                return Ok((file, parts));
+            }
+            taken_over = Some((file, length, parts));
         }
     }
     let mut file = beside::create_like(path, MAGIC, output)?;
-    let is_taken_over = text.starts_with(&first);
-    let (length, parts) = match is_taken_over {
-        true => read(path, &text, first.len(), has),
-        false => (0, vec![]),
+    let Some((mut old, length, parts)) = taken_over else {
+        file.write_all(&first)?;
+        return Ok((file, P::All::default()));
     };
-    file.write_all(if is_taken_over { &text[..length] } else { &first })?;
+    old.rewind()?;
+    io::copy(&mut old.take(length as u64), &mut file)?;
     Ok((file, parts))
 }
 
-/// The reason why parts cannot be resumed.
-fn other<P: Part>(text: &[u8]) -> String {
-    let first = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+/// The reason why parts cannot be resumed, from the first line.
+fn other<P: Part>(first: &[u8]) -> String {
     let made = serde_json::from_slice::<serde_json::Value>(first).ok();
     let made = made.as_ref().and_then(|head| head["arithmetic"].as_str());
     match made {
@@ -242,19 +288,19 @@ fn other<P: Part>(text: &[u8]) -> String {
 /// The complete lines after the first: the length up to their end, and their parts.
 fn read<P: Part>(
     path: &Path,
-    text: &[u8],
+    mut lines: impl BufRead,
     first: usize,
     has: impl Fn(usize) -> bool,
-) -> (usize, Vec<P>) {
-    let (mut length, mut damaged, mut parts) = (first, 0, vec![]);
-    let mut seen = HashSet::new();
-    let lines = text[first..].split_inclusive(|byte| *byte == b'\n');
-    for line in lines.filter(|line| line.ends_with(b"\n")) {
+) -> io::Result<(usize, P::All)> {
+    let (mut length, mut damaged, mut parts) = (first, 0, P::All::default());
+    let (mut seen, mut line) = (HashSet::new(), vec![]);
+    while lines.read_until(b'\n', &mut line)? > 0 && line.ends_with(b"\n") {
         length += line.len();
-        match part_of::<P>(line) {
-            Some(part) if has(part.index()) && seen.insert(part.index()) => parts.push(part),
+        match part_of::<P>(&line) {
+            Some(part) if has(part.index()) && seen.insert(part.index()) => parts.extend([part]),
             _ => damaged += 1,
         }
+        line.clear();
     }
     if damaged > 0 {
         let path = path.display();
@@ -263,7 +309,7 @@ fn read<P: Part>(
             P::NAME
         ));
     }
-    (length, parts)
+    Ok((length, parts))
 }
 
 #[cfg(test)]

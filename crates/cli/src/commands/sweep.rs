@@ -3,7 +3,7 @@
 pub(crate) mod divided;
 pub(crate) mod merge;
 
-use super::finished::{Finished, Part};
+use super::finished::{Finished, Part, Parts};
 use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{
@@ -35,6 +35,7 @@ const MOST_TIPS: usize = 10_000;
 impl Part for RasterSweepPoint {
     const NAME: &'static str = "point";
     const WHOLE: &'static str = "sweep";
+    type All = Vec<Self>;
 
     fn index(&self) -> usize {
         self.index
@@ -133,7 +134,7 @@ impl Place<'_> {
             None => Finished::in_memory(),
         };
         let threads = self.work.threads.unwrap_or(0);
-        let mut finished = compute(&grid, &indices, finished, threads)?;
+        let mut finished = compute(&grid, indices, finished, threads)?;
         let points = finished.take_in_order();
         let document = <Document<Q> as Divided>::of(grid, points);
         job.finish(document.sealed()?.in_units(scales.as_ref()))?;
@@ -142,37 +143,34 @@ impl Place<'_> {
     }
 }
 
-/// Computes all points that are not finished yet.
+/// Computes those of the `missing` points that are not finished yet.
 ///
 /// # Errors
 /// A signal arrived, or a point could not be saved.
 fn compute<Q: Points>(
     grid: &Q,
-    indices: &[usize],
+    mut missing: Vec<usize>,
     mut finished: Finished<Q::Point>,
     threads: usize,
 ) -> Result<Finished<Q::Point>, Failure>
 where
     Q::Point: Part,
 {
-    let done: HashSet<usize> = finished.parts().iter().map(Part::index).collect();
-    let missing: Vec<usize> =
-        indices.iter().copied().filter(|index| !done.contains(index)).collect();
-    let count = indices.len();
-    if let (Some(path), false) = (finished.path(), done.is_empty()) {
-        remark(format_args!(
-            "stickslip: {} of {count} points are in {}",
-            done.len(),
-            path.display()
-        ));
+    let (done, count) = (finished.parts().count(), missing.len());
+    if done > 0 {
+        let there: HashSet<usize> = finished.parts().indices().collect();
+        missing.retain(|index| !there.contains(index));
+    }
+    if let (Some(path), true) = (finished.path(), done > 0) {
+        remark(format_args!("stickslip: {done} of {count} points are in {}", path.display()));
     }
     let interrupt = Interrupt::listen()?;
-    let so_far = Arc::new(AtomicUsize::new(done.len()));
+    let so_far = Arc::new(AtomicUsize::new(done));
     let (path, known) = (finished.path().map(Path::to_owned), Arc::clone(&so_far));
     interrupt.or_else(move |signal| {
         unfinished(known.load(Ordering::Relaxed), count, path.as_deref(), signal)
     });
-    let mut progress = Progress::new(done.len() as f64, count as f64).at_every_call();
+    let mut progress = Progress::new(done as f64, count as f64).at_every_call();
     let mut kept: io::Result<()> = Ok(());
     let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
     let computed = each_point(grid, &missing, threads, &context, |point| {
@@ -186,7 +184,7 @@ where
         Failure::Write { target, error }
     })?;
     if let Some(signal) = interrupt.signal() {
-        return Err(unfinished(finished.parts().len(), count, finished.path(), signal));
+        return Err(unfinished(finished.parts().count(), count, finished.path(), signal));
     }
     computed?;
     Ok(finished)

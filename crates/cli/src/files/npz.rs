@@ -14,7 +14,7 @@ const NEEDS: u16 = 20;
 /// # Errors
 /// The archive would exceed 4 GiB, or `out` cannot be written.
 pub(super) fn write<'a>(
-    arrays: impl IntoIterator<Item = (impl AsRef<str>, &'a Array<'a>)>,
+    arrays: impl IntoIterator<Item = (impl AsRef<str>, Array<'a>)>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (mut index, mut at, mut number) = (vec![], 0_u32, 0_u16);
@@ -105,7 +105,7 @@ mod tests {
             ("long", array(&[70_000], (0..70_000).map(f64::from).collect())),
         ];
         let mut bytes = vec![];
-        write(arrays.iter().map(|(name, array)| (name, array)), &mut bytes).unwrap();
+        write(arrays.clone(), &mut bytes).unwrap();
         let mut read = NpzReader::new(Cursor::new(bytes)).unwrap();
         assert_eq!(read.names().unwrap(), ["t", "u", "empty", "number", "long"]);
         for (name, wanted) in &arrays {

@@ -5,7 +5,7 @@ use super::output::Output;
 use crate::failure::Failure;
 use crate::message::harmless;
 use std::io::{self, Write};
-use stickslip::{Column, Tabular, arrays_in_units, columns_in_units};
+use stickslip::{Column, Rows, Tabular, arrays_in_units, columns_in_units};
 
 /// Writes the columns as CSV, with their names and a line for each row.
 pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Failure> {
@@ -42,8 +42,8 @@ fn write_row(
 fn rows(column: &Column) -> Option<usize> {
     match column {
         Column::Numbers(values) => Some(values.len()),
-        Column::Optional(values) => Some(values.len()),
-        Column::Words(words, _) => Some(words.len()),
+        Column::Optional(values) => Some(values.count()),
+        Column::Words(words, _) => Some(words.count()),
         Column::Repeated { .. } => None,
     }
 }
@@ -51,8 +51,8 @@ fn rows(column: &Column) -> Option<usize> {
 /// A column as text.
 enum Cells<'a> {
     Numbers(&'a [f64]),
-    Optional(&'a [Option<f64>]),
-    Words(&'a [String]),
+    Optional(&'a Rows<'a, Option<f64>>),
+    Words(&'a Rows<'a, String>),
     /// Repeated text, formatted once because shortest digits are expensive.
     Repeated(Vec<String>, usize),
 }
@@ -73,9 +73,9 @@ impl<'a> Cells<'a> {
         match self {
             Self::Numbers(values) => line.push_str(&values[row].to_string()),
             Self::Optional(values) => {
-                line.push_str(&values[row].map(|value| value.to_string()).unwrap_or_default());
+                line.push_str(&values.at(row).map(|value| value.to_string()).unwrap_or_default());
             }
-            Self::Words(words) => line.push_str(&harmless(&words[row])),
+            Self::Words(words) => line.push_str(&harmless(&words.at(row))),
             Self::Repeated(texts, each) => line.push_str(&texts[row / each % texts.len()]),
         }
     }
@@ -83,8 +83,7 @@ impl<'a> Cells<'a> {
 
 /// Writes the arrays as a NumPy archive.
 pub(crate) fn write_npz(table: &impl Tabular, output: Output) -> Result<(), Failure> {
-    let arrays = arrays_in_units(table);
-    output.write_with(|out| npz::write(arrays.iter().map(|(name, array)| (name, array)), out))
+    output.write_with(|out| npz::write(arrays_in_units(table), out))
 }
 
 #[cfg(test)]
@@ -97,11 +96,12 @@ mod tests {
 
     impl Tabular for Kinds {
         fn columns(&self) -> Vec<Named<'_>> {
+            let words = |words: [&str; 3]| words.map(String::from).to_vec();
             vec![
                 ("a", vec![0.1, -2.0, 1e300].into()),
                 ("b", vec![Some(1.0), None, Some(3.5)].into()),
-                ("c", Column::Words(["x", "", "z"].map(String::from).into(), Some(vec![0.0; 3]))),
-                ("d", Column::Words(["p", "q", "r"].map(String::from).into(), None)),
+                ("c", Column::Words(words(["x", "", "z"]).into(), Some(vec![0.0; 3].into()))),
+                ("d", Column::words(words(["p", "q", "r"]))),
                 ("e", Column::Repeated { values: vec![1.0, 2.0].into(), each: 2 }),
             ]
         }

@@ -559,7 +559,7 @@ impl Tabular for FitFound {
             self.numbers.iter().map(|n| of(&n.estimate)).collect()
         };
         vec![
-            ("number", Column::Words(names, None)),
+            ("number", Column::words(names)),
             ("value", of(|e| Some(e.value)).into()),
             ("low", of(|e| e.low).into()),
             ("high", of(|e| e.high).into()),

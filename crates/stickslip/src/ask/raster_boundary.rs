@@ -208,7 +208,7 @@ impl Tabular for RasterBoundaryFound {
         if let Some(ThresholdColumns { kind, ripples, bunching, snaking }) = &self.thresholds {
             let kinds = kind.iter().map(|kind| kind.as_str().into()).collect();
             columns.extend([
-                ("kind", Column::Words(kinds, None)),
+                ("kind", Column::words(kinds)),
                 ("alpha_ripples", Column::optional(ripples)),
                 ("alpha_bunching", Column::optional(bunching)),
                 ("alpha_snaking", Column::optional(snaking)),

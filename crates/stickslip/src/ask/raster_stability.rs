@@ -362,7 +362,7 @@ impl Tabular for RasterStabilityFound {
         ];
         if self.thresholds.is_some() {
             let kinds = rows.iter().filter_map(|at| at.kind).map(RasterKindName::as_str);
-            columns.push(("kind", Column::Words(kinds.map(Into::into).collect(), None)));
+            columns.push(("kind", Column::words(kinds.map(Into::into).collect())));
         }
         columns
     }

@@ -297,7 +297,7 @@ impl Ask for SweepParameters {
     }
 
     fn answer(&self, context: &Context) -> Result<(SweepFound, Vec<String>), Failure> {
-        let points = all_points(self, context)?;
+        let points = all_points(self, context)?.into_iter().collect();
         let ensembles = EnsembleDocument::all(self, &points);
         Ok((SweepFound { points, ensembles, arithmetic: None, crc32: None }, vec![]))
     }

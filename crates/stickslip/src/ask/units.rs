@@ -328,7 +328,7 @@ impl Tabular for UnitsDocument {
     fn columns(&self) -> Vec<Named<'_>> {
         let quantities = self.quantities();
         let words = |of: fn(&(&'static str, Option<f64>, &'static str)) -> String| {
-            Column::Words(quantities.iter().map(of).collect(), None)
+            Column::words(quantities.iter().map(of).collect())
         };
         vec![
             ("quantity", words(|(name, _, _)| (*name).into())),

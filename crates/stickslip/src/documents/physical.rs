@@ -53,14 +53,16 @@ fn in_unit<'a>((name, column): Named<'a>, scales: &KnownScales) -> InUnit<'a> {
     }
 }
 
-/// The arrays of a document, converted in the same way.
-pub fn arrays<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<(Cow<'static, str>, Array<'a>)> {
+/// The arrays of a document, converted in the same way, each made when its turn comes.
+pub fn arrays<'a>(
+    table: &'a (impl Tabular + ?Sized),
+) -> impl Iterator<Item = (Cow<'static, str>, Array<'a>)> {
     let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
-    let in_unit = |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {
+    let in_unit = move |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {
         Some((factor, name)) => (name.into(), array.times(factor)),
         None => (name.into(), array),
     };
-    table.arrays().into_iter().map(in_unit).collect()
+    table.each_array().map(in_unit)
 }
 
 fn scaled(name: &str, scales: &KnownScales) -> Option<(f64, String)> {

@@ -3,16 +3,18 @@
 mod axis;
 mod ensemble;
 mod point;
+mod points;
 mod shard;
 mod start;
 
 pub use axis::{AxisDocument, AxisName};
 pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
 pub use point::{SourceName, SweepPoint};
+pub use points::SweepPoints;
 pub use shard::ShardDocument;
 pub use start::SweepRunParameters;
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Rows, Tabular};
 use crate::{Document, InUnits, Law, Question, Tip};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,7 +25,8 @@ use stickslip_tip::Wider;
 #[serde(deny_unknown_fields)]
 pub struct SweepFound {
     /// The points, by rising index.
-    pub points: Vec<SweepPoint>,
+    #[schemars(with = "Vec<SweepPoint>")]
+    pub points: SweepPoints,
     /// Ensembles of points that differ only in the seed of their noise, in the order of the points; present if seeds
     /// vary and all parts are included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -134,17 +137,18 @@ impl Tabular for SweepDocument {
 
     /// The points as a table. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
     fn columns(&self) -> Vec<Named<'_>> {
+        let (points, count) = (&self.points, self.points.len());
         let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
-            self.points.iter().map(of).collect::<Vec<_>>().into()
+            Column::Optional(Rows::new(count, move |row| of(&points.at(row))))
         };
-        let words = |of: fn(&SweepPoint) -> Option<String>| -> Vec<String> {
-            self.points.iter().map(|point| of(point).unwrap_or_default()).collect()
+        let words = |of: fn(&SweepPoint) -> Option<String>| {
+            Rows::new(count, move |row| of(&points.at(row)).unwrap_or_default())
         };
-        let regimes = self.points.iter().map(|p| p.regime.map_or(f64::NAN, |r| f64::from(r as u8)));
-        let regimes = Column::Words(
-            words(|p| p.regime.map(|regime| regime.to_string())),
-            Some(regimes.collect()),
-        );
+        let regimes = Rows::new(count, |row| {
+            points.at(row).regime.map_or(f64::NAN, |regime| f64::from(regime as u8))
+        });
+        let regimes =
+            Column::Words(words(|p| p.regime.map(|regime| regime.to_string())), Some(regimes));
         let widths = self.parameters.width.as_ref().map(|_| ("width", number(|p| p.width)));
         let place = vec![
             ("beta", number(|p| p.beta)),
@@ -152,8 +156,8 @@ impl Tabular for SweepDocument {
             ("alpha", number(|p| p.alpha)),
         ];
         let axis = |(i, axis): (usize, &AxisDocument)| {
-            let values = self.points.iter().map(|point| point.at.get(i).copied());
-            (axis.name.column(), values.collect::<Vec<_>>().into())
+            let values = Rows::new(count, move |row| points.at(row).at.get(i).copied());
+            (axis.name.column(), Column::Optional(values))
         };
         let axes = self.parameters.axes.iter().enumerate().map(axis);
         let found = vec![
@@ -171,5 +175,10 @@ impl Tabular for SweepDocument {
             [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
         });
         widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
+    }
+
+    fn each_array(&self) -> Box<dyn Iterator<Item = (&'static str, Array<'_>)> + '_> {
+        let columns = self.columns().into_iter();
+        Box::new(columns.filter_map(|(name, column)| Some((name, column.array()?))))
     }
 }

@@ -2,14 +2,16 @@
 
 use crate::InUnits;
 use std::borrow::Cow;
+use std::fmt;
+use std::sync::Arc;
 
 /// A column of a table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum Column<'a> {
     /// A number in each row.
     Numbers(Cow<'a, [f64]>),
     /// A number or nothing: an empty cell, or NaN in an array.
-    Optional(Cow<'a, [Option<f64>]>),
+    Optional(Rows<'a, Option<f64>>),
     /// Each of `values` repeated for `each` rows, and the whole repeated to the end of the table.
     Repeated {
         /// Values, from the first row on.
@@ -18,7 +20,50 @@ pub enum Column<'a> {
         each: usize,
     },
     /// Words, and if defined the numbers that represent them in an array.
-    Words(Vec<String>, Option<Vec<f64>>),
+    Words(Rows<'a, String>, Option<Rows<'a, f64>>),
+}
+
+/// Values computed row by row, so that a long table need not hold all of its columns at once.
+#[derive(Clone)]
+pub struct Rows<'a, T> {
+    count: usize,
+    at: Arc<dyn Fn(usize) -> T + 'a>,
+}
+
+impl<'a, T> Rows<'a, T> {
+    /// The values of `at` for the rows from 0 to `count` - 1.
+    pub fn new(count: usize, at: impl Fn(usize) -> T + 'a) -> Self {
+        Self { count, at: Arc::new(at) }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The value in a row.
+    #[must_use]
+    pub fn at(&self, row: usize) -> T {
+        (self.at)(row)
+    }
+
+    /// All values.
+    pub fn iter(&self) -> impl Iterator<Item = T> {
+        (0..self.count).map(|row| self.at(row))
+    }
+}
+
+impl<T: Clone + 'static> From<Vec<T>> for Rows<'_, T> {
+    fn from(values: Vec<T>) -> Self {
+        Self::new(values.len(), move |row| values[row].clone())
+    }
+}
+
+impl<T> fmt::Debug for Rows<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} rows", self.count)
+    }
 }
 
 /// A name and the column below it.
@@ -53,6 +98,11 @@ pub trait Tabular {
         let columns = self.columns();
         columns.into_iter().filter_map(|(name, column)| Some((name, column.array()?))).collect()
     }
+
+    /// The same arrays, of which a document with many rows makes one at a time.
+    fn each_array(&self) -> Box<dyn Iterator<Item = (&'static str, Array<'_>)> + '_> {
+        Box::new(self.arrays().into_iter())
+    }
 }
 
 impl<'a> Column<'a> {
@@ -63,21 +113,27 @@ impl<'a> Column<'a> {
 
     /// A column of numbers, some of which may be missing.
     pub fn optional(values: &'a [Option<f64>]) -> Self {
-        Self::Optional(values.into())
+        Self::Optional(Rows::new(values.len(), |row| values[row]))
+    }
+
+    /// A column of words that no array contains.
+    pub fn words(words: Vec<String>) -> Self {
+        Self::Words(words.into(), None)
     }
 
     /// The column multiplied by a factor.
-    pub(crate) fn times(self, factor: f64) -> Column<'static> {
+    pub(crate) fn times(self, factor: f64) -> Self {
         let times = |values: &[f64]| values.iter().map(|v| v * factor).collect::<Vec<_>>();
         match self {
             Self::Numbers(values) => times(&values).into(),
             Self::Optional(values) => {
-                values.iter().map(|v| v.map(|v| v * factor)).collect::<Vec<_>>().into()
+                let count = values.count();
+                Self::Optional(Rows::new(count, move |row| values.at(row).map(|v| v * factor)))
             }
             Self::Repeated { values, each } => {
-                Column::Repeated { values: times(&values).into(), each }
+                Self::Repeated { values: times(&values).into(), each }
             }
-            Self::Words(words, numbers) => Column::Words(words, numbers),
+            words @ Self::Words(..) => words,
         }
     }
 
@@ -86,7 +142,7 @@ impl<'a> Column<'a> {
         let values = match self {
             Self::Numbers(values) | Self::Repeated { values, .. } => values,
             Self::Optional(values) => values.iter().map(|v| v.unwrap_or(f64::NAN)).collect(),
-            Self::Words(_, numbers) => numbers?.into(),
+            Self::Words(_, numbers) => numbers?.iter().collect(),
         };
         Some(Array { shape: vec![values.len()], values })
     }

@@ -7,7 +7,6 @@ use super::layers::{LANES, Lanes, dot, values};
 use super::modes::Modes;
 use super::past::Past;
 use super::products::Product;
-use super::stages::Jet;
 use crate::TipFunction;
 use crate::memory::{Fit, FitError, Retreat, SteadyPast};
 
@@ -112,4 +111,24 @@ impl Part {
 pub(super) struct Room {
     layers: Vec<Lanes>,
     scratch: Vec<Lanes>,
+}
+
+/// An integral over f, or f itself, with first and second derivatives.
+pub(super) struct Jet {
+    pub(super) value: f64,
+    pub(super) push: [f64; 2],
+    pub(super) bend: [f64; 3],
+}
+
+impl Jet {
+    /// The sum over all products of the footprint.
+    pub(super) fn sum(parts: &[Part], mut of: impl FnMut(&Part) -> Self) -> Self {
+        let add = |sum: Self, jet: Self| Self {
+            value: sum.value + jet.value,
+            push: std::array::from_fn(|i| sum.push[i] + jet.push[i]),
+            bend: std::array::from_fn(|i| sum.bend[i] + jet.bend[i]),
+        };
+        let none = Self { value: 0.0, push: [0.0; 2], bend: [0.0; 3] };
+        parts.iter().map(&mut of).fold(none, add)
+    }
 }

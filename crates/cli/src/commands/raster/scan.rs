@@ -1,6 +1,6 @@
 //! Scan of the lines; each is saved when finished.
 
-use crate::commands::finished::Finished;
+use crate::commands::finished::{Finished, Parts};
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -21,12 +21,13 @@ pub(super) fn scan(
     file: Option<&Path>,
     interrupt: &Interrupt,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
-    let mut finished = match file {
+    let mut finished: Finished<KeptLine> = match file {
         Some(file) => Finished::beside(file, parameters, |index| index < plan.lines())?,
         None => Finished::in_memory(),
     };
     let failed = |error: stickslip_raster::RasterError| Failure::Run(error.to_string());
-    let mut scanning = Scanning::resumed(plan, taken_up(plan, &finished)).map_err(failed)?;
+    let mut scanning =
+        Scanning::resumed(plan, taken_up(plan, finished.parts().clone())).map_err(failed)?;
     let kept: HashSet<usize> = finished.parts().iter().map(|line| line.index).collect();
     let (first, count) = (scanning.lines().len(), plan.lines());
     if let (Some(path), true) = (finished.path(), first > 0) {
@@ -62,8 +63,8 @@ pub(super) fn scan(
 }
 
 /// The leading lines that are all finished.
-fn taken_up(plan: &Plan, finished: &Finished<KeptLine>) -> Vec<Line> {
-    let kept = finished.in_order();
+fn taken_up(plan: &Plan, mut kept: Vec<KeptLine>) -> Vec<Line> {
+    kept.order();
     let in_order = kept.iter().enumerate().take_while(|(n, line)| line.index == *n);
     in_order.map_while(|(_, line)| line.line(plan).ok()).collect()
 }

@@ -4,7 +4,7 @@ use super::{Summary, again, digits};
 use crate::commands::job::Product;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
-    SpecialName, StatisticsDocument, SweepDocument, to_its_digits,
+    SpecialName, StatisticsDocument, SweepDocument, SweepPoint, to_its_digits,
 };
 
 impl Product for CycleDocument {
@@ -118,9 +118,9 @@ impl Product for SweepDocument {
         let summary = counts
             .iter()
             .fold(summary, |summary, (regime, count)| summary.row(regime, count.to_string()));
-        let why = failed.clone().next().and_then(|point| {
-            let error = point.error.as_ref()?;
-            Some(format!("{}, the first at r = {}: {error}", failed.count(), digits(point.r, 7)))
+        let why = failed.clone().next().and_then(|SweepPoint { r, error, .. }| {
+            let count = failed.count();
+            Some(format!("{count}, the first at r = {}: {}", digits(r, 7), error?))
         });
         statistics(summary, &ensembles)
             .maybe("failed", why)

@@ -26,7 +26,7 @@ pub(crate) trait Divided:
     const FORMAT: &'static str;
 
     /// The document of these points.
-    fn of(parameters: Self::Parameters, points: Vec<Self::Point>) -> Self;
+    fn of(parameters: Self::Parameters, points: <Self::Point as Part>::All) -> Self;
 
     /// The parameters of the document.
     fn parameters(&self) -> &Self::Parameters;
@@ -38,7 +38,7 @@ pub(crate) trait Divided:
     fn held(&mut self) -> Held<'_, Self::Point>;
 
     /// The points in this document, by rising index.
-    fn points(&self) -> &[Self::Point];
+    fn points(&self) -> &<Self::Point as Part>::All;
 
     /// Number of points of the whole grid.
     fn count(&self) -> usize;
@@ -75,9 +75,9 @@ pub(crate) trait Divided:
 }
 
 /// The fields of a part that merging changes.
-pub(crate) struct Held<'a, P> {
+pub(crate) struct Held<'a, P: Part> {
     pub(super) shard: &'a mut Option<ShardDocument>,
-    pub(super) points: &'a mut Vec<P>,
+    pub(super) points: &'a mut P::All,
     pub(super) arithmetic: &'a mut Option<String>,
     pub(super) crc32: &'a mut Option<u32>,
 }
@@ -89,7 +89,7 @@ macro_rules! by_fields {
         type Parameters = $parameters;
         const FORMAT: &'static str = Self::FORMAT;
 
-        fn of(parameters: $parameters, points: Vec<$point>) -> Self {
+        fn of(parameters: $parameters, points: <$point as Part>::All) -> Self {
             Document::new(parameters, $found(points), vec![])
         }
 
@@ -103,7 +103,7 @@ macro_rules! by_fields {
             }
         }
 
-        fn points(&self) -> &[$point] {
+        fn points(&self) -> &<$point as Part>::All {
             &self.points
         }
 

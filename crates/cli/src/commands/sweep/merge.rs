@@ -2,7 +2,7 @@
 
 use super::divided::Divided;
 use crate::arguments::MergeArguments;
-use crate::commands::finished::Part;
+use crate::commands::finished::Parts;
 use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
 use crate::failure::Failure;
@@ -53,9 +53,9 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
                  those of one machine"
             ));
         }
-        all.points.append(part.points);
+        all.points.extend(part.points.each());
     }
-    whole.held().points.sort_by_key(Part::index);
+    whole.held().points.order();
     judge_parts(&shards)?;
     complete(&whole)?;
     if arguments.plot.is_some() {
@@ -102,10 +102,9 @@ pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &
         return false;
     }
     let is_asked = |found: &D| {
-        let points = found.points().iter().map(Part::index);
         found.parameters() == asked
             && *found.software() == Software::this()
-            && points.eq(indices.iter().copied())
+            && found.points().indices().eq(indices.iter().copied())
     };
     let name = path.display();
     match read::<D>(path) {
@@ -135,18 +134,20 @@ fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
 pub(crate) fn complete(whole: &impl Divided) -> Result<(), Failure> {
     let refused = |message: String| Err(Failure::input(PART, message));
     let points = whole.points();
-    if let Some(pair) = points.windows(2).find(|pair| pair[0].index() == pair[1].index()) {
-        return refused(format!("point {} is in more than one part", pair[0].index()));
+    let mut pairs = points.indices().zip(points.indices().skip(1));
+    if let Some((twice, _)) = pairs.find(|(one, next)| one == next) {
+        return refused(format!("point {twice} is in more than one part"));
     }
-    let count = whole.count();
-    if let Some(missing) = (0..count).find(|i| points.get(*i).map(Part::index) != Some(*i)) {
-        let (found, advice) = (points.len(), "name the documents of all parts");
+    let (found, count) = (points.count(), whole.count());
+    let off = (0..count).zip(points.indices()).find(|(wanted, index)| wanted != index);
+    if let Some(missing) = off.map(|(wanted, _)| wanted).or((found < count).then_some(found)) {
+        let advice = "name the documents of all parts";
         return refused(format!(
             "point {missing} is missing ({found} of {count} are there): {advice}"
         ));
     }
-    if points.len() > count {
-        return refused(format!("there are {} points, the grid has {count}", points.len()));
+    if found > count {
+        return refused(format!("there are {found} points, the grid has {count}"));
     }
     Ok(())
 }

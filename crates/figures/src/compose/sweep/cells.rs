@@ -4,7 +4,7 @@ use super::varied::{Phase, Varied};
 use crate::cells::ascending;
 use crate::compose::labels::{ALPHA, R};
 use stickslip::{
-    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument, SweepPoint,
+    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument,
 };
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::{TipFunction, Wider};
@@ -13,9 +13,9 @@ use stickslip_tip::{TipFunction, Wider};
 pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> PanelDocument {
     let mut panel = PanelDocument::new("", (slow.label, fast.label));
     let mut kinds = vec![vec![None; slow.values.len()]; fast.values.len()];
-    for point in &document.points {
-        let kind = Phase::of(point).and_then(|p| Phase::ALL.iter().position(|all| *all == p));
-        kinds[fast.place(point)][slow.place(point)] = kind;
+    for point in document.points.iter() {
+        let kind = Phase::of(&point).and_then(|p| Phase::ALL.iter().position(|all| *all == p));
+        kinds[fast.place(&point)][slow.place(&point)] = kind;
     }
     let (x, columns) = ascending(slow.values);
     let (y, rows) = ascending(fast.values);
@@ -49,8 +49,15 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     if parameters.alpha.as_ref().or(parameters.alpha_above.as_ref()).is_none_or(|a| a.len() < 2) {
         return vec![];
     }
+    // What the points say costs nothing.
+    let mut known = vec![None; slow.values.len()];
+    for point in document.points.iter() {
+        let known = &mut known[slow.place(&point)];
+        *known = known.or(point.critical_alpha);
+    }
+    let known = known.into_iter().enumerate();
     let thresholds: Vec<(f64, f64, f64)> =
-        (0..slow.values.len()).map(|i| threshold(document, slow, i)).collect();
+        known.map(|(i, known)| threshold(document, slow, i, known)).collect();
     let x: Vec<f64> = thresholds.iter().map(|t| t.0).collect();
     let line = |style, name: &str, y: fn(&(f64, f64, f64)) -> f64, colour| {
         let shown: Vec<f64> =
@@ -66,15 +73,18 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     ]
 }
 
-/// The slow parameter, αc and the trapping threshold at each value; NaN if there is none.
-fn threshold(document: &SweepDocument, slow: Varied, i: usize) -> (f64, f64, f64) {
+/// A value of the slow parameter, αc there, which a point may have `known`, and the trapping threshold; NaN if there is
+/// none.
+fn threshold(
+    document: &SweepDocument,
+    slow: Varied,
+    i: usize,
+    known: Option<f64>,
+) -> (f64, f64, f64) {
     let parameters = &document.parameters;
     let of_r = slow.label == R;
     let r = if of_r { slow.values[i] } else { parameters.r.first().copied().unwrap_or(f64::NAN) };
     let tip = if of_r { parameters.tips.first() } else { parameters.tips.get(i) };
-    // What the points say costs nothing.
-    let here = |point: &&SweepPoint| slow.place(point) == i;
-    let known = document.points.iter().filter(here).find_map(|point| point.critical_alpha);
     let of = |value: &dyn Fn(&TipFunction) -> Option<f64>| tip.and_then(|tip| value(&tip.0));
     let onset =
         known.or_else(|| of(&|tip| critical(&Wider::default(), tip, r).ok().map(|c| c.alpha)));

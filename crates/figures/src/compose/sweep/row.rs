@@ -14,7 +14,7 @@ pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocumen
     let measures: [(&str, Measure); 2] =
         [("amplitude of x₀ (σ)", |p| p.amplitude_x0), ("period (Γ/k)", |p| p.period)];
     let is_there =
-        |(_, value): &(&str, Measure)| document.points.iter().any(|p| value(p).is_some());
+        |(_, value): &(&str, Measure)| document.points.iter().any(|p| value(&p).is_some());
     let count = measures.iter().filter(|measure| is_there(measure)).count();
     let shown = measures.into_iter().filter(|measure| count == 0 || is_there(measure));
     let panel = |(label, value): (&str, Measure)| panel(document, axis, label, value);
@@ -23,7 +23,7 @@ pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocumen
 
 fn panel(document: &SweepDocument, axis: Varied, label: &str, value: Measure) -> PanelDocument {
     let mut panel = PanelDocument::new("", (axis.label, label));
-    let values = document.points.iter().filter_map(value).filter(|v| v.is_finite());
+    let values = document.points.iter().filter_map(|p| value(&p)).filter(|v| v.is_finite());
     let positive = extremes(values.clone().filter(|v| *v > 0.0));
     if positive.is_some_and(|(low, high)| high > WIDE * low) {
         panel.y_scale = ScaleName::Logarithmic;
@@ -38,8 +38,8 @@ fn panel(document: &SweepDocument, axis: Varied, label: &str, value: Measure) ->
         let here = || document.points.iter().filter(move |p| Phase::of(p) == Some(phase));
         let place = |p: &SweepPoint| axis.values[axis.place(p)];
         let (x, y): (Vec<f64>, Vec<f64>) =
-            here().filter_map(|p| Some((place(p), value(p)?))).unzip();
-        let without: Vec<f64> = here().filter(|p| value(p).is_none()).map(place).collect();
+            here().filter_map(|p| Some((place(&p), value(&p)?))).unzip();
+        let without: Vec<f64> = here().filter(|p| value(p).is_none()).map(|p| place(&p)).collect();
         let foot = vec![range.2; without.len()];
         let name = phase.name();
         let at_foot = format!("{name} (no value)");

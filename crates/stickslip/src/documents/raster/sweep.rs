@@ -93,7 +93,7 @@ impl Tabular for RasterSweepFound {
             ("pitch", of(|point| Some(point.pitch))),
             ("alpha", of(|point| Some(point.alpha))),
             ("critical_alpha", of(|point| point.critical_alpha)),
-            ("regime", Column::Words(self.points.iter().map(regime).collect(), None)),
+            ("regime", Column::words(self.points.iter().map(regime).collect())),
             ("q", pattern(|p| p.q)),
             ("kappa", pattern(|p| p.kappa)),
             ("wavelength", pattern(|p| p.wavelength)),

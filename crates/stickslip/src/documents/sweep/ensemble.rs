@@ -1,6 +1,6 @@
 //! Ensembles: points that differ only in the seed of their noise.
 
-use super::{AxisName, SweepParameters, SweepPoint};
+use super::{AxisName, SweepParameters, SweepPoint, SweepPoints};
 use crate::RegimeName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -69,10 +69,13 @@ pub struct StatisticsDocument {
 
 impl EnsembleDocument {
     /// The ensembles of a whole grid, in which seeds vary fastest; `None` if seeds do not vary.
-    pub fn all(parameters: &SweepParameters, points: &[SweepPoint]) -> Option<Vec<Self>> {
+    pub fn all(parameters: &SweepParameters, points: &SweepPoints) -> Option<Vec<Self>> {
         let seeds = parameters.axes.last().filter(|axis| axis.name == AxisName::Seed)?;
         let is_whole = parameters.shard.is_none() && points.len() == parameters.points();
-        is_whole.then(|| points.chunks(seeds.values.len().max(1)).map(Self::of).collect())
+        let (count, each) = (points.len(), seeds.values.len().max(1));
+        let member = |first: usize| (first..count.min(first + each)).map(|place| points.at(place));
+        let ensemble = |first| Self::of(&member(first).collect::<Vec<_>>());
+        is_whole.then(|| (0..count).step_by(each).map(ensemble).collect())
     }
 
     fn of(points: &[SweepPoint]) -> Self {

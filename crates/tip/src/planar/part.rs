@@ -21,6 +21,10 @@ pub(super) struct Part {
     size: f64,
 }
 
+/// Factor by which the error of exponentials may exceed its share where they are no better: three quarters
+/// of the tolerance then.
+const MOST_SLACK: f64 = 30.0;
+
 /// How the past is stored.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Storage {
@@ -36,7 +40,14 @@ impl Part {
         let Product { along, bells, size, slope_error, layer_error } = product;
         let past = match storage {
             Storage::Modes(back, with_lattice) => {
-                let modes = Modes::new(Fit::cached(along, *slope_error, back)?);
+                let fit = Fit::cached(along, *slope_error, back).or_else(|error| match error {
+                    // A narrow lattice, of a table of many rows.
+                    FitError::NotMet { reached, .. } if reached <= MOST_SLACK * slope_error => {
+                        Fit::cached(along, MOST_SLACK * slope_error, back)
+                    }
+                    error => Err(error),
+                });
+                let modes = Modes::new(fit?);
                 Past::new(modes, if with_lattice { Lattice::new(along) } else { None })
             }
             Storage::Lattice => Past::of_lattice(Lattice::new(along).ok_or(FitError::NeverFades)?),

@@ -193,8 +193,8 @@ fn lines_of_a_sum_of_products_are_those_of_the_direct_sum() {
         width_y: *width_y,
     };
     let of_terms = Footprint::gaussian_sum(&star.iter().map(term).collect::<Vec<_>>()).unwrap();
-    let place = |n: usize| 0.4 * n as f64;
-    let points = || (0..25).flat_map(|j| (0..25).map(move |i| (place(i), place(j))));
+    let place = |n: usize| 0.25 * n as f64;
+    let points = || (0..36).flat_map(|j| (0..36).map(move |i| (place(i), place(j))));
     let (x, y): (Vec<f64>, Vec<f64>) = points().unzip();
     let f: Vec<f64> = points().map(|(x, y)| of_terms.value(x, y)).collect();
     let of_table = Footprint::table(&x, &y, &f).unwrap();

@@ -42,7 +42,7 @@ impl Case {
         let free = Free { disturbance: pulse(1.0, 0.5), ..Free::new(self.stiffness) };
         let plan = Plan::over(footprint, model, self.path, self.area());
         let mut plan = Plan { disturbance: pulse(0.7, 0.52), ..plan.with_free(free) };
-        plan.law.tolerance = 1e-11;
+        plan.law.tolerance = 3e-12;
         plan
     }
 
@@ -117,14 +117,14 @@ impl Case {
     }
 }
 
-/// At the wave numbers of ripples, of bunching and of straight trenches, q = 0, somewhat below the threshold: there lines are all alike but for what
+/// At the wave numbers of ripples, of bunching and of straight trenches, q = 0 (where lines with ∫g = 0 do not meet), somewhat below the threshold: there lines are all alike but for what
 /// deviates, and what begins at the edge does not come to the middle.
 #[test]
 fn every_line_answers_along_and_across_as_theory_says() {
     for (name, beta, stiffness, pitch, path, lines, q) in [
         ("ripples", 0.0, 3.0, 1.0, Path::OneWay, 8, [1.0, 0.05, 0.0]),
         ("bunching", 0.0, 0.8, 1.0, Path::OneWay, 8, [0.05, 0.4, 0.0]),
-        ("side lobes", 1.0, 2.0, 1.0, Path::OneWay, 8, [0.9, 1.2, 0.0]),
+        ("side lobes", 1.0, 2.0, 1.0, Path::OneWay, 8, [0.9, 1.2, 1.05]),
         ("pairs", 0.0, 1.0, 2.0, Path::OneWay, 5, [0.05, 0.4, 0.0]),
         ("there and back", 0.0, 1.0, 1.0, Path::Zigzag, 8, [0.05, 0.4, 0.0]),
     ] {

@@ -52,9 +52,9 @@ def run_many(questions, *, progress=None):
     results = [None if document is None else result_of(document) for document, _ in runs]
     failed = [f"run {number}: {in_words_of_python(path, why)}" for number, (_, why) in enumerate(runs) if why is not None]
     if failed:
-        error = RuntimeError("\n".join(failed))
-        error.results = results
-        raise error
+        failure = RuntimeError("\n".join(failed))
+        failure.results = results
+        raise failure
     return results
 
 

@@ -31,5 +31,12 @@ def test_a_notebook_is_committed_with_what_it_shows(path):
     assert not any(output["output_type"] == "error" for output in shown)
 
 
+def test_each_finding_has_a_notebook():
+    chapters = (ROOT / "docs" / "findings" / "README.md").read_text("utf-8").split("\n## ")[1:]
+    assert len(chapters) >= 10
+    lacking = [chapter.splitlines()[0] for chapter in chapters if not any(f"notebooks/{path.name})" in chapter for path in NOTEBOOKS)]
+    assert not lacking
+
+
 def test_there_are_notebooks():
-    assert len(NOTEBOOKS) >= 9
+    assert len(NOTEBOOKS) >= 12

@@ -53,7 +53,7 @@ from ._results import (
 )
 from ._warning import StickslipWarning
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Without `open`: a star import leaves that of Python alone.
 __all__ = [

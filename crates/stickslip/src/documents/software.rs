@@ -40,7 +40,7 @@ impl Software {
     }
 }
 
-/// Name, version and commit, such as `stickslip 0.1.0 (commit 1234abcd…, clean)`.
+/// Name, version and commit, such as `stickslip 0.2.0 (commit 1234abcd…, clean)`.
 impl fmt::Display for Software {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{} {}", self.name, self.version)?;

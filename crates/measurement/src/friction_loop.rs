@@ -25,6 +25,8 @@ pub struct FrictionLoop {
 pub struct LoopNumbers {
     /// Half of the mean difference of both ways, beyond twice the distance to the static peak: the kinetic force.
     pub friction: Estimate,
+    /// Half of the mean difference of both ways along the whole loop: ∮ F dx over twice its length.
+    pub mean: Estimate,
     /// Mean of both ways there: the zero of the instrument, and slopes of the sample.
     pub offset: Estimate,
     /// First maximum of the force after the reversal, less the offset; mean of both ways.
@@ -84,6 +86,41 @@ impl FrictionLoop {
         }
     }
 
+    /// A loop of two tracks, positions and forces in any order: the second is interpolated at the positions of the first, where
+    /// both overlap.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of_tracks(
+        there: (Vec<f64>, Vec<f64>),
+        back: (Vec<f64>, Vec<f64>),
+    ) -> Result<Self, LoopError> {
+        let (x, there) = ascending(there)?;
+        let (over, back) = ascending(back)?;
+        if x.is_empty() || over.len() < FEWEST {
+            return Err(LoopError::Rows(x.len().min(over.len())));
+        }
+        let last = over.len() - 1;
+        // Units that were converted differ in their last digit.
+        let slack = 1e-9 * (over[last] - over[0]);
+        let within = over[0] - slack..=over[last] + slack;
+        let rows = x.into_iter().zip(there).filter(|(x, _)| within.contains(x));
+        let (x, there): (Vec<f64>, Vec<f64>) = rows.unzip();
+        let at = |x: &f64| {
+            let above = over.partition_point(|other| other < x).clamp(1, last);
+            let part = (x - over[above - 1]) / (over[above] - over[above - 1]);
+            back[above - 1] + part * (back[above] - back[above - 1])
+        };
+        let back = x.iter().map(at).collect();
+        Self::new(x, there, back)
+    }
+
+    /// Positions, and forces on the way there and back.
+    #[must_use]
+    pub fn rows(&self) -> [&[f64]; 3] {
+        [&self.x, &self.there, &self.back]
+    }
+
     /// Friction, static peak, work and stiffness.
     ///
     /// # Errors
@@ -118,12 +155,17 @@ impl FrictionLoop {
             high: 0.5 * (first.0 + second.0) + quantile * 0.5 * f64::hypot(first.1, second.1),
         };
         let reversal = 0.5 * (peaks[0].way + peaks[1].way);
+        let work = self.work(noise, &friction, both.len());
+        let twice = 2.0 * (self.x[rows - 1] - self.x[0]);
+        let mean =
+            Estimate { value: work.value / twice, low: work.low / twice, high: work.high / twice };
         Ok(LoopNumbers {
             friction,
+            mean,
             offset,
             static_peak: Estimate { value: peak, low: peak - width, high: peak + width },
             peak_ratio: peak / friction.value,
-            work: self.work(noise, &friction, both.len()),
+            work,
             reversal,
             stiffness,
             noise,
@@ -144,6 +186,22 @@ impl FrictionLoop {
             quantile(f64::INFINITY) * noise * spacing * (2.0 * rest).sqrt(),
         );
         Estimate { value, low: value - error, high: value + error }
+    }
+}
+
+/// A track by ascending position.
+fn ascending((x, force): (Vec<f64>, Vec<f64>)) -> Result<(Vec<f64>, Vec<f64>), LoopError> {
+    if x.len() != force.len() {
+        return Err(LoopError::Rows(x.len().min(force.len())));
+    }
+    if let Some(i) = x.iter().zip(&force).position(|(x, f)| !(x.is_finite() && f.is_finite())) {
+        return Err(LoopError::Value(i + 1));
+    }
+    let mut rows: Vec<(f64, f64)> = x.into_iter().zip(force).collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    match rows.windows(2).position(|pair| pair[0].0 >= pair[1].0) {
+        Some(i) => Err(LoopError::Value(i + 2)),
+        None => Ok(rows.into_iter().unzip()),
     }
 }
 

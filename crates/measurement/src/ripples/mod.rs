@@ -10,21 +10,19 @@ mod wave;
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
 use crate::least_squares::{Residuals, differences, minimum};
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
-use std::f64::consts::TAU;
-use stickslip_tip::TipFunction;
+use std::f64::consts::{PI, TAU};
+use stickslip_tip::Footprint;
 use thiserror::Error;
 use travelling::{Lines, Travelling, crest_angle};
-use wave::{HARMONICS, UNKNOWNS, Wave};
+use wave::{HARMONICS, UNKNOWNS, Wave, height, levelled_image, phase};
 
 /// What is known of an image of ripples.
 #[derive(Debug, Clone)]
 pub struct RippleRequest {
-    /// f(x), in σ.
-    pub tip: TipFunction,
-    /// v of f(x,y) = f(x) exp(-y²/(2v²)), in σ.
-    pub across: f64,
+    /// f(x,y), in σ.
+    pub footprint: Footprint,
     /// σ, in the unit of the image.
     pub sigma: f64,
     /// Distance of the scan lines, in the unit of the image.
@@ -50,6 +48,10 @@ pub struct Ripples {
     pub amplitude: Estimate,
     /// Wave vector along x and y; q > 0.
     pub wave_vector: [f64; 2],
+    /// φ: crests lie where qx + κy + φ is a multiple of 2π.
+    pub phase: f64,
+    /// The mean ripple.
+    pub profile: RippleProfile,
     /// k/a: heights are k/a times σ² times those of the model.
     pub height_gain: f64,
     /// Threshold of linear theory at this r and wave vector, as α.
@@ -59,12 +61,28 @@ pub struct Ripples {
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
     /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
-    /// [`Ripples::LEAST_MISFIT`] the model does not explain them, and α and r have no intervals.
+    /// [`Ripples::LEAST_MISFIT`] the model does not explain them.
     pub misfit: f64,
+    /// Standard deviation of the first harmonic between parts of the image, beyond the noise, relative to its size. Ripples that have
+    /// settled are uniform.
+    pub modulation: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the rows, that the wave explains.
     pub explained: f64,
+}
+
+/// The mean of all ripples over one wavelength, perpendicular to the crests; columns of equal length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RippleProfile {
+    /// Distance from the crest, ascending, in the direction of the wave vector.
+    pub distance: Vec<f64>,
+    /// Mean height.
+    pub height: Vec<f64>,
+    /// Standard deviation of that mean.
+    pub error: Vec<f64>,
+    /// Height of the model.
+    pub model: Vec<f64>,
 }
 
 /// The reason why an image gives no numbers.
@@ -107,11 +125,35 @@ const STANDS_OUT: f64 = 5.0;
 impl Ripples {
     /// Least probability of χ² at which the model is said to explain the ripples.
     pub const LEAST_MISFIT: f64 = 0.005;
+    /// Largest modulation of ripples that count as settled. Of 240 images of rasters those of settled ripples have at most 0.04; at
+    /// 0.06 to 0.1 α may be off by ten times its error.
+    pub const MOST_MODULATION: f64 = 0.05;
+
+    /// The image without offsets and slopes of its rows, averaged to at most `most` rows and columns.
+    ///
+    /// # Errors
+    /// The result is too small.
+    pub fn levelled(image: &Image, most: usize) -> Result<Image, ImageError> {
+        levelled_image(image, most)
+    }
+
+    /// Whether the model explains the ripples.
+    #[must_use]
+    pub fn is_explained(&self) -> bool {
+        self.misfit >= Self::LEAST_MISFIT && self.modulation <= Self::MOST_MODULATION
+    }
 
     /// Warnings about the result.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];
+        if self.modulation > Self::MOST_MODULATION {
+            remarks.push(format!(
+                "the ripples differ by {:.0} % between the parts of the image: they have not settled, and α and r get no intervals; \
+                 give a part away from the first lines and from the edge where the lines begin",
+                100.0 * self.modulation
+            ));
+        }
         if self.misfit < Self::LEAST_MISFIT {
             remarks.push(format!(
                 "the model does not explain these ripples (probability {:.1e}): they are not settled or not uniform in this image, \
@@ -141,13 +183,10 @@ const STEP: f64 = 1e-5;
 /// # Errors
 /// No ripples, or none that the model has.
 pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, RippleError> {
-    let positive =
-        [request.across, request.sigma, request.pitch].iter().all(|v| v.is_finite() && *v > 0.0);
-    let lines = Lines::new(request.tip.clone(), request.across, request.pitch / request.sigma)
+    let positive = [request.sigma, request.pitch].iter().all(|v| v.is_finite() && *v > 0.0);
+    let lines = Lines::new(&request.footprint, request.pitch / request.sigma)
         .filter(|_| positive)
-        .ok_or(RippleError::Request(
-            "needs σ, width across and pitch above 0, and a footprint that fades",
-        ))?;
+        .ok_or(RippleError::Request("needs σ and pitch above 0, and a footprint that fades"))?;
     let wave = Wave::of(image)?;
     if wave.strength < LEAST_STRENGTH {
         return Err(RippleError::Nothing);
@@ -164,6 +203,12 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let found =
         admitted.filter_map(|way| Problem::new(&lines, &wave, request.sigma, way)?.solved());
     let best = found.max_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    let middle = |at: &[f64]| 0.5 * (at[0] + at[at.len() - 1]);
+    let best = best.map(|found| {
+        let [q, kappa] = found.wave_vector;
+        let phase = found.phase - q * middle(image.x()) - kappa * middle(image.y());
+        Ripples { phase: phase.rem_euclid(TAU), ..found }
+    });
     best.ok_or_else(|| RippleError::NoPattern {
         wavelength: TAU / wave.q().hypot(wave.kappa()) / request.sigma,
         angle: crest_angle(wave.q(), wave.kappa()),
@@ -231,7 +276,7 @@ impl<'a> Problem<'a> {
         let mut values = DVector::zeros(UNKNOWNS);
         (values[0], values[1]) = (found.q, at[2]);
         for k in 1..=HARMONICS {
-            let turn = nalgebra::Complex::from_polar(at[3].exp(), k as f64 * at[4]);
+            let turn = Complex::from_polar(at[3].exp(), k as f64 * at[4]);
             let height = found.heights[k - 1] * turn;
             (values[2 * k], values[2 * k + 1]) = (height.re, height.im);
         }
@@ -243,7 +288,7 @@ impl<'a> Problem<'a> {
             let mut start = self.start.clone();
             start[0] = swing;
             let model = self.pattern(&start)?.heights[0];
-            let data = nalgebra::Complex::new(self.data[2], self.data[3]);
+            let data = Complex::new(self.data[2], self.data[3]);
             start[3] = (data.norm() / model.norm()).ln();
             start[4] = (data / model).arg();
             minimum(self, &start)
@@ -283,14 +328,38 @@ impl<'a> Problem<'a> {
             crest_angle: angle,
             amplitude,
             wave_vector: [self.wave.q(), self.wave.kappa()],
+            phase: self.wave.harmonic(1).arg(),
+            profile: self.profile(&found, at),
             height_gain: at[3].exp() / (self.sigma * self.sigma),
             neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
             forward,
             upward,
             misfit,
+            modulation: self.wave.modulation,
             residual: self.wave.residual,
             explained: self.wave.explained,
         })
+    }
+
+    /// The mean ripple of the image beside that of the pattern.
+    fn profile(&self, pattern: &Travelling, at: &[f64]) -> RippleProfile {
+        let turned = |(k, height): (usize, &Complex<f64>)| {
+            let height = height * Complex::from_polar(at[3].exp(), (k + 1) as f64 * at[4]);
+            if self.way.0 { height } else { height.conj() }
+        };
+        let model: Vec<Complex<f64>> = pattern.heights.iter().enumerate().map(turned).collect();
+        let crest = -self.wave.harmonic(1).arg();
+        let length = self.wave.q().hypot(self.wave.kappa());
+        let row = |(part, [mean, error]): (usize, &[f64; 2])| {
+            let phase = phase(part);
+            let away = (phase - crest + PI).rem_euclid(TAU) - PI;
+            [away / length, *mean, *error, height(&model, phase)]
+        };
+        let mut rows: Vec<[f64; 4]> = self.wave.folded.iter().enumerate().map(row).collect();
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let [distance, height, error, model] =
+            [0, 1, 2, 3].map(|i| rows.iter().map(|row| row[i]).collect());
+        RippleProfile { distance, height, error, model }
     }
 
     /// Wavelength, crest angle and amplitude of the wave in the image.

@@ -14,12 +14,12 @@
 //! ```
 //!
 //! The first term in brackets is the groove of the line itself, the second that of all earlier lines, for
-//! f(x,y) = f(x) h(y) with h(y) = exp(-y²/(2v²)). Its first order is the linear theory of rasters. For given r, κ and
+//! f(x,y) = f(x) h(y); a sum of such products has a sum of second terms. Its first order is the linear theory of rasters. For given r, κ and
 //! c_1 the equation determines α, q and the other harmonics. It holds as long as the tip only moves forward.
 
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
-use stickslip_tip::TipFunction;
+use stickslip_tip::{Footprint, Layer, TipFunction};
 
 type Complex64 = Complex<f64>;
 
@@ -47,13 +47,16 @@ const WEIGHTS: [f64; 4] = [
     0.101_228_536_290_376_26,
 ];
 
-/// Lines of a raster with a separable footprint. Lengths in σ.
+/// Lines of a raster. Lengths in σ.
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
+    /// f(x,0).
     tip: TipFunction,
-    /// v of h(y) = exp(-y²/(2v²)).
-    across: f64,
+    /// f(x,y) = Σ_l f_l(x) h_l(y).
+    layers: Vec<Layer>,
     pitch: f64,
+    /// Number of earlier lines that are not negligible.
+    earlier: u32,
     /// Nodes, weights times f', of the integral over f'.
     rule: Vec<(f64, f64)>,
     /// e^{2πi k/POINTS}.
@@ -81,12 +84,16 @@ struct Unknowns {
 }
 
 impl Lines {
-    /// `None` for a footprint that does not fade, or for sizes that are not above 0.
-    pub(crate) fn new(tip: TipFunction, across: f64, pitch: f64) -> Option<Self> {
+    /// `None` for a footprint that does not fade, or for a pitch that is not above 0.
+    pub(crate) fn new(footprint: &Footprint, pitch: f64) -> Option<Self> {
+        let tip = footprint.path().clone();
         let reach = tip.reach()?;
-        if !(across > 0.0 && pitch > 0.0 && reach.is_finite()) {
+        if !(pitch.is_finite() && pitch > 0.0 && reach.is_finite()) {
             return None;
         }
+        let layers = footprint.layers().to_vec();
+        let beside = |layer: &Layer| layer.across.center + WIDTHS * layer.across.width;
+        let widest = layers.iter().map(beside).fold(0.0, f64::max);
         let panels = (PANELS * reach).ceil().max(1.0);
         let half = 0.5 * reach / panels;
         let mut rule = vec![];
@@ -99,7 +106,8 @@ impl Lines {
             }
         }
         let turns = (0..POINTS).map(|i| Complex64::from_polar(1.0, TAU * i as f64 / POINTS as f64));
-        Some(Self { tip, across, pitch, rule, turns: turns.collect() })
+        let earlier = (widest / pitch).ceil().max(1.0) as u32;
+        Some(Self { tip, layers, pitch, earlier, rule, turns: turns.collect() })
     }
 
     /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, without α.
@@ -113,23 +121,23 @@ impl Lines {
                 *sum += power;
             }
         }
-        let mut earlier = vec![Complex64::new(0.0, 0.0); count];
-        let last = (WIDTHS * self.across / self.pitch).ceil().max(1.0);
-        for j in 1..=last as u32 {
-            let away = f64::from(j) * self.pitch;
-            let turn = Complex64::from_polar(1.0, -kappa * away);
-            let mut power = Complex64::new((-0.5 * (away / self.across).powi(2)).exp(), 0.0);
-            for sum in &mut earlier {
-                power *= turn;
-                *sum += power;
+        for layer in &self.layers {
+            let mut earlier = vec![Complex64::new(0.0, 0.0); count];
+            for j in 1..=self.earlier {
+                let away = f64::from(j) * self.pitch;
+                let turn = Complex64::from_polar(1.0, -kappa * away);
+                let mut power = Complex64::new(layer.across.value(away), 0.0);
+                for sum in &mut earlier {
+                    power *= turn;
+                    *sum += power;
+                }
+            }
+            for ((own, earlier), k) in own.iter_mut().zip(earlier).zip(1_u32..) {
+                let k = f64::from(k) * q;
+                *own += Complex64::new(0.0, k * layer.along.fourier(k)) * earlier;
             }
         }
-        let both = own.into_iter().zip(earlier).zip(1_u32..);
-        both.map(|((own, earlier), k)| {
-            let k = f64::from(k) * q;
-            own + Complex64::new(0.0, k * self.tip.fourier(k)) * earlier
-        })
-        .collect()
+        own
     }
 
     /// α and r of the neutral wave (q, κ) by linear theory; `None` if there is none with α, r > 0.
@@ -257,9 +265,10 @@ impl Lines {
     fn found(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
         let height = |(i, c): (usize, &Complex64)| {
             let k = (i + 1) as f64;
-            let lines = (TAU).sqrt() * self.across / self.pitch
-                * (-0.5 * (k * kappa * self.across).powi(2)).exp();
-            -c * (at.alpha * self.tip.fourier(k * at.q) * lines)
+            let layer = |layer: &Layer| {
+                layer.along.fourier(k * at.q) * layer.across.fourier(k * kappa) / self.pitch
+            };
+            -c * (at.alpha * self.layers.iter().map(layer).sum::<f64>())
         };
         let heights = at.c.iter().enumerate().map(height).collect();
         let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
@@ -295,7 +304,8 @@ mod tests {
     use super::*;
 
     fn lines(pitch: f64) -> Lines {
-        Lines::new(TipFunction::gaussian(1.0).unwrap(), 1.0, pitch).unwrap()
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        Lines::new(&Footprint::separable(tip, 1.0).unwrap(), pitch).unwrap()
     }
 
     /// Thresholds of linear theory, PHYSICS: αc = 0.805167 at pitch 1 and r = 1. The neutral curve r(q, κ) has its smallest α
@@ -340,7 +350,7 @@ mod tests {
     #[test]
     fn a_single_line_is_the_limit_cycle() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let lines = Lines::new(tip, 0.1, 10.0).unwrap();
+        let lines = Lines::new(&Footprint::separable(tip, 0.1).unwrap(), 10.0).unwrap();
         let alpha = 1.069_036_174_947 + 0.01;
         let (mut low, mut high) = (0.05, 0.6);
         for _ in 0..40 {

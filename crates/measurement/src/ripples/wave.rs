@@ -9,7 +9,7 @@
 //! from pixel to pixel, and slow changes of the pattern across the image.
 
 use super::RippleError;
-use crate::image::Image;
+use crate::image::{Image, ImageError};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -21,6 +21,11 @@ pub(crate) const HARMONICS: usize = 3;
 pub(crate) const UNKNOWNS: usize = 2 + 2 * HARMONICS;
 /// Blocks along each side for the errors.
 const BLOCKS: usize = 4;
+/// Ratio of the scatter of blocks to that of noise above which it is not chance: χ² of 32 degrees of freedom exceeds it with a
+/// probability of 0.0006.
+const BEYOND_NOISE: f64 = 2.0;
+/// Parts of a wavelength in the mean profile.
+const PARTS: usize = 48;
 /// Largest number of rows and columns of the periodogram, to which the image is averaged.
 const COARSE: usize = 128;
 /// Least number of wavelengths along x, and in the image altogether.
@@ -39,6 +44,10 @@ pub(crate) struct Wave {
     pub(crate) explained: f64,
     /// Mean square of the wave per unknown, relative to that of the residuals: F of independent pixels.
     pub(crate) strength: f64,
+    /// Standard deviation of the first harmonic between the blocks of the image, beyond the noise, relative to its size.
+    pub(crate) modulation: f64,
+    /// Mean height and its standard deviation at even phases qx + κy from 0 to 2π.
+    pub(crate) folded: Vec<[f64; 2]>,
 }
 
 /// Rows without their own offsets and slopes; positions relative to the middle.
@@ -69,6 +78,22 @@ impl Wave {
     pub(crate) fn harmonic(&self, k: usize) -> Complex64 {
         Complex64::new(self.values[2 * k], self.values[2 * k + 1])
     }
+}
+
+/// 2 Re Σ B_k e^{ikθ}.
+pub(crate) fn height(harmonics: &[Complex64], phase: f64) -> f64 {
+    let term = |(k, b): (usize, &Complex64)| (b * Complex64::cis((k + 1) as f64 * phase)).re;
+    2.0 * harmonics.iter().enumerate().map(term).sum::<f64>()
+}
+
+/// The image without offsets and slopes of its rows, averaged to at most `most` rows and columns.
+pub(crate) fn levelled_image(image: &Image, most: usize) -> Result<Image, ImageError> {
+    let Rows { x, y, z } = Rows::of(image).coarse(most);
+    let moved = |at: &[f64], of: &[f64]| -> Vec<f64> {
+        let middle = 0.5 * (of[0] + of[of.len() - 1]);
+        at.iter().map(|v| v + middle).collect()
+    };
+    Image::new(moved(&x, image.x()), moved(&y, image.y()), z)
 }
 
 impl Rows {
@@ -173,7 +198,7 @@ impl Rows {
                 [levelled_wave(&self.x, &plain), levelled_wave(&self.x, &times)]
             })
             .collect();
-        let mut found = Normal::default();
+        let mut found = Normal::empty();
         let (columns, rows) = (self.x.len(), self.y.len());
         for (j, (y, z)) in self.y.iter().zip(&self.z).enumerate() {
             let turn: [Complex64; HARMONICS] =
@@ -190,7 +215,9 @@ impl Rows {
                     slopes[2 + 2 * k] = 2.0 * here.re;
                     slopes[3 + 2 * k] = -2.0 * here.im;
                 }
-                found.add(block + i * BLOCKS / columns, left, &slopes);
+                let turns = ((q * self.x[i] + kappa * y) / TAU).rem_euclid(1.0);
+                let part = ((turns * PARTS as f64) as usize).min(PARTS - 1);
+                found.add((block + i * BLOCKS / columns, part), left, &slopes);
             }
         }
         found
@@ -219,23 +246,44 @@ impl Rows {
             (0..HARMONICS).for_each(|k| values[3 + 2 * k] = -values[3 + 2 * k]);
         }
         let explained = 1.0 - normal.sum / all.max(f64::MIN_POSITIVE);
-        Ok(Wave { values, covariance, residual, explained, strength })
+        let modulation = normal.modulation(&white) / values[2].hypot(values[3]);
+        let folded = vec![];
+        let mut wave =
+            Wave { values, covariance, residual, explained, strength, modulation, folded };
+        // The mean counts correlated noise as the first harmonic does.
+        let deviation = residual * (0.5 * (factor[2] * factor[2] + factor[3] * factor[3])).sqrt();
+        wave.folded = normal.folded(&wave, deviation);
+        if at[0] < 0.0 {
+            wave.folded.reverse();
+        }
+        Ok(wave)
     }
 }
 
 /// Normal equations of least squares.
-#[derive(Default)]
 struct Normal {
     matrix: [[f64; UNKNOWNS]; UNKNOWNS],
     /// Scores of the blocks.
     scores: [[f64; UNKNOWNS]; BLOCKS * BLOCKS],
     /// Sum of the squared residuals.
     sum: f64,
+    /// Sum and number of the residuals in each part of a wavelength.
+    parts: [(f64, f64); PARTS],
 }
 
 impl Normal {
-    fn add(&mut self, block: usize, left: f64, slopes: &[f64; UNKNOWNS]) {
+    fn empty() -> Self {
+        Self {
+            matrix: [[0.0; UNKNOWNS]; UNKNOWNS],
+            scores: [[0.0; UNKNOWNS]; BLOCKS * BLOCKS],
+            sum: 0.0,
+            parts: [(0.0, 0.0); PARTS],
+        }
+    }
+
+    fn add(&mut self, (block, part): (usize, usize), left: f64, slopes: &[f64; UNKNOWNS]) {
         self.sum += left * left;
+        self.parts[part] = (self.parts[part].0 + left, self.parts[part].1 + 1.0);
         for (i, slope) in slopes.iter().enumerate() {
             self.scores[block][i] += slope * left;
             for (sum, other) in self.matrix[i].iter_mut().zip(slopes).take(i + 1) {
@@ -265,6 +313,31 @@ impl Normal {
         Some(DVector::from_fn(UNKNOWNS, |i, _| if i < 2 { 0.0 } else { found[i - 2] }))
     }
 
+    /// The wave plus the mean residual in each part of a wavelength, and the standard deviation of that mean.
+    fn folded(&self, wave: &Wave, deviation: f64) -> Vec<[f64; 2]> {
+        let harmonics: Vec<Complex64> = (1..=HARMONICS).map(|k| wave.harmonic(k)).collect();
+        let part = |(i, (sum, count)): (usize, &(f64, f64))| {
+            let count = count.max(1.0);
+            [height(&harmonics, phase(i)) + sum / count, deviation / count.sqrt()]
+        };
+        self.parts.iter().enumerate().map(part).collect()
+    }
+
+    /// Standard deviation of the complex first harmonic between blocks, minus that of white noise; 0 if noise explains it.
+    fn modulation(&self, white: &DMatrix<f64>) -> f64 {
+        let count = (BLOCKS * BLOCKS) as f64;
+        let all = self.matrix();
+        let Some(inverse) = (all.view((2, 2), (2, 2)).into_owned() / count).try_inverse() else {
+            return f64::INFINITY;
+        };
+        let apart = |score: &[f64; UNKNOWNS]| {
+            (&inverse * DVector::from_column_slice(&score[2..4])).norm_squared()
+        };
+        let square = self.scores.iter().map(apart).sum::<f64>() / count;
+        let noise = count * (white[(2, 2)] + white[(3, 3)]);
+        if square > BEYOND_NOISE * noise { (square - noise).sqrt() } else { 0.0 }
+    }
+
     /// Sum over the blocks of the outer products of their scores.
     fn scatter(&self) -> DMatrix<f64> {
         let count = (BLOCKS * BLOCKS) as f64;
@@ -275,6 +348,11 @@ impl Normal {
         }
         sum * (count / (count - 1.0))
     }
+}
+
+/// The phase in the middle of a part of a wavelength.
+pub(crate) fn phase(part: usize) -> f64 {
+    TAU * (part as f64 + 0.5) / PARTS as f64
 }
 
 fn moved(at: &[f64; UNKNOWNS], step: &DVector<f64>) -> [f64; UNKNOWNS] {

@@ -106,6 +106,28 @@ fn a_loop_of_the_model_has_its_steady_lag() {
     assert!(found.offset.value.abs() < 0.02 * lag, "{found:?}");
 }
 
+/// Tracks over the same positions in reverse order are the loop itself; the second of other tracks is interpolated, in the part
+/// that both have.
+#[test]
+fn two_tracks_are_a_loop_where_they_overlap() {
+    let x: Vec<f64> = (0..200).map(f64::from).collect();
+    let there: Vec<f64> = x.iter().map(|x| (x - 5.0).min(5.0) + 0.1 * x.sin()).collect();
+    let back: Vec<f64> = x.iter().map(|x| (x - 194.0).max(-5.0)).collect();
+    let whole = FrictionLoop::new(x.clone(), there.clone(), back.clone()).unwrap();
+    let reversed = |v: &[f64]| v.iter().rev().copied().collect::<Vec<f64>>();
+    let track = (x.clone(), there.clone());
+    let other = (reversed(&x), reversed(&back));
+    assert_eq!(FrictionLoop::of_tracks(track.clone(), other).unwrap(), whole);
+    let shifted: Vec<f64> = x.iter().map(|x| x + 0.5).collect();
+    let linear: Vec<f64> = shifted.iter().map(|x| 0.3 * x - 1.0).collect();
+    let part = FrictionLoop::of_tracks(track, (shifted, linear)).unwrap();
+    let [at, _, found] = part.rows();
+    assert_eq!((at.len(), at[0]), (199, 1.0));
+    assert!(at.iter().zip(found).all(|(x, f)| (0.3 * x - 1.0 - f).abs() < 1e-12));
+    let twice = (vec![1.0; 30], vec![0.0; 30]);
+    assert_eq!(FrictionLoop::of_tracks((x, there), twice), Err(LoopError::Value(2)));
+}
+
 #[test]
 fn what_is_no_loop_is_refused() {
     let x: Vec<f64> = (0..50).map(f64::from).collect();

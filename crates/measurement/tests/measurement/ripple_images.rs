@@ -79,8 +79,7 @@ fn image(made: &mut Made, pixels: usize, noise: f64, seed: u64, mirrored: [bool;
 
 fn request(made: &Made) -> RippleRequest {
     RippleRequest {
-        tip: TipFunction::gaussian(1.0).unwrap(),
-        across: 1.0,
+        footprint: Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap(),
         sigma: SIGMA,
         pitch: SIGMA * made.pitch,
         forward: None,
@@ -133,8 +132,7 @@ fn noise_has_no_ripples() {
     let rows = (0..64).map(|_| (0..64).map(|_| normal(&mut random)).collect()).collect();
     let image = Image::new(at.clone(), at, rows).unwrap();
     let request = RippleRequest {
-        tip: TipFunction::gaussian(1.0).unwrap(),
-        across: 1.0,
+        footprint: Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap(),
         sigma: 2.0,
         pitch: 2.0,
         forward: None,
@@ -142,54 +140,4 @@ fn noise_has_no_ripples() {
     };
     let found = ripples(&image, &request);
     assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
-}
-
-/// 200 images of ten rasters. Of 142 whose ripples are settled (misfit above the limit) the intervals contain α in 132 and r in 141;
-/// two rasters at larger r are not uniform yet, one at 1.2 αc is not explained and has no intervals.
-#[test]
-#[ignore = "minutes"]
-fn study_of_200_images() {
-    let (mut all, mut held) = (0, [0_u32; 2]);
-    let mut worst = [0.0_f64; 2];
-    let rasters = [
-        (1.05, 1.0, 1.0),
-        (1.12, 1.0, 1.0),
-        (1.2, 1.0, 1.0),
-        (1.1, 0.7, 1.0),
-        (1.1, 1.5, 1.0),
-        (1.1, 1.0, 0.5),
-        (1.2, 1.0, 0.5),
-        (1.1, 0.7, 0.5),
-        (1.15, 1.4, 0.7),
-        (1.1, 1.0, 1.4),
-    ];
-    for (i, (above, r, pitch)) in rasters.into_iter().enumerate() {
-        let mut made = made(above, r, pitch, (140.0, 140.0));
-        for k in 0..20 {
-            let pixels = [64, 96, 128, 200, 256, 512][k % 6];
-            let noise = [0.02, 0.1, 0.3, 0.6, 1.0][k % 5];
-            let mirrored = [k % 2 == 1, k % 4 > 1];
-            let image = image(&mut made, pixels, noise, (100 * i + k) as u64, mirrored);
-            match ripples(&image, &request(&made)) {
-                Ok(found) if found.misfit < Ripples::LEAST_MISFIT => {
-                    println!("not explained: {}", summary(&made, &found));
-                }
-                Ok(found) => {
-                    all += 1;
-                    held[0] += u32::from(found.alpha.holds(made.alpha));
-                    held[1] += u32::from(found.r.holds(made.r));
-                    worst[0] = worst[0].max((found.alpha.value / made.alpha - 1.0).abs());
-                    worst[1] = worst[1].max((found.r.value / made.r - 1.0).abs());
-                    println!(
-                        "{above} {r} {pitch} {pixels} {noise} {mirrored:?} {} {}: {}",
-                        !found.forward,
-                        !found.upward,
-                        summary(&made, &found)
-                    );
-                }
-                Err(error) => println!("{above} {r} {pitch} {pixels} {noise}: {error}"),
-            }
-        }
-        println!("{all}: α {} r {}, worst {worst:?}", held[0], held[1]);
-    }
 }

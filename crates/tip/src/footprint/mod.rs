@@ -14,7 +14,7 @@
 mod layers;
 mod table;
 
-use crate::elementary::exp;
+use crate::elementary::{cos, exp};
 use crate::{TipFunction, TipFunctionError};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -81,7 +81,15 @@ impl Across {
     /// ∫ h dy
     #[must_use]
     pub fn integral(&self) -> f64 {
-        self.offsets(0.0).count() as f64 * self.width * (2.0 * PI).sqrt()
+        self.fourier(0.0)
+    }
+
+    /// ∫ h cos(ky) dy
+    #[must_use]
+    pub fn fourier(&self, k: f64) -> f64 {
+        let wave = |z: f64| cos(k * self.width * z);
+        let bell = self.width * (2.0 * PI).sqrt() * exp(-0.5 * (k * self.width).powi(2));
+        bell * self.offsets(0.0).map(wave).sum::<f64>()
     }
 
     /// Distances of y from the centers, in widths.

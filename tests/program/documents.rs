@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 18] = [
+const OTHERS: [(&str, &str); 20] = [
     ("stability", "stability --r 1"),
     ("walking", "stability --no-spring --alpha=-1"),
     ("walker", "run --walker --alpha=-3 --rotation 0.3 --until 20"),
@@ -73,6 +73,8 @@ const OTHERS: [(&str, &str); 18] = [
     ("cycle", "cycle --alpha 1.2 --r 1"),
     ("tip", "tip pit.csv --resamples 20"),
     ("fit", "fit --onsets onsets.csv --tip gaussian"),
+    ("fit-image", "fit --image ripples.gsf --tip gaussian --width 30nm --pitch 30nm"),
+    ("friction", "friction loop.csv"),
     ("continue", "continue --r 1 --over alpha --to 1.55 --switch"),
     ("sweep", "sweep --r 0.9:1:2 --alpha 0.9:2.3:4"),
     ("raster", "raster --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
@@ -96,6 +98,10 @@ fn every_schema_that_is_offered_is_that_of_some_document() {
     let pit = (-40..=40).map(|i: i32| format!("{i},{}\n", (-f64::from(i * i) / 72.0).exp()));
     folder.write("onsets.csv", "1,1.02\n2,2.5\n3,4.2\n4,6.5\n");
     folder.write("pit.csv", pit.collect::<String>());
+    folder.write("ripples.gsf", include_bytes!("../../examples/measured/area.gsf"));
+    let way = |x: f64| if x < 20.0 { x - 10.0 } else { 10.0 + x.sin() };
+    let row = |i: u32| format!("{i},{},{}\n", way(f64::from(i)), -way(f64::from(200 - i)));
+    folder.write("loop.csv", (0..=200).map(row).collect::<String>());
     for (name, line) in OTHERS {
         let document = folder.prints_json(line);
         assert_eq!(document["format"], format!("stickslip/{name}"));

@@ -26,6 +26,7 @@ mod fit_command;
 mod free_rasters;
 mod holds;
 mod image_files;
+mod image_fits;
 mod interrupts;
 mod origin;
 mod outcomes;

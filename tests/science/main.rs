@@ -20,6 +20,7 @@ mod questions;
 mod raster_documents;
 mod rasters_on_grids;
 mod regimes;
+mod ripple_images;
 mod same_bits;
 mod scaling_laws;
 mod stability_against_runs;

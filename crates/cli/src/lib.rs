@@ -89,6 +89,7 @@ fn done(command: &Command) -> Result<(), Failure> {
         Command::Raster(arguments) => commands::raster::raster(arguments),
         Command::Tip(arguments) => commands::tip::measured_tip(arguments),
         Command::Fit(arguments) => commands::fit::fit(arguments),
+        Command::Friction(arguments) => commands::friction::friction(arguments),
         Command::Units(arguments) => commands::units::units(arguments),
         Command::Plot(arguments) => commands::plot::plot(arguments),
         Command::Figures(arguments) => commands::figures::figures(arguments),

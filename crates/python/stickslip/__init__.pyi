@@ -280,6 +280,8 @@ def fit(
     *,
     ripple: _Data | None = None,
     friction: _Data | None = None,
+    image: _Path | _Columns | None = None,
+    pitch: str | _Number | None = None,
     onsets: _Path | _Columns | None = None,
     wavelengths: _Path | _Columns | None = None,
     height_gain: _Number | None = None,
@@ -299,9 +301,22 @@ def fit(
     parameters: _Path | _Columns | None = None,
     output: _Path | None = None,
     plot: _Path | None = None,
-    width: _Number | None = None,
+    width: str | _Number | None = None,
     progress: _Progress = None,
 ) -> FitResult: ...
+def friction(
+    trace: _Path | _Columns,
+    retrace: _Path | _Columns | None = None,
+    *,
+    unit: str | None = None,
+    force_unit: str | None = None,
+    parameters: _Path | _Columns | None = None,
+    stiffness: str | None = None,
+    sensitivity: str | None = None,
+    output: _Path | None = None,
+    plot: _Path | None = None,
+    progress: _Progress = None,
+) -> Result: ...
 def raster(
     *,
     tip: str | _Columns | None = None,

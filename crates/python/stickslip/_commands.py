@@ -26,7 +26,7 @@ def command(*path, returns=Result):
 
         def function(*args, progress=None, **given):
             if args:
-                bound = taken.bind(*args)
+                bound = taken.bind_partial(*args)
                 given = {**bound.arguments, **given}
             return call(path, given, progress)
 
@@ -138,7 +138,19 @@ def fit():
 
     ``estimates`` has value, low and high (95 %, by profile likelihood) of each number by its name: alpha and r without
     dimension, width sigma in the unit of the data; ``correlations`` has a row for each, of shape (numbers, numbers); ``data``
-    each of the data beside the model, ``remarks`` what should be known before it is believed."""
+    each of the data beside the model, ``remarks`` what should be known before it is believed.
+
+    ``image`` is an image of ripples: a .gsf file, a Dataset of :func:`stickslip.open`, or one of its channels. Its width and
+    pitch are numbers in nm, or text such as "30nm"; ``profile`` is the mean ripple beside that of the model."""
+
+
+@command("friction")
+def friction():
+    """Friction forces and work of a loop of lateral force, in nN and fJ where the units are known: files or columns (x, force)
+    of trace and retrace, or one of three columns (x, trace, retrace).
+
+    ``kinetic``, ``mean``, ``static_peak``, ``hysteresis``, ``work``, ``offset`` and ``stiffness`` have value, low and high
+    (95 %)."""
 
 
 @command("compare")

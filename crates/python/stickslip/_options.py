@@ -13,7 +13,10 @@ from ._results import Result
 Option = namedtuple("Option", "name is_positional value delimiter is_repeatable help")
 
 # What may be an image.
-IMAGES = {"measured"}
+IMAGES = {"measured", "image"}
+
+# A positional argument that may be left out.
+OPTIONAL = {"retrace"}
 
 # What is printed is for a shell: here the document itself is had.
 FOR_A_SHELL = {"print", "format"}
@@ -41,7 +44,9 @@ def signature(path, returns):
     Parameter = inspect.Parameter
     found = options(path)
     first = [
-        Parameter(name, Parameter.VAR_POSITIONAL if option.is_repeatable else Parameter.POSITIONAL_OR_KEYWORD)
+        Parameter(name, Parameter.VAR_POSITIONAL)
+        if option.is_repeatable
+        else Parameter(name, Parameter.POSITIONAL_OR_KEYWORD, default=None if name in OPTIONAL else Parameter.empty)
         for name, option in found.items()
         if option.is_positional
     ]

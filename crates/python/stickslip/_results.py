@@ -250,6 +250,9 @@ class FitResult(Result):
     @property
     def estimates(self):
         """Of each number fitted, by its name, value, low and high: a 95 % interval, None where the data do not bound it."""
+        if "numbers" not in self._document.names():
+            # Of an image.
+            return Record((name, getattr(self, name)) for name in ("alpha", "r", "wavelength", "crest_angle", "amplitude"))
         return Record((number.name, number.estimate) for number in self.numbers)
 
 
@@ -265,6 +268,7 @@ KINDS = {
     "stickslip/sweep": SweepResult,
     "stickslip/raster-sweep": RasterSweepResult,
     "stickslip/fit": FitResult,
+    "stickslip/fit-image": FitResult,
 }
 
 

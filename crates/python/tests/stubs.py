@@ -31,7 +31,7 @@ TYPES = {
     "T1,T2,…": "_Numbers",
     "NAME,…": "str | Sequence[str]",
     **dict.fromkeys(["NAME", "PATH", "MEMORY", "START", "PART", "GRID", "DIRECTION", "UNIT", "I/N"], "str"),
-    **dict.fromkeys(["Γ", "k", "σ", "N", "a", "v0"], "str"),
+    **dict.fromkeys(["Γ", "k", "σ", "N", "a", "v0", "F/UNIT"], "str"),
 }
 # By the name of the option, where that says more.
 NAMED = {
@@ -42,7 +42,11 @@ NAMED = {
     "friction": "_Data",
     "run": "_Path | Result",
     "measured": "_Path | _Columns",
+    "trace": "_Path | _Columns",
+    "retrace": "_Path | _Columns",
 }
+# Lengths of measured data have units.
+LENGTHS = {("fit", "width"), ("fit", "pitch")}
 # Two kinds of parts make two kinds of a whole.
 OVERLOADED = {("sweep", "merge"): [("RasterSweepResult", "RasterSweepResult"), ("_Path | SweepResult", "SweepResult")]}
 
@@ -52,6 +56,8 @@ def type_of(path, name, option):
         return "bool"
     if name in NAMED:
         return NAMED[name]
+    if (*path, name) in LENGTHS:
+        return "str | _Number"
     # A number of something has the letter of the indentation rate.
     if option.value == "N" and path != ("units",):
         return "_Number"
@@ -79,7 +85,7 @@ def stub(function, part=None, returns=None):
         elif kind == kind.KEYWORD_ONLY:
             lines.append(f"    {name}: {told} = False," if told == "bool" else f"    {name}: {told} | None = None,")
         else:
-            lines.append(f"    {name}: {told},")
+            lines.append(f"    {name}: {told}," if parameter.default is parameter.empty else f"    {name}: {told} | None = None,")
     returns = returns or taken.return_annotation.__name__
     return "\n".join([f"def {function.__name__}(", *lines, f") -> {returns}: ..."])
 

@@ -201,6 +201,30 @@ def test_fit_takes_a_profile_of_a_scan(ripples):
     assert found.estimates.width.low < 30 < found.estimates.width.high
 
 
+def test_fit_takes_an_image_of_ripples():
+    area = Path(__file__).parents[3] / "examples" / "measured" / "area.gsf"
+    known = {"tip": "gaussian", "width": "30nm", "pitch": "30nm"}
+    found = stickslip.fit(image=stickslip.open(area), **known)
+    assert found.estimates.alpha.low < 0.9 < found.estimates.alpha.high
+    assert found.estimates.r.low < 1.0 < found.estimates.r.high
+    assert found.parameters.unit == "nm" and found.profile.height.shape == found.profile.model.shape
+    program = stickslip.fit(image=area, **known)
+    assert program.estimates.alpha.value == pytest.approx(found.estimates.alpha.value, rel=1e-6)
+    bare = stickslip.fit(image=area, tip="gaussian", width=30, pitch=30.0)
+    assert bare.estimates.alpha.value == pytest.approx(program.estimates.alpha.value, rel=1e-9)
+
+
+def test_friction_takes_columns_with_units():
+    x = np.linspace(0.0, 2e3, 800)
+    trace = np.minimum(0.25 * x - 6.0, 6.0) + 0.1 * np.sin(x / 20.0)
+    retrace = np.maximum(6.0 - 0.25 * (2e3 - x), -6.0) + 0.1 * np.sin(x / 20.0)
+    found = stickslip.friction({"x_nm": x, "trace_nN": trace, "retrace_nN": retrace})
+    assert found.kinetic.value == pytest.approx(6.0, rel=0.02) and found.work_unit == "fJ"
+    apart = stickslip.friction({"x_nm": x, "force_nN": trace}, {"x_nm": x[::-1], "force_nN": retrace[::-1]})
+    assert apart.work.value == pytest.approx(found.work.value, rel=1e-9)
+    assert stickslip.friction((x, trace, retrace), unit="nm", force_unit="nN").work.value == found.work.value
+
+
 def test_an_image_is_no_profile_and_says_what_to_take(folder):
     scan = stickslip.open(folder / "scan.jpk", channel="height")
     with pytest.raises(ValueError, match=r'take one of its lines, such as scan\["Height"\].isel\(y=10\)'):

@@ -63,6 +63,10 @@ pub use ask::fit::{
     AlternativeDocument, DataFitted, Fit, FitDocument, FitFound, FreeName, Measured, NumberFitted,
     NumberHeld, ScanName,
 };
+pub use ask::fit_image::{
+    FitImage, FitImageDocument, FitImageFound, RippleProfileDocument, SlowScanName,
+};
+pub use ask::friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
 pub use ask::lines;
 pub use ask::measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,

@@ -1,10 +1,10 @@
 //! `stickslip fit`.
 
 use super::examples::examples;
-use super::{Options, OutletArguments};
+use super::{Either, Length, Options, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip::Fit;
+use stickslip::{Fit, FitImage};
 
 /// Estimate α, r and σ from ripples, lateral forces, onsets and wavelengths, with 95 % intervals.
 ///
@@ -14,9 +14,12 @@ use stickslip::Fit;
 /// for noise that is correlated from row to row and for the error of a measured footprint. The noise is estimated
 /// from the scatter between wavelengths: data without a significant ripple are rejected, and a model that does not
 /// explain the data gets no intervals.
+///
+/// With --image, α and r follow from the wave vector and the shape of the ripples of an area. Offset and tilt of each
+/// line are removed. The tip must be held on its lines, all of which are scanned in one direction.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
-#[command(mut_arg("width", |width| width.help("σ in the unit of the data, if known")))]
+#[command(mut_arg("width", |width| width.help(WIDTH)))]
 pub(crate) struct FitArguments {
     /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
     /// writes it.
@@ -27,6 +30,22 @@ pub(crate) struct FitArguments {
     /// the same positions.
     #[arg(long, value_name = "FILE", help_heading = "Data")]
     pub(crate) friction: Vec<PathBuf>,
+
+    /// Heights of an area of ripples, .gsf (Gwyddion), with rows along the lines that made them: settled, and scanned in
+    /// one direction.
+    #[arg(long, value_name = "FILE", help_heading = "Data", conflicts_with_all = OF_LINES)]
+    pub(crate) image: Option<PathBuf>,
+
+    /// Distance of the lines that made the ripples of an image, such as 15nm; a bare number is in the unit of the image
+    /// [default: the distance of its rows].
+    #[arg(
+        long,
+        value_name = "D",
+        help_heading = "Known",
+        allow_hyphen_values = true,
+        requires = "image"
+    )]
+    pub(crate) pitch: Option<Length>,
 
     /// Velocities, and the loads at the onset of stick-slip, two columns.
     #[arg(long, value_name = "FILE", help_heading = "Data")]
@@ -45,7 +64,7 @@ pub(crate) struct FitArguments {
     pub(crate) force_gain: Option<f64>,
 
     #[command(flatten)]
-    pub(crate) options: Options<Fit>,
+    pub(crate) options: Options<Either<Fit, FitImage>>,
 
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
@@ -55,15 +74,25 @@ pub(crate) struct FitArguments {
     pub(crate) plot: Option<PathBuf>,
 }
 
+const WIDTH: &str = "σ, such as 30nm, if known; a bare number is in the unit of the data. An image needs it, unless a \
+                     --tip-file written by `stickslip tip` contains it";
+
+/// Data that cannot be combined with an image.
+const OF_LINES: [&str; 6] =
+    ["ripple", "friction", "onsets", "wavelengths", "height_gain", "force_gain"];
+
 const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]
-       stickslip fit --onsets <FILE> [--wavelengths <FILE>] [OPTIONS]";
+       stickslip fit --onsets <FILE> [--wavelengths <FILE>] [OPTIONS]
+       stickslip fit --image <FILE> --width <W> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   α, r and σ from ripples in nm, by the tip measured before, drawn:
     stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
   The same with σ known, and with the lateral force of the same scan:
-    stickslip fit --ripple ripples.csv --friction trace.csv --tip-file tip.json --width 30
+    stickslip fit --ripple ripples.csv --friction trace.csv --tip-file tip.json --width 30nm
   A depth limit too, of rows some of which are dust:
     stickslip fit --ripple ripples.csv --free depth-limit --robust
+  α and r from an image of ripples whose lines were 15 nm apart:
+    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian -o fit.json --plot fit.png
   α per load and r per velocity from onsets:
     stickslip fit --onsets onsets.csv --tip-file tip.json";

@@ -9,6 +9,7 @@ mod disturbance;
 mod examples;
 mod figures;
 mod fit;
+mod friction;
 mod in_units;
 mod interval;
 mod model;
@@ -37,9 +38,10 @@ pub(crate) use cycle::CycleArguments;
 pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use fit::FitArguments;
+pub(crate) use friction::FrictionArguments;
 pub(crate) use in_units::InUnitsArguments;
 pub(crate) use interval::Interval;
-pub(crate) use model::TipArguments;
+pub(crate) use model::{Length, TipArguments};
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use question::{Either, Options, Questions};
@@ -111,6 +113,7 @@ const EXAMPLES: &str = "Examples:
   stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
   stickslip tip measured.csv -o tip.json --plot tip.svg
   stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
+  stickslip friction trace.csv retrace.csv -o friction.json --plot friction.svg
   stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
@@ -147,8 +150,10 @@ pub(crate) enum Command {
     Raster(Box<RasterArguments>),
     /// Fit a footprint to a measured profile or image.
     Tip(MeasuredTipArguments),
-    /// Estimate α, r and σ from measured ripples and forces, with 95 % intervals.
+    /// Estimate α, r and σ from measured ripples, images and forces, with 95 % intervals.
     Fit(Box<FitArguments>),
+    /// Compute friction forces and work from a loop of lateral force.
+    Friction(FrictionArguments),
     /// Convert measured quantities to the numbers of the model, and back.
     Units(UnitsArguments),
     /// Draw a saved document.

@@ -3,7 +3,28 @@
 use super::named::named;
 use clap::Args;
 use std::path::PathBuf;
+use std::str::FromStr;
 use stickslip::TipName;
+use stickslip_units::Unit;
+
+/// A length as typed: a number, or one with a unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Length {
+    /// In the unit of its context.
+    Bare(f64),
+    /// In m.
+    Metres(f64),
+}
+
+impl FromStr for Length {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let metres = || Unit::Length.parse(text).ok().map(Self::Metres);
+        let bare = text.trim().parse().ok().map(Self::Bare);
+        bare.or_else(metres).ok_or("needs a number, or for measured data a length such as 30nm")
+    }
+}
 
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Model")]
@@ -18,7 +39,7 @@ pub(crate) struct TipArguments {
 
     /// Width of either Gaussian: f(x/W) [default: 1].
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
-    pub(crate) width: Option<f64>,
+    pub(crate) width: Option<Length>,
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f` sampled on x ≥
     /// 0. In three dimensions each Gaussian also has a "width_y", and a "center_y" if that is not 0, or the CSV is

@@ -30,7 +30,7 @@ impl<Q: Question> Questions for Q {
 }
 
 /// One of several questions, selected by the options given.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Either<A, B>(PhantomData<(A, B)>);
 
 impl<A: Questions, B: Questions> Questions for Either<A, B> {

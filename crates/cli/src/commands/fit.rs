@@ -1,9 +1,10 @@
 //! `stickslip fit`.
 
-use super::ask::{context, refusal};
+use super::ask::{context, refusal, refuse_strangers};
+use super::fit_image::{fit_image, in_unit, without_width};
 use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
-use crate::arguments::{FitArguments, TipArguments};
+use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, read_measured};
@@ -15,6 +16,9 @@ use stickslip_units::Unit;
 
 pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let FitArguments { options, outlet, plot, .. } = arguments;
+    if let Some(path) = &arguments.image {
+        return fit_image(arguments, path);
+    }
     let mut read = options.files().to_vec();
     read.extend(arguments.ripple.iter().map(|path| ("--ripple", Some(&**path))));
     read.extend(arguments.friction.iter().map(|path| ("--friction", Some(&**path))));
@@ -34,13 +38,11 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 
 /// The question of the options, with the data of the files.
 fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
-    let TipArguments { width, .. } = arguments.options.tip;
-    // Here --width is σ, and no width of a footprint.
-    let mut options = arguments.options.clone();
-    options.tip.width = None;
+    let options = without_width(arguments);
     let (tip, draws) = tip_and_draws(&options.tip)?;
     let tip = options.tip.is_given().then_some(Tip(tip));
     let mut values = options.values()?;
+    refuse_strangers::<Fit, _>(&options, &values, "--ripple and other data of lines")?;
     let is_free = |name: &str| {
         values
             .get("free")
@@ -52,13 +54,17 @@ fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
             "is that of the triple Gaussian, and free: leave --beta, --tip and --tip-file out";
         return Err(Failure::input("--free beta", message));
     }
-    if let Some(width) = width {
+    let (data, unit) = data(arguments, values.get("unit").and_then(Value::as_str))?;
+    if let Some(width) = arguments.options.tip.width {
+        let width = in_unit("--width", width, unit.as_deref())?;
         values.insert("width".into(), json!(width));
     }
-    let (data, unit) = data(arguments, values.get("unit").and_then(Value::as_str))?;
     if data.is_empty() {
         let message = "at least one of these data files is needed";
-        return Err(Failure::input("--ripple, --friction, --onsets, --wavelengths", message));
+        return Err(Failure::input(
+            "--ripple, --friction, --onsets, --wavelengths, --image",
+            message,
+        ));
     }
     let question: Fit = parameter::question(values)?;
     Ok(Fit { draws, data, unit, ..question })

@@ -7,8 +7,8 @@ use crate::message::remark;
 use serde::Deserialize;
 use std::path::Path;
 use stickslip::{
-    DataFitted, EstimateDocument, Fit, FitDocument, KnownScales, MeasuredTipDocument, NumberFitted,
-    UnitsDocument,
+    DataFitted, EstimateDocument, Fit, FitDocument, FitImage, FitImageDocument, KnownScales,
+    MeasuredTipDocument, NumberFitted, UnitsDocument,
 };
 use stickslip_units::Unit;
 
@@ -154,6 +154,7 @@ struct Scaled {
     parameters: Option<serde_json::Value>,
     numbers: Option<Vec<NumberFitted>>,
     data: Option<serde_json::Value>,
+    height_gain: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -173,6 +174,7 @@ pub(crate) fn of_document(path: &Path) -> Result<KnownScales, Failure> {
             length.map(|_| KnownScales { length, ..KnownScales::default() })
         }
         Some(FitDocument::FORMAT) => document.fitted(),
+        Some(FitImageDocument::FORMAT) => document.fitted_image(),
         _ => document.physical.and_then(|physical| physical.scales),
     };
     let Some(scales) = scales else {
@@ -199,10 +201,21 @@ impl Scaled {
         let sigma = fitted.or(question.known("width"))?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
         let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
-        Some(KnownScales {
-            length: Some(sigma * metres),
-            height: gain.map(|gain| gain * sigma * sigma * metres),
-            ..KnownScales::default()
-        })
+        Some(of_ripples(metres, sigma, gain))
+    }
+
+    /// Scales of a fit to an image: σ is given.
+    fn fitted_image(self) -> Option<KnownScales> {
+        let FitImage { unit, width, .. } = serde_json::from_value(self.parameters?).ok()?;
+        Some(of_ripples(Unit::Length.one(unit.as_deref()?)?, width?, self.height_gain))
+    }
+}
+
+/// Scales from σ and k/a in a unit of so many metres.
+fn of_ripples(metres: f64, sigma: f64, gain: Option<f64>) -> KnownScales {
+    KnownScales {
+        length: Some(sigma * metres),
+        height: gain.map(|gain| gain * sigma * sigma * metres),
+        ..KnownScales::default()
     }
 }

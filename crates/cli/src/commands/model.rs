@@ -1,7 +1,7 @@
 //! From the options of a footprint to a footprint.
 
 use super::judged::judge_table;
-use crate::arguments::TipArguments;
+use crate::arguments::{Length, TipArguments};
 use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use stickslip::{GaussianDocument, NamedTip, judge_details};
@@ -41,7 +41,15 @@ pub(crate) fn tip_and_draws(
         }
         return Ok((tip, draws));
     }
-    Ok((NamedTip { name: *tip, beta: *beta, width: *width }.tip()?, vec![]))
+    let width = match width {
+        Some(Length::Metres(_)) => {
+            let message = "is a factor here, f(x/W) with x in σ: give a number without a unit";
+            return Err(Failure::input("--width", message));
+        }
+        Some(Length::Bare(width)) => Some(*width),
+        None => None,
+    };
+    Ok((NamedTip { name: *tip, beta: *beta, width }.tip()?, vec![]))
 }
 
 /// The rows of f(x,y) on the path of the tip with x ≥ 0, by ascending x.

@@ -7,8 +7,8 @@ use super::finished::{Finished, Part, Parts};
 use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{
-    InUnitsArguments, OutletArguments, Range, RasterSweepArguments, SweepArguments, SweepThen,
-    TipArguments, WorkArguments,
+    InUnitsArguments, Length, OutletArguments, Range, RasterSweepArguments, SweepArguments,
+    SweepThen, TipArguments, WorkArguments,
 };
 use crate::commands::in_units::scales;
 use crate::commands::model::tip;
@@ -91,8 +91,9 @@ fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
     };
     let (widths, betas) = (values(width), values(beta));
     let both = widths.iter().flat_map(|width| betas.iter().map(move |beta| (*width, *beta)));
-    let one = |(width, beta)| {
+    let one = |(width, beta): (Option<f64>, Option<f64>)| {
         let tip_file = tip_file.clone();
+        let width = width.map(Length::Bare);
         tip(&TipArguments { tip: *name, beta, width, tip_file }).map(Tip)
     };
     Ok(json!(both.map(one).collect::<Result<Vec<Tip>, Failure>>()?))

@@ -50,14 +50,11 @@ struct Data {
 impl Data {
     fn read(path: &Path, given: Option<&str>) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf")) {
-            let read = read_gsf(OPTION, path)?;
-            let heading = Heading::of(if read.in_nanometres { "x_nm" } else { "x" });
-            let image = MeasuredImage { x: read.x, y: read.y, rows: read.rows };
-            let (profile, unit) = (MeasuredProfile::default(), unit(path, given, &heading)?);
-            return Ok(Self { profile, image: Some(image), unit });
+            let (image, unit) = measured_image(OPTION, path, given)?;
+            return Ok(Self { profile: MeasuredProfile::default(), image: Some(image), unit });
         }
         let sheet = read_measured(OPTION, path, &[2])?;
-        let unit = unit(path, given, &sheet.headings[0])?;
+        let unit = unit((OPTION, path), given, &sheet.headings[0])?;
         let [x, f] = [0, 1].map(|i| sheet.columns[i].clone());
         Ok(Self { profile: MeasuredProfile { x, f }, image: None, unit })
     }
@@ -71,11 +68,27 @@ impl Data {
     }
 }
 
+/// An image in a file, and the unit of its positions.
+pub(super) fn measured_image(
+    option: &str,
+    path: &Path,
+    given: Option<&str>,
+) -> Result<(MeasuredImage, Option<String>), Failure> {
+    let read = read_gsf(option, path)?;
+    let heading = Heading::of(if read.in_nanometres { "x_nm" } else { "x" });
+    let unit = unit((option, path), given, &heading)?;
+    Ok((MeasuredImage { x: read.x, y: read.y, rows: read.rows }, unit))
+}
+
 /// Unit of the positions.
-fn unit(path: &Path, given: Option<&str>, heading: &Heading) -> Result<Option<String>, Failure> {
+fn unit(
+    (option, path): (&str, &Path),
+    given: Option<&str>,
+    heading: &Heading,
+) -> Result<Option<String>, Failure> {
     let written = heading.unit(Unit::Length);
     let Some(unit) = given else {
-        let named = format!("{OPTION} {}", path.display());
+        let named = format!("{option} {}", path.display());
         let advice = "give the unit of the positions by --unit";
         let written =
             written.map_err(|error| Failure::input(named, format!("{error}: {advice}")))?;
@@ -94,7 +107,8 @@ fn unit(path: &Path, given: Option<&str>, heading: &Heading) -> Result<Option<St
     }
 }
 
-fn metres(unit: &str) -> Result<f64, Failure> {
+/// The value in m of a unit of the positions.
+pub(super) fn metres(unit: &str) -> Result<f64, Failure> {
     one_of(Unit::Length, "--unit", unit)
 }
 

@@ -83,7 +83,10 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     const MAGIC: &[u8] = b"Gwyddion Simple Field 1.0\n";
     let end = bytes.iter().position(|byte| *byte == 0).filter(|_| bytes.starts_with(MAGIC));
     let end =
-        end.ok_or("no Gwyddion Simple Field: its first line or the end of its header is missing")?;
+        end.ok_or(
+            "no Gwyddion Simple Field: its first line or the end of its header is missing; `python -m stickslip convert FILE -o \
+             image.gsf` writes one from files of instruments",
+        )?;
     let header = decoded(bytes[..end].to_vec())?;
     let field = |name: &str| {
         let fields = lines(&header).filter_map(|line| line.split_once('='));

@@ -21,8 +21,8 @@ pub(super) fn judge(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let known = FORMATS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
     let Some(format) = known.or(is_igor.then_some("Igor")) else { return Ok(()) };
     Err(format!(
-        "an image ({format}), not a table: `python -m stickslip convert {0} -o image.gsf` writes a channel for `tip`, \
-         with `--line N -o line.csv` one of its lines for `fit`; `python -m stickslip convert {0}` lists the channels \
+        "an image ({format}), not a table: `python -m stickslip convert {0} -o image.gsf` writes a channel for `tip` \
+         and `fit --image`, with `--line N -o line.csv` one of its lines for `fit --ripple`; `python -m stickslip convert {0}` lists the channels \
          (pip install \"stickslip[instruments]\")",
         path.display()
     ))

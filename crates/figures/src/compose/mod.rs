@@ -9,6 +9,8 @@ mod cycle;
 mod dense;
 mod drawn;
 mod fit;
+mod fit_image;
+mod friction;
 #[cfg(feature = "animation")]
 mod growing;
 mod height_scale;
@@ -41,10 +43,11 @@ use serde::Serialize;
 use std::io::Read;
 use stickslip::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    FitDocument, MeasuredTipDocument, PanelDocument, RasterBoundaryDocument, RasterCompareDocument,
-    RasterDocument, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
-    ResponseDocument, RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, Tabular, Unusable, WalkerDocument, WalkingDocument, identified, read_from,
+    FitDocument, FitImageDocument, FrictionDocument, MeasuredTipDocument, PanelDocument,
+    RasterBoundaryDocument, RasterCompareDocument, RasterDocument, RasterStabilityDocument,
+    RasterSurfaceDocument, RasterSweepDocument, ResponseDocument, RunDocument,
+    SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular, Unusable,
+    WalkerDocument, WalkingDocument, identified, read_from,
 };
 
 pub use drawn::{Drawn, View};
@@ -138,7 +141,7 @@ pub fn can_be_drawn(range: [f64; 2]) -> bool {
 }
 
 /// Formats of all documents that have a figure.
-pub const FORMATS: [&str; 21] = [
+pub const FORMATS: [&str; 23] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -159,6 +162,8 @@ pub const FORMATS: [&str; 21] = [
     WalkerDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
     FitDocument::FORMAT,
+    FitImageDocument::FORMAT,
+    FrictionDocument::FORMAT,
     FigureDocument::FORMAT,
 ];
 
@@ -224,6 +229,8 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         WalkerDocument,
         MeasuredTipDocument,
         FitDocument,
+        FitImageDocument,
+        FrictionDocument,
         FigureDocument
     )
 }

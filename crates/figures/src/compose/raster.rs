@@ -167,15 +167,24 @@ fn heights(map: HeightMap) -> MapDocument {
 fn crests(map: &HeightMap, (q, kappa): (f64, f64)) -> Option<CurveDocument> {
     let (x, y) = patch(map)?;
     let phase = phase(map, (&x, &y), (q, kappa))?;
+    Some(crest_lines((&x, &y), (q, kappa), phase))
+}
+
+/// The straight lines qx + κy + φ = 2πm within a rectangle.
+pub(super) fn crest_lines(
+    (x, y): (&[f64; 2], &[f64; 2]),
+    (q, kappa): (f64, f64),
+    phase: f64,
+) -> CurveDocument {
     let turns = |x: f64, y: f64| (q * x + kappa * y + phase) / TAU;
     let corners = [(x[0], y[0]), (x[0], y[1]), (x[1], y[0]), (x[1], y[1])];
     let all = corners.map(|(x, y)| turns(x, y));
     let first = all.iter().copied().fold(f64::INFINITY, f64::min).ceil() as i64;
     let last = all.iter().copied().fold(f64::NEG_INFINITY, f64::max).floor() as i64;
-    let every = ((last - first) / MOST_CRESTS + 1) as usize;
+    let every = (last.saturating_sub(first) / MOST_CRESTS).max(0) as usize + 1;
     let mut points: (Vec<f64>, Vec<f64>) = (vec![], vec![]);
     for m in (first..=last).step_by(every) {
-        for end in ends(TAU * m as f64 - phase, (q, kappa), (&x, &y)).into_iter().flatten() {
+        for end in ends(TAU * m as f64 - phase, (q, kappa), (x, y)).into_iter().flatten() {
             points.0.push(end.0);
             points.1.push(end.1);
         }
@@ -185,7 +194,7 @@ fn crests(map: &HeightMap, (q, kappa): (f64, f64)) -> Option<CurveDocument> {
     }
     let mut curve = CurveDocument::new(StyleName::Line, "", &points.0, &points.1);
     curve.colour = Some(ColourName::Vermillion);
-    Some(curve)
+    curve
 }
 
 /// Ranges of the patch in x and y: the middle of the lines, in the last half of them.

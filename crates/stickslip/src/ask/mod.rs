@@ -22,6 +22,8 @@ pub(crate) mod cycle;
 pub mod exponents;
 pub(crate) mod failure;
 pub(crate) mod fit;
+pub(crate) mod fit_image;
+pub(crate) mod friction;
 pub mod lines;
 pub(crate) mod measured_tip;
 pub(crate) mod model;

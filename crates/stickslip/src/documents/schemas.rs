@@ -2,11 +2,11 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, FitDocument, MeasuredTipDocument, RasterBoundaryDocument,
-    RasterCompareDocument, RasterDocument, RasterStabilityDocument, RasterSurfaceDocument,
-    RasterSweepDocument, ReproductionDocument, ResponseDocument, RunDocument, RunLine,
-    SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument,
-    VerifyDocument, WalkerDocument, WalkingDocument,
+    FigureDocument, FitDocument, FitImageDocument, FrictionDocument, MeasuredTipDocument,
+    RasterBoundaryDocument, RasterCompareDocument, RasterDocument, RasterStabilityDocument,
+    RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument, ResponseDocument,
+    RunDocument, RunLine, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument,
+    SweepDocument, UnitsDocument, VerifyDocument, WalkerDocument, WalkingDocument,
 };
 
 use schemars::{Schema, schema_for};
@@ -15,7 +15,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// All documents with a schema.
-pub const SCHEMAS: [NamedSchema; 26] = [
+pub const SCHEMAS: [NamedSchema; 28] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -39,6 +39,8 @@ pub const SCHEMAS: [NamedSchema; 26] = [
     ("sweep", SweepDocument::schema),
     ("tip", MeasuredTipDocument::schema),
     ("fit", FitDocument::schema),
+    ("fit-image", FitImageDocument::schema),
+    ("friction", FrictionDocument::schema),
     ("units", || schema_for!(UnitsDocument)),
     ("figure", || schema_for!(FigureDocument)),
     ("reproduction", ReproductionDocument::schema),

@@ -2,7 +2,11 @@
 
 use super::{Summary, digits};
 use crate::commands::job::Product;
-use stickslip::{EstimateDocument, FitDocument, MeasuredTipDocument, NumberFitted};
+use serde_json::{Value, json};
+use stickslip::{
+    EstimateDocument, FitDocument, FitImageDocument, FrictionDocument, MeasuredTipDocument,
+    NumberFitted,
+};
 
 impl Product for MeasuredTipDocument {
     fn summary(&self) -> Summary {
@@ -70,6 +74,60 @@ impl Product for FitDocument {
         }
         let at = self.critical_alpha.map(|alpha| digits(alpha, 6));
         summary.maybe("critical α at this r", at).remarks(&self.remarks)
+    }
+}
+
+impl Product for FitImageDocument {
+    fn summary(&self) -> Summary {
+        let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
+        let unit = unit.unwrap_or_default();
+        let headline = format!(
+            "alpha = {}, r = {}: ripples of {}{unit} with crests at {}° to the scan",
+            with_interval(&self.alpha),
+            with_interval(&self.r),
+            in_digits(&self.wavelength),
+            in_digits(&self.crest_angle)
+        );
+        let word = |name: Value| name.as_str().map(str::to_owned);
+        Summary::new(headline)
+            .row("alpha", with_interval(&self.alpha))
+            .row("r", with_interval(&self.r))
+            .maybe("critical α at this r", self.critical_alpha.map(|alpha| digits(alpha, 6)))
+            .row("wavelength", format!("{}{unit}", with_interval(&self.wavelength)))
+            .row("crests to the scan axis", format!("{}°", with_interval(&self.crest_angle)))
+            .row("amplitude", with_interval(&self.amplitude))
+            .row("height gain k/a", digits(self.height_gain, 5))
+            .maybe("scan", word(json!(self.scan)))
+            .maybe("lines", word(json!(self.slow_scan)))
+            .row("probability of the misfit", digits(self.misfit, 2))
+            .row("residual", digits(self.residual, 3))
+            .remarks(&self.remarks)
+    }
+}
+
+impl Product for FrictionDocument {
+    fn summary(&self) -> Summary {
+        let unit = |unit: &Option<String>| {
+            unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default()
+        };
+        let (force, work) = (unit(&self.force_unit), unit(&self.work_unit));
+        let headline = format!(
+            "kinetic friction {}{force}, static peak {}{force}, work {}{work}",
+            with_interval(&self.kinetic),
+            with_interval(&self.static_peak),
+            with_interval(&self.work)
+        );
+        let mut summary = Summary::new(headline);
+        for (name, estimate, unit) in self.estimates() {
+            let value = format!("{} {unit}", with_interval(estimate));
+            summary = summary.row(name, value.trim_end());
+        }
+        let length = unit(&self.length_unit);
+        summary
+            .row("static over kinetic", digits(self.peak_ratio, 4))
+            .row("reversal", format!("{}{length}", digits(self.reversal, 4)))
+            .row("noise from row to row", format!("{}{force}", digits(self.noise, 3)))
+            .remarks(&self.remarks)
     }
 }
 

@@ -1,0 +1,83 @@
+//! `stickslip fit --image`.
+
+use super::ask::{context, refusal, refuse_strangers};
+use super::job::{Job, judge_places};
+use super::tip::{measured_image, metres};
+use crate::arguments::{Either, FitArguments, Length, Options, TipArguments};
+use crate::failure::{Failure, Typed};
+use crate::files::distinct::Named;
+use crate::files::input::{TipFile, read_tip};
+use crate::message::remark;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
+
+const OPTION: &str = "--image";
+
+pub(super) fn fit_image(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
+    let FitArguments { options, outlet, plot, .. } = arguments;
+    let files: [Named; 3] = [options.files()[0], options.files()[1], (OPTION, Some(path))];
+    judge_places(outlet, plot.as_deref(), &files)?;
+    let question = question(arguments, path)?;
+    let refused = |failure| refusal(failure, &options.tip, &files);
+    let job = Job::open::<FitImageDocument>(outlet, plot.as_deref())?;
+    job.finish(question.ask(&context()).map_err(refused)?)
+}
+
+/// The question of the options, with the image.
+fn question(arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> {
+    let options = without_width(arguments);
+    let mut values = options.values()?;
+    refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
+    let (image, unit) = measured_image(OPTION, path, values.get("unit").and_then(Value::as_str))?;
+    if let Some(width) = arguments.options.tip.width {
+        values.insert("width".into(), json!(in_unit("--width", width, unit.as_deref())?));
+        values.remove("width_interval");
+    } else if !values.contains_key("width") {
+        values.extend(width_of(&options.tip, unit.as_deref())?);
+    }
+    if let Some(pitch) = arguments.pitch {
+        values.insert("pitch".into(), json!(in_unit("--pitch", pitch, unit.as_deref())?));
+    }
+    let question: FitImage = parameter::question(values)?;
+    Ok(FitImage { source: path.display().to_string(), unit, image, ..question })
+}
+
+/// The options without --width, which is σ of measured data, and no width of a footprint.
+pub(super) fn without_width(arguments: &FitArguments) -> Options<Either<Fit, FitImage>> {
+    let mut options = arguments.options.clone();
+    options.tip.width = None;
+    options
+}
+
+/// A length in the unit of the data.
+pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Result<f64, Failure> {
+    match (length, unit) {
+        (Length::Bare(number), _) => Ok(number),
+        (Length::Metres(length), Some(unit)) => Ok(length / metres(unit)?),
+        (Length::Metres(_), None) => {
+            let message =
+                "the unit of the data is not known: give it by --unit, or a number without a unit";
+            Err(Failure::input(option, message))
+        }
+    }
+}
+
+/// σ of a measured tip and its interval, in the unit of the data, with a message.
+fn width_of(tip: &TipArguments, unit: Option<&str>) -> Result<Map<String, Value>, Failure> {
+    let mut values = Map::new();
+    let (Some(path), Some(unit)) = (&tip.tip_file, unit) else { return Ok(values) };
+    let TipFile::Measured(measured) = read_tip(path)? else { return Ok(values) };
+    let Some(sigma) = measured.sigma_metres else { return Ok(values) };
+    let factor = sigma / measured.sigma.value / metres(unit)?;
+    let [width, low, high] = [Some(measured.sigma.value), measured.sigma.low, measured.sigma.high]
+        .map(|v| Some(factor * v?));
+    remark(format_args!(
+        "σ = {} {unit}, that of --tip-file {}",
+        Typed(width.unwrap_or(sigma)),
+        path.display()
+    ));
+    values.insert("width".into(), json!(width));
+    values.insert("width_interval".into(), json!(low.zip(high)));
+    Ok(values)
+}

@@ -1,0 +1,158 @@
+//! `stickslip friction`.
+
+use super::ask::{context, refusal};
+use super::job::{Job, judge_places};
+use crate::arguments::FrictionArguments;
+use crate::failure::Failure;
+use crate::files::heading::Heading;
+use crate::files::measured::{Common, read_measured};
+use crate::files::sheet::Sheet;
+use serde_json::Value;
+use std::path::Path;
+use stickslip::{Ask, ForceTrack, Friction, FrictionDocument, parameter};
+use stickslip_units::Unit;
+
+const TRACE: &str = "TRACE.csv";
+const RETRACE: &str = "RETRACE.csv";
+
+pub(crate) fn friction(arguments: &FrictionArguments) -> Result<(), Failure> {
+    let FrictionArguments { trace, retrace, options, outlet, plot, .. } = arguments;
+    let [_, parameters] = options.files();
+    let read = [(TRACE, Some(&**trace)), (RETRACE, retrace.as_deref()), parameters];
+    judge_places(outlet, plot.as_deref(), &read)?;
+    let question = question(arguments)?;
+    let job = Job::open::<FrictionDocument>(outlet, plot.as_deref())?;
+    let source = question.source.clone();
+    let refused = |failure| match failure {
+        stickslip::Failure::Refused(refused) if refused.parameter == "trace and retrace" => {
+            Failure::input(source, refused.why)
+        }
+        other => refusal(other, &options.tip, &[]),
+    };
+    job.finish(question.ask(&context()).map_err(refused)?)
+}
+
+/// The question of the options, with the data of the files.
+fn question(arguments: &FrictionArguments) -> Result<Friction, Failure> {
+    let values = arguments.options.values()?;
+    let mut data = Data::new(values.get("unit").and_then(Value::as_str))?;
+    let [trace, retrace] = data.read(&arguments.trace, arguments.retrace.as_deref())?;
+    let question: Friction = parameter::question(values)?;
+    let force_unit = match (&question.force_unit, data.force_unit) {
+        (Some(given), Some(written)) if *given != written => {
+            let message = format!("the headings have {written}: leave it out, or correct them");
+            return Err(Failure::input(format!("--force-unit {given}"), message));
+        }
+        (given, written) => given.clone().or(written),
+    };
+    let sensitivity = sensitivity(arguments, force_unit.as_deref())?.or(question.sensitivity);
+    let unit = data.lengths.unit().map(str::to_owned);
+    Ok(Friction { source: data.source, unit, force_unit, sensitivity, trace, retrace })
+}
+
+/// The tables; positions are converted to the unit of the first.
+struct Data {
+    source: String,
+    lengths: Common,
+    force_unit: Option<String>,
+}
+
+impl Data {
+    fn new(unit: Option<&str>) -> Result<Self, Failure> {
+        let lengths = match unit {
+            Some(unit) => Common::given(Unit::Length, "--unit", unit)?,
+            None => Common::of(Unit::Length),
+        };
+        Ok(Self { source: String::new(), lengths, force_unit: None })
+    }
+
+    /// Trace and retrace, of two files or of one with three columns.
+    fn read(&mut self, trace: &Path, retrace: Option<&Path>) -> Result<[ForceTrack; 2], Failure> {
+        let Some(retrace) = retrace else {
+            let (x, [trace, retrace]) = self.table(TRACE, trace, &[3])?;
+            return Ok([
+                ForceTrack { x: x.clone(), force: trace },
+                ForceTrack { x, force: retrace },
+            ]);
+        };
+        let (x, [force]) = self.table(TRACE, trace, &[2])?;
+        let trace = ForceTrack { x, force };
+        let (x, [force]) = self.table(RETRACE, retrace, &[2])?;
+        Ok([trace, ForceTrack { x, force }])
+    }
+
+    /// Positions and forces of a table.
+    fn table<const N: usize>(
+        &mut self,
+        option: &str,
+        path: &Path,
+        columns: &[usize],
+    ) -> Result<(Vec<f64>, [Vec<f64>; N]), Failure> {
+        let named = format!("{option} {}", path.display());
+        let Sheet { headings, mut columns, .. } = read_measured(option, path, columns)?;
+        let factor = self.lengths.factor(&named, &headings[0])?;
+        let forces = columns.split_off(1);
+        let x = columns.remove(0).into_iter().map(|x| x * factor).collect();
+        for heading in &headings[1..] {
+            self.same_unit(&named, heading)?;
+        }
+        let gap = if self.source.is_empty() { "" } else { ", " };
+        self.source += &format!("{gap}{}", path.display());
+        let count = forces.len();
+        let forces = forces.try_into().map_err(|_| {
+            Failure::input(named, format!("{} columns; {} are needed", count + 1, N + 1))
+        })?;
+        Ok((x, forces))
+    }
+
+    /// All forces have the same unit.
+    fn same_unit(&mut self, named: &str, heading: &Heading) -> Result<(), Failure> {
+        let unit = heading.written_unit().map(str::to_owned);
+        if self.force_unit.is_some() && self.force_unit != unit {
+            let first = self.force_unit.as_deref().unwrap_or_default();
+            let message =
+                format!("`{}` is not in {first}, as the first forces are", heading.text());
+            return Err(Failure::input(named, message));
+        }
+        self.force_unit = unit;
+        Ok(())
+    }
+}
+
+/// Force in N of one unit of the data, by --stiffness or --sensitivity.
+fn sensitivity(arguments: &FrictionArguments, unit: Option<&str>) -> Result<Option<f64>, Failure> {
+    let needs = |option: &str, message: String| Err(Failure::input(option, message));
+    if let Some(text) = &arguments.stiffness {
+        let named = format!("--stiffness {text}");
+        let stiffness =
+            Unit::Stiffness.parse(text).map_err(|error| Failure::input(&named, error))?;
+        return match unit.map(|unit| (unit, Unit::Length.one(unit))) {
+            Some((_, Some(metres))) => Ok(Some(stiffness * metres)),
+            Some((unit, None)) => needs(
+                &named,
+                format!(
+                    "applies to deflections in a unit of length; the data are in {unit}: leave it out"
+                ),
+            ),
+            None => needs(
+                &named,
+                "the unit of the deflections is not known: give it by --force-unit".into(),
+            ),
+        };
+    }
+    let Some(text) = &arguments.sensitivity else { return Ok(None) };
+    let named = format!("--sensitivity {text}");
+    let parts = text
+        .split_once('/')
+        .and_then(|(force, per)| Some((Unit::Force.parse(force).ok()?, per.trim())));
+    match (parts, unit) {
+        (Some((force, per)), Some(unit)) if per == unit => Ok(Some(force)),
+        (Some((_, per)), Some(unit)) => {
+            needs(&named, format!("the data are in {unit}, not in {per}"))
+        }
+        (Some((force, _)), None) => Ok(Some(force)),
+        (None, _) => {
+            needs(&named, "must be a force over the unit of the data, such as 25nN/V".into())
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Figure of a fit to an image of ripples: the image with its crests, and the mean ripple beside that of the model.
+
+use super::drawn::{Drawn, View};
+use super::measured_tip::with_error;
+use super::raster::crest_lines;
+use crate::error::FigureError;
+use stickslip::{
+    ColourName, ColoursName, CurveDocument, FigureDocument, FitImageDocument, MapDocument,
+    ModelParameters, PanelDocument, StyleName, TipDocument,
+};
+
+impl Drawn for FitImageDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let unit = self.parameters.unit.as_deref();
+        let in_unit = |name: &str| unit.map_or(name.into(), |unit| format!("{name} ({unit})"));
+        let title =
+            format!("Ripples: α = {}, r = {}", with_error(&self.alpha), with_error(&self.r));
+        let tip = TipDocument::from(&self.parameters.tip.clone().unwrap_or_default().0);
+        let model = ModelParameters::papers(tip, self.alpha.value, None, self.r.value);
+        let mut figure = FigureDocument::new("fit-image", &title, vec![model]);
+        let image = &self.levelled;
+        let ends = |at: &[f64]| match at {
+            [first, .., last] if first < last => Ok([*first, *last]),
+            _ => Err(FigureError::Damaged("the image has no positions".into())),
+        };
+        let (x, y) = (ends(&image.x)?, ends(&image.y)?);
+        let heading = format!(
+            "{}{} at {}°",
+            with_error(&self.wavelength),
+            unit.map(|unit| format!(" {unit}")).unwrap_or_default(),
+            with_error(&self.crest_angle)
+        );
+        let heading = heading.replace(" ± ", "\u{a0}±\u{a0}");
+        let mut surface = PanelDocument::new(&heading, (&in_unit("x"), &in_unit("y")));
+        surface.curves = vec![crest_lines((&x, &y), (self.q, self.kappa), self.phase)];
+        surface.map = Some(MapDocument {
+            x: image.x.clone(),
+            y: image.y.clone(),
+            z: image.rows.clone(),
+            z_label: "height".into(),
+            colours: ColoursName::Cividis,
+            z_range: None,
+        });
+        figure.panels = vec![surface, ripple(self, &in_unit("distance from the crest"))];
+        figure.columns = 2;
+        figure.remarks.clone_from(&self.remarks);
+        Ok(figure)
+    }
+}
+
+/// The mean ripple with its error, and that of the model.
+fn ripple(document: &FitImageDocument, x_label: &str) -> PanelDocument {
+    let profile = &document.profile;
+    let mut panel = PanelDocument::new("mean ripple", (x_label, "height"));
+    let (x, height) = (&profile.distance, &profile.height);
+    let rows = || height.iter().zip(&profile.error);
+    let high: Vec<f64> = rows().map(|(height, error)| height + 1.96 * error).collect();
+    let low = rows().map(|(height, error)| Some(height - 1.96 * error)).collect();
+    let mut band = CurveDocument::new(StyleName::Band, "95 % of the mean", x, &high);
+    band.low = Some(low);
+    band.colour = Some(ColourName::Silver);
+    let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, height);
+    measured.colour = Some(ColourName::Grey);
+    let model = CurveDocument::new(StyleName::Line, "model", x, &profile.model);
+    panel.curves = vec![band, measured, model];
+    panel
+}

@@ -1,0 +1,336 @@
+//! The question `fit-image`: α and r that explain an image of ripples.
+
+use super::lines::footprint;
+use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{
+    Ask, Context, Document, EstimateDocument, Failure, MeasuredImage, Question, Refused, ScanName,
+    Tip,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_measurement::{
+    Estimate, Image, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
+};
+use stickslip_stability::{Raster, RasterPath};
+use stickslip_tip::{Footprint, Wider};
+
+/// Ripples of an image, and the numbers of the model that explain them, with 95 % intervals. Lengths and heights are
+/// in the unit of the image.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FitImageFound {
+    /// α, dimensionless.
+    pub alpha: EstimateDocument,
+    /// r, dimensionless.
+    pub r: EstimateDocument,
+    /// Distance of the crests, perpendicular to them.
+    pub wavelength: EstimateDocument,
+    /// Angle between crests and scan axis, in degrees.
+    pub crest_angle: EstimateDocument,
+    /// Half of the peak-to-peak of the first harmonic.
+    pub amplitude: EstimateDocument,
+    /// Wave vector along the scan; above 0.
+    pub q: f64,
+    /// Wave vector across the scan.
+    pub kappa: f64,
+    /// φ, in rad: crests lie where qx + κy + φ is a multiple of 2π.
+    pub phase: f64,
+    /// Fitted scale of the heights, k/a: heights are k/a times σ² times those of the model.
+    pub height_gain: f64,
+    /// αc of this raster at this r, dimensionless; null if there is none.
+    pub critical_alpha: Option<f64>,
+    /// α at which a wave with this wave vector neither grows nor decays at this r, dimensionless.
+    pub neutral_alpha: f64,
+    /// Direction in which the tip moved along the lines when it made the ripples.
+    pub scan: ScanName,
+    /// Direction in which the lines followed each other.
+    pub slow_scan: SlowScanName,
+    /// Whether the ripples are uniform and the model explains them; otherwise α and r have no intervals.
+    pub explained: bool,
+    /// Probability of an equally large deviation from settled ripples of the model by chance; below 0.005 the model does
+    /// not explain the image.
+    pub misfit: f64,
+    /// Standard deviation of the first harmonic between the parts of the image, beyond the noise, relative to its size; above
+    /// 0.05 the ripples have not settled.
+    pub modulation: f64,
+    /// Standard deviation of the residuals of all pixels.
+    pub residual: f64,
+    /// Fraction of the variance, without offsets and slopes of the lines, that the wave explains.
+    pub explained_variance: f64,
+    /// The mean ripple, perpendicular to the crests.
+    pub profile: RippleProfileDocument,
+    /// The image without offsets and slopes of its lines, averaged to at most 128 × 128 pixels.
+    pub levelled: MeasuredImage,
+}
+
+/// A fit to an image and the question that it answers.
+pub type FitImageDocument = Document<FitImage>;
+
+/// α and r from an image of settled ripples that a one-way raster has made.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct FitImage {
+    /// Name of the image, such as that of its file.
+    pub source: String,
+    /// Footprint f(x,y), or f(x), in its own σ; by default the triple Gaussian with β = 1.
+    #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
+    pub tip: Option<Tip>,
+    /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
+    /// Gaussians.
+    #[schemars(extend("x-option" = option("V", "Model", 2)))]
+    pub width_y: Option<f64>,
+    /// σ in the unit of the image.
+    pub width: Option<f64>,
+    /// 95 % interval of σ, in the unit of the image: its error is added to those of α and r. By default σ is exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_interval: Option<[f64; 2]>,
+    /// Distance of the scan lines that made the ripples, in the unit of the image; by default that of its rows.
+    pub pitch: Option<f64>,
+    /// Unit of lengths; that of the image by default.
+    #[schemars(extend("x-option" = option("UNIT", "Data", 11)))]
+    pub unit: Option<String>,
+    /// Direction in which the tip moved along the lines when it made the ripples; both are tried by default.
+    #[schemars(extend("x-option" = option("DIRECTION", "Data", 13)))]
+    pub scan: Option<ScanName>,
+    /// Direction in which the lines of an image followed each other; both are tried by default.
+    #[schemars(extend("x-option" = option("DIRECTION", "Data", 14)))]
+    pub slow_scan: Option<SlowScanName>,
+    /// Measured heights. Documents contain them, levelled, in the answer.
+    #[serde(skip_serializing)]
+    pub image: MeasuredImage,
+}
+
+/// A direction across the lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlowScanName {
+    /// Towards larger y.
+    Up,
+    /// Towards smaller y.
+    Down,
+}
+
+/// The mean ripple; columns of equal length.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RippleProfileDocument {
+    /// Distance from the crest, perpendicular to it, in the direction of the wave vector.
+    pub distance: Vec<f64>,
+    /// Mean height.
+    pub height: Vec<f64>,
+    /// Standard deviation of this mean.
+    pub error: Vec<f64>,
+    /// Height of the model.
+    pub model: Vec<f64>,
+}
+
+/// Largest number of rows and columns of the levelled image.
+const MOST: usize = 128;
+/// Largest deviation of positions from even spacing, in spacings.
+const UNEVEN: f64 = 1e-3;
+/// Warnings about assumptions.
+const ASSUMED_TIP: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
+const ASSUMED_PITCH: &str = "no pitch is given: the lines that made the ripples are assumed to be as far apart as the rows of the image; \
+                             --pitch sets it";
+
+impl Question for FitImage {
+    const FORMAT: &'static str = "stickslip/fit-image";
+    type Answer = FitImageFound;
+}
+
+impl FitImage {
+    /// A fit to this image with this σ, with everything else unknown.
+    pub fn new(image: MeasuredImage, width: f64) -> Self {
+        Self { image, width: Some(width), ..Self::default() }
+    }
+
+    /// f(x,y), and its width across if it is f(x) times a Gaussian.
+    fn footprint(&self) -> Result<(Footprint, Option<f64>), Refused> {
+        footprint(self.width_y, &self.tip.clone().unwrap_or_default().0)
+    }
+
+    /// σ.
+    fn sigma(&self) -> Result<f64, Refused> {
+        let why = "σ of the tip is needed: the ripples contain lengths only in relation to it";
+        positive("width", self.width.ok_or_else(|| Refused::whole("width", why))?)
+    }
+
+    /// The distance of the lines.
+    fn distance(&self) -> Result<f64, Refused> {
+        let y = &self.image.y;
+        match self.pitch {
+            Some(pitch) => positive("pitch", pitch),
+            None => Ok((y[y.len() - 1] - y[0]) / (y.len() - 1) as f64),
+        }
+    }
+
+    /// The image, on an even grid.
+    fn heights(&self) -> Result<Image, Refused> {
+        let MeasuredImage { x, y, rows } = self.image.clone();
+        if !(is_even(&x) && is_even(&y)) {
+            let why = "the positions of columns and rows must ascend evenly";
+            return Err(Refused::whole("image", why));
+        }
+        Image::new(x, y, rows).map_err(|error| Refused::whole("image", error))
+    }
+
+    /// The result with the error of σ: α and r are fitted again at both ends of its interval.
+    fn with_error_of_sigma(
+        &self,
+        found: Ripples,
+        (image, mut request): (&Image, RippleRequest),
+    ) -> Ripples {
+        request.forward = Some(found.forward);
+        request.upward = Some(found.upward);
+        let at = |sigma: &f64| ripples(image, &RippleRequest { sigma: *sigma, ..request.clone() });
+        let ends: Vec<Ripples> =
+            self.width_interval.iter().flatten().filter_map(|sigma| at(sigma).ok()).collect();
+        let wider = |of: fn(&Ripples) -> Estimate| {
+            let moved = ends.iter().map(|end| (of(end).value / of(&found).value).ln().abs());
+            of(&found).wider_by(moved.fold(0.0, f64::max).exp())
+        };
+        let (alpha, r) = (wider(|found| found.alpha), wider(|found| found.r));
+        Ripples { alpha, r, ..found }
+    }
+
+    fn request(&self) -> Result<RippleRequest, Refused> {
+        Ok(RippleRequest {
+            footprint: self.footprint()?.0,
+            sigma: self.sigma()?,
+            pitch: self.distance()?,
+            forward: self.scan.map(|scan| scan == ScanName::Right),
+            upward: self.slow_scan.map(|scan| scan == SlowScanName::Up),
+        })
+    }
+}
+
+fn positive(name: &'static str, value: f64) -> Result<f64, Refused> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(Refused::number(name, value, "must be a finite number above 0"))
+}
+
+fn is_even(at: &[f64]) -> bool {
+    let [first, .., last] = at else { return false };
+    let step = (last - first) / (at.len() - 1) as f64;
+    let off = |(i, v): (usize, &f64)| !((v - first - step * i as f64).abs() <= UNEVEN * step);
+    step > 0.0 && !at.iter().enumerate().any(off)
+}
+
+impl Ask for FitImage {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.heights()?;
+        let sigma = self.request()?.sigma;
+        if let Some([low, high]) = self.width_interval
+            && !(low > 0.0 && low <= sigma && sigma <= high && high.is_finite())
+        {
+            let why = "must be a low and a high end above 0 with {width} between them";
+            return Err(Refused::whole("width_interval", why).into());
+        }
+        Ok(self)
+    }
+
+    fn answer(&self, _: &Context) -> Result<(FitImageFound, Vec<String>), Failure> {
+        let (image, request) = (self.heights()?, self.request()?);
+        let refused = |error| match error {
+            RippleError::Request(_) => Refused::whole("tip", error),
+            _ => Refused::whole("image", error),
+        };
+        let found = ripples(&image, &request).map_err(refused)?;
+        let found = self.with_error_of_sigma(found, (&image, request.clone()));
+        let at = (found.r.value, request.pitch / request.sigma);
+        let raster = Raster::new(&request.footprint, Wider::default(), at, 1.0);
+        let critical = raster.and_then(|raster| raster.critical(RasterPath::OneWay));
+        let levelled = Ripples::levelled(&image, MOST).map_err(|e| Refused::whole("image", e))?;
+        let answer = FitImageFound::of(&found, critical.ok().map(|at| at.alpha), &levelled);
+        let assumed = [
+            self.tip.is_none().then(|| ASSUMED_TIP.into()),
+            self.pitch.is_none().then(|| ASSUMED_PITCH.into()),
+        ];
+        Ok((answer, assumed.into_iter().flatten().chain(found.remarks()).collect()))
+    }
+
+    fn answered(self, context: &Context) -> Result<Document<Self>, Failure> {
+        let (answer, remarks) = context.within(|| self.answer(context))?;
+        let (width_y, pitch) = (self.footprint()?.1, Some(self.distance()?));
+        let tip = Some(self.tip.clone().unwrap_or_default());
+        Ok(Document::new(Self { tip, width_y, pitch, ..self }, answer, remarks))
+    }
+}
+
+impl FitImageFound {
+    fn of(found: &Ripples, critical_alpha: Option<f64>, levelled: &Image) -> Self {
+        let explained = found.is_explained();
+        let judged = |estimate: Estimate| {
+            let estimate = EstimateDocument::from(estimate);
+            if explained {
+                estimate
+            } else {
+                EstimateDocument { low: None, high: None, ..estimate }
+            }
+        };
+        let [q, kappa] = found.wave_vector;
+        Self {
+            alpha: judged(found.alpha),
+            r: judged(found.r),
+            wavelength: found.wavelength.into(),
+            crest_angle: found.crest_angle.into(),
+            amplitude: found.amplitude.into(),
+            q,
+            kappa,
+            phase: found.phase,
+            height_gain: found.height_gain,
+            critical_alpha,
+            neutral_alpha: found.neutral_alpha,
+            scan: if found.forward { ScanName::Right } else { ScanName::Left },
+            slow_scan: if found.upward { SlowScanName::Up } else { SlowScanName::Down },
+            explained,
+            misfit: found.misfit,
+            modulation: found.modulation,
+            residual: found.residual,
+            explained_variance: found.explained,
+            profile: found.profile.clone().into(),
+            levelled: MeasuredImage {
+                x: levelled.x().to_vec(),
+                y: levelled.y().to_vec(),
+                rows: levelled.rows().to_vec(),
+            },
+        }
+    }
+}
+
+impl From<RippleProfile> for RippleProfileDocument {
+    fn from(profile: RippleProfile) -> Self {
+        let RippleProfile { distance, height, error, model } = profile;
+        Self { distance, height, error, model }
+    }
+}
+
+impl Tabular for FitImageFound {
+    /// The mean ripple.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let RippleProfileDocument { distance, height, error, model } = &self.profile;
+        vec![
+            ("distance", Column::of(distance)),
+            ("height", Column::of(height)),
+            ("error", Column::of(error)),
+            ("model", Column::of(model)),
+        ]
+    }
+
+    /// The columns, and the levelled image.
+    fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
+        let columns = self.columns().into_iter();
+        let mut arrays: Vec<_> =
+            columns.filter_map(|(name, column)| Some((name, column.array()?))).collect();
+        let MeasuredImage { x, y, rows } = &self.levelled;
+        arrays.extend([
+            ("x", Array::vector(x)),
+            ("y", Array::vector(y)),
+            ("z", Array::matrix(rows)),
+        ]);
+        arrays
+    }
+}

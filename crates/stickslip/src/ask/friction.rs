@@ -1,0 +1,222 @@
+//! The question `friction`: the numbers of a measured friction loop.
+
+use crate::documents::table::{Column, Named, Tabular};
+use crate::parameter::option;
+use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use stickslip_measurement::{Estimate, FrictionLoop, LoopError, LoopNumbers};
+use stickslip_units::Unit;
+
+/// Friction forces of a loop, with 95 % intervals, in the units that it names.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionFound {
+    /// Unit of lengths: nm, or that of the data; null if it is unknown.
+    pub length_unit: Option<String>,
+    /// Unit of forces: nN, or that of the data; null if it is unknown.
+    pub force_unit: Option<String>,
+    /// Unit of the work: fJ; null if that of lengths or of forces is unknown, for a work in units of force times length.
+    pub work_unit: Option<String>,
+    /// Kinetic friction force: half of the mean difference between trace and retrace beyond twice the distance to the static
+    /// peak.
+    pub kinetic: EstimateDocument,
+    /// Mean friction force: half of the mean difference between trace and retrace along the whole loop.
+    pub mean: EstimateDocument,
+    /// Static friction force: the first maximum after the reversal, less the offset; mean of both ways.
+    pub static_peak: EstimateDocument,
+    /// Static over kinetic friction force.
+    pub peak_ratio: f64,
+    /// Hysteresis: mean difference between trace and retrace along the whole loop.
+    pub hysteresis: EstimateDocument,
+    /// Work ∮ F dx dissipated in a loop.
+    pub work: EstimateDocument,
+    /// Mean of trace and retrace in the sliding part: zero of the instrument, and slope of the sample.
+    pub offset: EstimateDocument,
+    /// Distance from the reversal to the static peak; mean of both ways.
+    pub reversal: f64,
+    /// Slope of the force after the reversal: stiffness of lever and contact in series, in units of force over length.
+    pub stiffness: EstimateDocument,
+    /// Standard deviation of the noise from row to row.
+    pub noise: f64,
+    /// The loop, in these units.
+    pub rows: LoopColumns,
+}
+
+/// A friction loop and the question that it answers.
+pub type FrictionDocument = Document<Friction>;
+
+/// Friction force, static peak and work of a measured loop of lateral force.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Friction {
+    /// Name of the data, such as that of their files.
+    pub source: String,
+    /// Unit of the positions: m, um, nm, …; that of the data by default.
+    #[schemars(extend("x-option" = option("UNIT", "Data", 1)))]
+    pub unit: Option<String>,
+    /// Unit of the forces: N, nN, V, …; that of the data by default.
+    #[schemars(extend("x-option" = option("UNIT", "Data", 2)))]
+    pub force_unit: Option<String>,
+    /// Force in N of one unit of the forces in the data, if `force_unit` is not one of force.
+    pub sensitivity: Option<f64>,
+    /// Forces of the trace. Documents contain the loop in the answer.
+    #[serde(skip_serializing)]
+    pub trace: ForceTrack,
+    /// Forces of the retrace.
+    #[serde(skip_serializing)]
+    pub retrace: ForceTrack,
+}
+
+/// Lateral forces along a line, in rows of any order.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ForceTrack {
+    /// Positions of the support.
+    pub x: Vec<f64>,
+    /// Forces.
+    pub force: Vec<f64>,
+}
+
+/// A loop; columns of equal length, by ascending position.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoopColumns {
+    /// Positions at which trace and retrace are known.
+    pub x: Vec<f64>,
+    /// Forces of the trace.
+    pub trace: Vec<f64>,
+    /// Forces of the retrace, interpolated at the positions of the trace.
+    pub retrace: Vec<f64>,
+}
+
+/// m in nm, N in nN, and nN nm in fJ.
+const NANO: f64 = 1e9;
+const FEMTOJOULES: f64 = 1e-3;
+
+impl Question for Friction {
+    const FORMAT: &'static str = "stickslip/friction";
+    type Answer = FrictionFound;
+}
+
+impl Friction {
+    /// The factor of the positions to nm, if their unit is known.
+    fn nanometres(&self) -> Result<Option<f64>, Refused> {
+        let one = |unit: &String| {
+            Unit::Length.one(unit).map(|one| NANO * one).ok_or_else(|| Refused {
+                parameter: "unit".into(),
+                value: Some(unit.clone()),
+                why: "must be m, mm, um, nm, pm or Å (angstrom)".into(),
+            })
+        };
+        self.unit.as_ref().map(one).transpose()
+    }
+
+    /// The factor of the forces to nN, if it is known.
+    fn nanonewtons(&self) -> Result<Option<f64>, Refused> {
+        let of_unit = self.force_unit.as_deref().and_then(|unit| Unit::Force.one(unit));
+        match (self.sensitivity, of_unit) {
+            (Some(sensitivity), _) if !(sensitivity.is_finite() && sensitivity > 0.0) => {
+                Err(Refused::number("sensitivity", sensitivity, "must be a finite number above 0"))
+            }
+            (Some(sensitivity), Some(_)) => Err(Refused::number(
+                "sensitivity",
+                sensitivity,
+                "the forces have a unit of force already: leave it out",
+            )),
+            (one, of_unit) => Ok(one.or(of_unit).map(|one| NANO * one)),
+        }
+    }
+
+    /// The loop, in nm and nN where these are known.
+    fn measured(&self) -> Result<FrictionLoop, Refused> {
+        let along = self.nanometres()?.unwrap_or(1.0);
+        let force = self.nanonewtons()?.unwrap_or(1.0);
+        let times = |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect();
+        let of = |track: &ForceTrack| (times(&track.x, along), times(&track.force, force));
+        let refused = |error: LoopError| Refused::whole("trace and retrace", error);
+        FrictionLoop::of_tracks(of(&self.trace), of(&self.retrace)).map_err(refused)
+    }
+}
+
+impl Ask for Friction {
+    fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.measured()?;
+        Ok(self)
+    }
+
+    fn answer(&self, _: &Context) -> Result<(FrictionFound, Vec<String>), Failure> {
+        let measured = self.measured()?;
+        let refused = |error: LoopError| Refused::whole("trace and retrace", error);
+        let found = measured.numbers().map_err(refused)?;
+        let has_force = self.nanonewtons()?.is_some();
+        let length_unit = self.unit.as_ref().map(|_| "nm".to_owned());
+        let force_unit = if has_force { Some("nN".into()) } else { self.force_unit.clone() };
+        let is_joule = length_unit.is_some() && has_force;
+        let units = (length_unit, force_unit, is_joule);
+        let remarks = (!is_joule).then(|| UNKNOWN.into()).into_iter().collect();
+        Ok((FrictionFound::of(&measured, &found, units), remarks))
+    }
+}
+
+/// A warning about units.
+const UNKNOWN: &str = "the work is not in fJ: the unit of positions or forces is unknown; headings such as x_nm,force_nN, --unit and \
+                       --force-unit give it, and --stiffness or --sensitivity the force of a deflection or a voltage";
+
+impl FrictionFound {
+    fn of(
+        measured: &FrictionLoop,
+        found: &LoopNumbers,
+        (length_unit, force_unit, is_joule): (Option<String>, Option<String>, bool),
+    ) -> Self {
+        let [x, trace, retrace] = measured.rows().map(<[f64]>::to_vec);
+        Self {
+            length_unit,
+            force_unit,
+            work_unit: is_joule.then(|| "fJ".into()),
+            kinetic: found.friction.into(),
+            mean: found.mean.into(),
+            static_peak: found.static_peak.into(),
+            peak_ratio: found.peak_ratio,
+            hysteresis: times(found.mean, 2.0).into(),
+            work: times(found.work, if is_joule { FEMTOJOULES } else { 1.0 }).into(),
+            offset: found.offset.into(),
+            reversal: found.reversal,
+            stiffness: found.stiffness.into(),
+            noise: found.noise,
+            rows: LoopColumns { x, trace, retrace },
+        }
+    }
+
+    /// The estimates, with their names and units.
+    pub fn estimates(&self) -> [(&'static str, &EstimateDocument, String); 7] {
+        let force = self.force_unit.clone().unwrap_or_default();
+        let slope = match (self.force_unit.as_deref(), self.length_unit.as_deref()) {
+            (Some("nN"), Some(_)) => "N/m".into(),
+            (Some(force), Some(length)) => format!("{force}/{length}"),
+            _ => String::new(),
+        };
+        [
+            ("kinetic friction", &self.kinetic, force.clone()),
+            ("mean friction", &self.mean, force.clone()),
+            ("static peak", &self.static_peak, force.clone()),
+            ("hysteresis", &self.hysteresis, force.clone()),
+            ("work", &self.work, self.work_unit.clone().unwrap_or_default()),
+            ("offset", &self.offset, force),
+            ("stiffness", &self.stiffness, slope),
+        ]
+    }
+}
+
+fn times(estimate: Estimate, factor: f64) -> Estimate {
+    let Estimate { value, low, high } = estimate;
+    Estimate { value: value * factor, low: low * factor, high: high * factor }
+}
+
+impl Tabular for FrictionFound {
+    /// The loop.
+    fn columns(&self) -> Vec<Named<'_>> {
+        let LoopColumns { x, trace, retrace } = &self.rows;
+        vec![("x", Column::of(x)), ("trace", Column::of(trace)), ("retrace", Column::of(retrace))]
+    }
+}

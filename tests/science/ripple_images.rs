@@ -1,0 +1,318 @@
+//! α, r, wavelength and crest angle by the question `fit-image`, from images of rasters whose lines are integrated one after another
+//! in time, by the closed equation and on a grid: neither shares code with the settled pattern that is fitted.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+use stickslip::tip::{Footprint, Model, TipFunction, Wider};
+use stickslip::{Ask, Context, EstimateDocument, FitImage, FitImageDocument, MeasuredImage, Tip};
+use stickslip_grid::{Layer, RowMethod, Scan, ScanLine, Stepping, scan};
+use stickslip_raster::{Path, Plan, Scanned, Scanning};
+use stickslip_stability::{Raster, RasterPath};
+
+const SIGMA: f64 = 30.0;
+const GAIN: f64 = 18.0;
+
+/// α over that of onset, r, and the pitch; the length of the lines and their extent.
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    above: f64,
+    r: f64,
+    pitch: f64,
+    size: [f64; 2],
+}
+
+impl Case {
+    fn footprint() -> Footprint {
+        Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap()
+    }
+
+    fn alpha(self) -> f64 {
+        let raster = Raster::new(&Self::footprint(), Wider::default(), (self.r, self.pitch), 1.0);
+        self.above * raster.unwrap().critical(RasterPath::OneWay).unwrap().alpha
+    }
+
+    fn lines(self) -> usize {
+        (self.size[1] / self.pitch) as usize
+    }
+
+    /// The settled part: first and last position along the lines and across them.
+    fn window(self) -> [[f64; 2]; 2] {
+        let [length, height] = self.size;
+        [[0.5 * length, length - 8.0], [0.55 * height, height - 6.0]]
+    }
+
+    fn scanned(self, path: Path) -> Scanned {
+        let model = Model::new(TipFunction::gaussian(1.0).unwrap(), self.alpha(), self.r).unwrap();
+        let mut plan =
+            Plan::new(Self::footprint(), model, path, self.pitch, self.lines(), self.size[0]);
+        plan.law.tolerance = 1e-6;
+        let mut scanning = Scanning::new(&plan).unwrap();
+        while scanning.next_line().unwrap().is_some() {}
+        Scanned::new(&plan, &scanning.into_lines())
+    }
+
+    /// Heights at these x on the rows of the grid, and the y of these.
+    fn on_grid(self, x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let bell = |x: f64| (-0.5 * x * x).exp();
+        let lines: Vec<ScanLine> = (0..self.lines())
+            .map(|n| ScanLine { y: self.pitch * n as f64, from: 0.0, to: self.size[0] })
+            .collect();
+        let asked = Scan {
+            model: (self.alpha(), self.r),
+            law: (None, None, None),
+            layers: &[Layer { along: &bell, across: &bell }],
+            reach: (8.0, 7.0),
+            lines: &lines,
+            zigzag: false,
+            force: &|_| 0.0,
+        };
+        let stepping = Stepping::absolute(1e-6);
+        let found = scan(&asked, (RowMethod::Sinc, 0.36), &stepping, (&[], x), &mut |_| {
+            ControlFlow::Continue(())
+        });
+        let found = found.unwrap();
+        (found.y, found.u)
+    }
+}
+
+/// A normal deviate, by Box and Muller.
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random());
+    (-2.0 * u.ln()).sqrt() * (TAU * v).cos()
+}
+
+fn even([first, last]: [f64; 2], count: usize, shift: f64) -> Vec<f64> {
+    (0..count).map(|k| first + shift + (last - first) * k as f64 / count as f64).collect()
+}
+
+/// Heights in σ and kσ²/a as an image in nm with noise, a tilt and an offset of each line, each relative to the ripples.
+fn image(
+    (x, y, heights): (&[f64], &[f64], &[Vec<f64>]),
+    noise: f64,
+    mirrored: [bool; 2],
+    random: &mut ChaCha8Rng,
+) -> MeasuredImage {
+    let count = (x.len() * y.len()) as f64;
+    let mean = heights.iter().flatten().sum::<f64>() / count;
+    let size = (heights.iter().flatten().map(|u| (u - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let tilt = [normal(random), normal(random)].map(|v| 0.05 * v * size);
+    let mut rows = vec![];
+    for (row, y) in heights.iter().zip(y) {
+        let offset = 0.5 * size * normal(random);
+        let one = |(u, x): (&f64, &f64)| {
+            let ground = offset + tilt[0] * x + tilt[1] * y;
+            GAIN * (u + ground + noise * size * normal(random))
+        };
+        let mut row: Vec<f64> = row.iter().zip(x).map(one).collect();
+        if mirrored[0] {
+            row.reverse();
+        }
+        rows.push(row);
+    }
+    if mirrored[1] {
+        rows.reverse();
+    }
+    let from_first = |at: &[f64]| at.iter().map(|v| SIGMA * (v - at[0])).collect::<Vec<f64>>();
+    MeasuredImage { x: from_first(x), y: from_first(y), rows }
+}
+
+fn question(image: MeasuredImage, pitch: f64) -> FitImage {
+    FitImage {
+        tip: Some(Tip(TipFunction::gaussian(1.0).unwrap())),
+        pitch: Some(SIGMA * pitch),
+        ..FitImage::new(image, SIGMA)
+    }
+}
+
+fn fitted(image: MeasuredImage, pitch: f64) -> Result<FitImageDocument, stickslip::Failure> {
+    question(image, pitch).ask(&Context::default())
+}
+
+fn holds(estimate: &EstimateDocument, truth: f64) -> bool {
+    estimate.low.is_some_and(|low| low <= truth) && estimate.high.is_some_and(|high| truth <= high)
+}
+
+/// Wavelength in σ and angle in degrees of the strongest wave near one, by a search on the windowed transform of clean heights.
+fn strongest((x, y, u): (&[f64], &[f64], &[Vec<f64>]), mut at: [f64; 2]) -> [f64; 2] {
+    let window = |at: &[f64], v: f64| {
+        let part = (v - at[0]) / (at[at.len() - 1] - at[0]);
+        (0.5 * TAU * part).sin().powi(2)
+    };
+    let total: f64 = x.iter().map(|v| window(x, *v)).sum();
+    let power = |q: f64, kappa: f64| {
+        let (mut re, mut im) = (0.0, 0.0);
+        for (row, y_at) in u.iter().zip(y) {
+            let mean = row.iter().zip(x).map(|(u, v)| u * window(x, *v)).sum::<f64>() / total;
+            for (u, x_at) in row.iter().zip(x) {
+                let weight = window(x, *x_at) * window(y, *y_at) * (u - mean);
+                let (sin, cos) = (q * x_at + kappa * y_at).sin_cos();
+                (re, im) = (re + weight * cos, im + weight * sin);
+            }
+        }
+        re * re + im * im
+    };
+    let mut step = 0.02;
+    while step > 1e-5 {
+        let near = [-1.0, 0.0, 1.0]
+            .map(|i| [-1.0, 0.0, 1.0].map(|j| [at[0] + i * step, at[1] + j * step]));
+        let best = near.into_iter().flatten().map(|[q, kappa]| (power(q, kappa), [q, kappa]));
+        let (_, best) = best.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        if best == at {
+            step *= 0.5;
+        }
+        at = best;
+    }
+    [TAU / at[0].hypot(at[1]), at[0].atan2(at[1].abs()).to_degrees()]
+}
+
+/// Two rasters by the grid: one image each, with noise, tilt and offsets.
+#[test]
+fn a_raster_on_the_grid_gives_its_alpha_and_r() {
+    let case = Case { above: 1.12, r: 1.0, pitch: 1.0, size: [100.0, 100.0] };
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let x = even(case.window()[0], 96, 0.0);
+    let (y, u) = case.on_grid(&x);
+    // The rows are the lines; the last of them are not covered by later ones yet.
+    let kept: Vec<usize> = (0..y.len()).filter(|i| (52.0..=94.0).contains(&y[*i])).collect();
+    let rows: Vec<Vec<f64>> = kept.iter().map(|i| u[*i].clone()).collect();
+    let y: Vec<f64> = kept.iter().map(|i| y[*i]).collect();
+    let image = image((&x, &y, &rows), 0.1, [false, true], &mut random);
+    // The pitch is the distance of the rows.
+    let asked = FitImage { pitch: None, ..question(image, 1.0) };
+    let found = asked.ask(&Context::default()).unwrap();
+    eprintln!("{:?} {:?} {:?} {}", found.alpha, found.r, found.wavelength, found.misfit);
+    assert!((found.parameters.pitch.unwrap() / SIGMA - 1.0).abs() < 1e-12);
+    assert!(found.explained);
+    assert!((found.alpha.value / case.alpha() - 1.0).abs() < 0.03, "{:?}", found.alpha);
+    assert!((found.r.value / case.r - 1.0).abs() < 0.03, "{:?}", found.r);
+    let profile = &found.profile;
+    let off = |i: usize| (profile.height[i] - profile.model[i]).abs() / profile.error[i];
+    let most = (0..profile.height.len()).map(off).fold(0.0, f64::max);
+    assert!(most < 4.5, "{most}");
+}
+
+/// Lines scanned to and fro make a pattern that the model of one-way lines does not have; and noise has none.
+#[test]
+fn other_images_get_no_numbers() {
+    let case = Case { above: 1.15, r: 1.0, pitch: 1.0, size: [80.0, 80.0] };
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let [x, y] = case.window().map(|ends| even(ends, 64, 0.0));
+    let rows: Vec<Vec<f64>> = case
+        .scanned(Path::Zigzag)
+        .heights(&x, &y)
+        .rows()
+        .into_iter()
+        .map(|row| row.to_vec())
+        .collect();
+    let zigzag = fitted(image((&x, &y, &rows), 0.1, [false, false], &mut random), case.pitch);
+    let has_numbers = zigzag.as_ref().is_ok_and(|found| found.explained);
+    assert!(!has_numbers, "{:?}", zigzag.map(|found| (found.alpha, found.r, found.misfit)));
+    let noise: Vec<Vec<f64>> =
+        (0..64).map(|_| (0..64).map(|_| normal(&mut random)).collect()).collect();
+    let noise = fitted(image((&x, &y, &noise), 0.0, [false, false], &mut random), case.pitch);
+    let said = noise.unwrap_err().to_string();
+    assert!(said.contains("no ripples stand out"), "{said}");
+}
+
+#[derive(Default)]
+struct Counts {
+    settled: u32,
+    alpha: u32,
+    r: u32,
+    wavelength: u32,
+    angle: u32,
+    within_1_percent: u32,
+    unexplained: u32,
+    refused: u32,
+    worst: [f64; 3],
+}
+
+impl Counts {
+    fn add(&mut self, found: &FitImageDocument, case: Case, truth: [f64; 2]) {
+        self.settled += 1;
+        let [wavelength, angle] = [SIGMA * truth[0], truth[1]];
+        self.alpha += u32::from(holds(&found.alpha, case.alpha()));
+        self.r += u32::from(holds(&found.r, case.r));
+        self.wavelength += u32::from(holds(&found.wavelength, wavelength));
+        self.angle += u32::from(holds(&found.crest_angle, angle));
+        let off = [
+            found.alpha.value / case.alpha() - 1.0,
+            found.r.value / case.r - 1.0,
+            found.wavelength.value / wavelength - 1.0,
+        ];
+        self.within_1_percent += u32::from(off[2].abs() < 0.01);
+        for (worst, off) in self.worst.iter_mut().zip(off) {
+            *worst = worst.max(off.abs());
+        }
+    }
+}
+
+/// 288 images of 36 rasters.
+#[test]
+#[ignore = "minutes"]
+fn study_of_200_images() {
+    let mut counts = Counts::default();
+    let mut random = ChaCha8Rng::seed_from_u64(2026);
+    for i in 0..36 {
+        let case = Case {
+            above: random.random_range(1.05..1.18),
+            r: random.random_range(0.6..1.1),
+            pitch: [0.5, 0.7, 1.0, 1.3][i % 4],
+            size: [220.0, 220.0],
+        };
+        let mut scanned = case.scanned(Path::OneWay);
+        for k in 0..8 {
+            let pixels = [64, 96, 128, 200, 256, 512][(i + k) % 6];
+            let noise = [0.02, 0.1, 0.3, 0.6, 1.0][(i + 2 * k) % 5];
+            let mirrored = [k % 2 == 1, k % 4 > 1];
+            let shift = random.random_range(-20.0..0.0);
+            let at = |count: usize| case.window().map(|ends| even(ends, count, shift));
+            let mut heights = |count: usize| -> (Vec<f64>, Vec<f64>, Vec<Vec<f64>>) {
+                let [x, y] = at(count);
+                let rows = scanned.heights(&x, &y);
+                (x, y, rows.rows().into_iter().map(|row| row.to_vec()).collect())
+            };
+            let (x, y, rows) = heights(pixels);
+            match fitted(image((&x, &y, &rows), noise, mirrored, &mut random), case.pitch) {
+                Err(error) => {
+                    counts.refused += 1;
+                    println!("{case:?} {pixels} {noise}: {error}");
+                }
+                Ok(found) if !found.explained => {
+                    counts.unexplained += 1;
+                    println!(
+                        "{case:?} {pixels} {noise}: misfit {:.1e}, modulation {:.2}",
+                        found.misfit, found.modulation
+                    );
+                }
+                Ok(found) => {
+                    let (x, y, rows) = heights(64);
+                    let sign = if mirrored[0] == mirrored[1] { 1.0 } else { -1.0 };
+                    let start = [SIGMA * found.q, sign * SIGMA * found.kappa];
+                    let truth = strongest((&x, &y, &rows), start);
+                    counts.add(&found, case, truth);
+                    println!(
+                        "{case:?} {pixels} {noise}: α {:.4} {:?}, r {:?}, λ {:.4} {:?}, {:.3} {:?}, misfit {:.2} {:.4}",
+                        case.alpha(),
+                        found.alpha,
+                        found.r,
+                        SIGMA * truth[0],
+                        found.wavelength,
+                        truth[1],
+                        found.crest_angle,
+                        found.misfit,
+                        found.modulation
+                    );
+                }
+            }
+        }
+        let Counts { settled, alpha, r, wavelength, angle, within_1_percent, .. } = counts;
+        println!(
+            "of {settled}: α {alpha}, r {r}, wavelength {wavelength}, angle {angle}, 1 % {within_1_percent}; unexplained {}, refused \
+             {}, worst {:?}",
+            counts.unexplained, counts.refused, counts.worst
+        );
+    }
+}

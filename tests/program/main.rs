@@ -24,6 +24,7 @@ mod extreme_numbers;
 mod figures;
 mod fit_command;
 mod free_rasters;
+mod hints;
 mod holds;
 mod image_files;
 mod image_fits;

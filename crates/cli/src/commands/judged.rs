@@ -1,5 +1,6 @@
 //! Checks of a raw table of a tip.
 
+use super::summary::quoted;
 use crate::failure::Failure;
 use crate::message::say;
 use std::path::Path;
@@ -17,7 +18,7 @@ pub(super) fn judge_table(
         Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` with the original image, then --tip-file tip.json".into(),
         None => format!(
             "fit it: `stickslip tip {} --half --sigma 1σ -o tip.json`, then --tip-file tip.json",
-            path.display()
+            quoted(path.display().to_string())
         ),
     };
     match judge((x, f), tip) {

@@ -1,6 +1,6 @@
 //! Summaries of measured data.
 
-use super::{Summary, digits};
+use super::{Summary, again, digits};
 use crate::commands::job::Product;
 use serde_json::{Value, json};
 use stickslip::{
@@ -39,6 +39,7 @@ impl Product for MeasuredTipDocument {
             .maybe("critical α of the trace", trace)
             .maybe("critical α of the retrace", retrace)
             .remarks(&self.remarks)
+            .next(again("-o tip.json --plot tip.svg"))
             .next(format!("stickslip stability --tip-file tip.json --r {r}"))
     }
 }

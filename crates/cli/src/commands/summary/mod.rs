@@ -121,6 +121,9 @@ fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
     let is_replaced = |name: &str| OUTLET.contains(&name) || more.split(' ').any(|m| m == name);
     let mut kept = vec![];
     while let Some(word) = words.next() {
+        if word.starts_with("-o") && word.len() > 2 {
+            continue;
+        }
         let (name, value) = word.split_once('=').unwrap_or((&word, ""));
         if !(name.starts_with('-') && is_replaced(name)) {
             kept.push(quoted(word));
@@ -131,9 +134,12 @@ fn typed(mut words: impl Iterator<Item = String>, more: &str) -> String {
     format!("stickslip {} {more}", kept.join(" "))
 }
 
-fn quoted(word: String) -> String {
+pub(in crate::commands) fn quoted(word: String) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_=.,:/+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) { word } else { format!("'{word}'") }
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word;
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
 }
 
 /// ` = 212 nm` for `7.067(2) σ`, with as many digits.

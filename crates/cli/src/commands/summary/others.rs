@@ -71,8 +71,8 @@ impl Product for UnitsDocument {
             summary.maybe(&name.replace('_', " "), value.map(|v| format!("{}{unit}", digits(v, 7))))
         });
         let next = format!(
-            "stickslip run --alpha {alpha} --r {r} --kick 0.05 --until 400 -o run.json --plot run.svg"
+            "stickslip run --alpha {alpha} --r {r} --kick 0.05 --until 400 --units units.json -o run.json --plot run.svg"
         );
-        rows.remarks(&self.remarks).next(next)
+        rows.remarks(&self.remarks).next(again("-o units.json")).next(next)
     }
 }

@@ -63,7 +63,7 @@ fn every_run_validates_against_its_schema_and_so_does_its_surface() {
 }
 
 /// One command line for each kind of document but runs and surfaces.
-const OTHERS: [(&str, &str); 20] = [
+const OTHERS: [(&str, &str); 21] = [
     ("stability", "stability --r 1"),
     ("walking", "stability --no-spring --alpha=-1"),
     ("walker", "run --walker --alpha=-3 --rotation 0.3 --until 20"),
@@ -85,6 +85,7 @@ const OTHERS: [(&str, &str); 20] = [
     ("raster-compare", "compare --tip gaussian --alpha 0.5 --r 1 --pitch 1 --lines 3 --length 10"),
     ("raster-boundary", "boundary --tip gaussian --pitch-range 0.5:2:4 --r 1"),
     ("snaking-boundary", "boundary --stiffness-range 0.3:0.5:2 --r 1"),
+    ("load-map", "boundary --alpha 1.3 --r 0.8 --load 10 --load-range 2:20 --r-range 0.4:1.6:3"),
     ("raster-stability", "stability --r 1 --pitch 1 --alpha 0.5"),
     (
         "units",

@@ -29,6 +29,7 @@ mod holds;
 mod image_files;
 mod image_fits;
 mod interrupts;
+mod load_maps;
 mod origin;
 mod outcomes;
 mod parameters;

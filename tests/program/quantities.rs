@@ -34,7 +34,8 @@ const LINES: [&str; 20] = [
     "sweep raster --tip gaussian --width 1.2|24nm --r 0.8|1um/s --alpha 0.5:0.9:2|0.5um/s:0.9um/s:2 --pitch 1:2:2|20nm:40nm:2 --lines 3 --length 6|120nm --tolerance 1e-4|2pm --depth-limit 30|480nm --healing-time 50|0.8s --inertia 0.1|5.12mg --width-y 1.3|26nm",
 ];
 /// As these, under conditions of their own: their work is not that of the lines above.
-const MORE: [&str; 9] = [
+const MORE: [&str; 10] = [
+    "boundary --alpha 1.3|1.3um/s --r 0.8|1um/s --load 10|10nN --load-range 2:20|0.002uN:20nN --r-range 0.4:1.6:3|500nm/s:2um/s:3",
     "compare --tip gaussian --r 1 --alpha 0.9 --pitch 1|20nm --lines 2 --length 3|60nm --tolerance 1e-4",
     "compare --tip gaussian --r 1 --alpha 0.9 --stiffness-across 0.5 --kick-across 0.1|2nm --width-y 1.3|26nm --noise 0.01 --noise-spacing 0.5 --noise-spacing-across 0.5|10nm --start-position 2 --until 4 --tolerance 1e-3 --time-limit 60",
     "compare --tip gaussian --r 1 --alpha 0.9 --inertia 0.1 --start flat --start-velocity 0.5|625nm/s --start-position 2 --until 4 --tolerance 1e-4",
@@ -47,7 +48,7 @@ const MORE: [&str; 9] = [
 ];
 
 /// Numbers without a dimension, and what is measured in seconds of a clock or on paper.
-const DIMENSIONLESS: [&str; 36] = [
+const DIMENSIONLESS: [&str; 37] = [
     "beta",
     "seed",
     "points",
@@ -84,6 +85,8 @@ const DIMENSIONLESS: [&str; 36] = [
     "unit",
     "grid",
     "tip",
+    "only",
+    "width-exponent",
 ];
 
 #[test]

@@ -68,6 +68,7 @@ pub use ask::fit_image::{
 };
 pub use ask::friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
 pub use ask::lines;
+pub use ask::load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint};
 pub use ask::measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
     MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,

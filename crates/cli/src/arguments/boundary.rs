@@ -4,7 +4,10 @@ use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use std::path::PathBuf;
-use stickslip::{Boundary, RasterBoundary, SnakingBoundary};
+use stickslip::{Boundary, LoadMap, RasterBoundary, SnakingBoundary};
+
+/// The questions beside the boundary of a single line.
+type Others = Either<RasterBoundary, Either<SnakingBoundary, LoadMap>>;
 
 /// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
 /// against their pitch; or that of snaking against the stiffness across the scan.
@@ -12,7 +15,7 @@ use stickslip::{Boundary, RasterBoundary, SnakingBoundary};
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
-    pub(crate) options: Options<Either<Boundary, Either<RasterBoundary, SnakingBoundary>>>,
+    pub(crate) options: Options<Either<Boundary, Others>>,
 
     #[command(flatten)]
     pub(crate) answer: AnswerArguments,
@@ -26,7 +29,8 @@ pub(crate) struct BoundaryArguments {
 const USAGE: &str = "stickslip boundary --r-range <LO:HI:N> [OPTIONS]
        stickslip boundary --pitch-range <LO:HI:N> --r <R> [OPTIONS]
        stickslip boundary --stiffness-range <LO:HI:N> --r <R> [OPTIONS]
-       stickslip boundary --r-range <LO:HI:N> --stiffness-across <K> [OPTIONS]";
+       stickslip boundary --r-range <LO:HI:N> --stiffness-across <K> [OPTIONS]
+       stickslip boundary --load-range <LO:HI> --r-range <LO:HI:N> --load <F> --alpha <A> --r <R> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 6:
@@ -43,4 +47,6 @@ const EXAMPLES: &str = "Examples:
     stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 --stiffness-across 2.5 -o across.csv --plot across.svg
   Where a single line snakes, and from which stiffness on it sticks and slips first:
     stickslip boundary --stiffness-range 0.05:2:40 --r 1 -o snaking.json --plot snaking.svg
-    stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 -o velocity.csv";
+    stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 -o velocity.csv
+  At which load and velocity there are ripples, and how far apart, from a lever with α = 1.3 and r = 0.8 at 10 nN and 1 µm/s:
+    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --r-range 0.2um/s:2um/s --sigma 20nm --stiffness 0.2N/m --damping 3.2mNs/m -o loads.csv --plot loads.svg";

@@ -6,7 +6,7 @@ use super::job::Job;
 use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use stickslip::{Boundary, BoundaryDocument, RasterBoundary, SnakingBoundary, parameter};
+use stickslip::{Boundary, BoundaryDocument, LoadMap, RasterBoundary, SnakingBoundary, parameter};
 use stickslip_figures::{Size, View};
 
 pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
@@ -22,6 +22,9 @@ pub(crate) fn boundary(arguments: &BoundaryArguments) -> Result<(), Failure> {
         return asked::<RasterBoundary, _>(options, values, answer, "--pitch-range");
     }
     let is_given = |name: &str| values.contains_key(name);
+    if is_given("load_range") || is_given("load") {
+        return asked::<LoadMap, _>(options, values, answer, "--load-range");
+    }
     if is_given("stiffness_range") {
         return asked::<SnakingBoundary, _>(options, values, answer, "--stiffness-range");
     }

@@ -54,6 +54,7 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
         (_, "alpha" | "alpha-above") => &["k²σ²/(aΓ)"],
         (_, "rotation" | "re-above") => &["k/Γ"],
         (_, "inertia") => &["Γ²/k"],
+        (_, "load" | "load-range") => &["nN"],
         _ => return None,
     })
 }
@@ -65,7 +66,7 @@ fn measured_in(unit: &str) -> (Unit, f64) {
         "Γ/k" => (Unit::Time, 1.0),
         "k/Γ" => (Unit::Rate, 1.0),
         "Γ²/k" => (Unit::Mass, 1.0),
-        "kσ" => (Unit::Force, NANO),
+        "kσ" | "nN" => (Unit::Force, NANO),
         "kσ/Γ" | "k²σ²/(aΓ)" => (Unit::Velocity, NANO),
         _ => (Unit::Length, NANO),
     }
@@ -182,6 +183,9 @@ fn converted(
     }
     let (kind, per_si) = measured_in(unit);
     let quantity = kind.parse(part).map_err(|error| error.to_string())? * per_si;
+    if unit == "nN" {
+        return Ok(Dimension::rounded(quantity));
+    }
     let number = Dimension::of_unit(unit).zip(scales);
     number.and_then(|(dimension, scales)| dimension.number(quantity, scales)).ok_or_else(|| {
         let scales = if has_scales {

@@ -16,6 +16,7 @@ mod growing;
 mod height_scale;
 mod in_units;
 mod labels;
+mod load_map;
 mod measured_tip;
 mod quantity;
 mod raster;
@@ -43,11 +44,11 @@ use serde::Serialize;
 use std::io::Read;
 use stickslip::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    FitDocument, FitImageDocument, FrictionDocument, MeasuredTipDocument, PanelDocument,
-    RasterBoundaryDocument, RasterCompareDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, RasterSweepDocument, ResponseDocument, RunDocument,
-    SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument, Tabular, Unusable,
-    WalkerDocument, WalkingDocument, identified, read_from,
+    FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument, MeasuredTipDocument,
+    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
+    RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument,
+    Tabular, Unusable, WalkerDocument, WalkingDocument, identified, read_from,
 };
 
 pub use drawn::{Drawn, View};
@@ -141,7 +142,7 @@ pub fn can_be_drawn(range: [f64; 2]) -> bool {
 }
 
 /// Formats of all documents that have a figure.
-pub const FORMATS: [&str; 23] = [
+pub const FORMATS: [&str; 24] = [
     RunDocument::FORMAT,
     SurfaceDocument::FORMAT,
     StabilityDocument::FORMAT,
@@ -158,6 +159,7 @@ pub const FORMATS: [&str; 23] = [
     RasterStabilityDocument::FORMAT,
     RasterBoundaryDocument::FORMAT,
     SnakingBoundaryDocument::FORMAT,
+    LoadMapDocument::FORMAT,
     WalkingDocument::FORMAT,
     WalkerDocument::FORMAT,
     MeasuredTipDocument::FORMAT,
@@ -225,6 +227,7 @@ pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusa
         RasterStabilityDocument,
         RasterBoundaryDocument,
         SnakingBoundaryDocument,
+        LoadMapDocument,
         WalkingDocument,
         WalkerDocument,
         MeasuredTipDocument,

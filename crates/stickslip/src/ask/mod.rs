@@ -25,6 +25,7 @@ pub(crate) mod fit;
 pub(crate) mod fit_image;
 pub(crate) mod friction;
 pub mod lines;
+pub(crate) mod load_map;
 pub(crate) mod measured_tip;
 pub(crate) mod model;
 pub(crate) mod points;

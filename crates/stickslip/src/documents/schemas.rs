@@ -2,11 +2,11 @@
 
 use crate::{
     BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, FitDocument, FitImageDocument, FrictionDocument, MeasuredTipDocument,
-    RasterBoundaryDocument, RasterCompareDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument, ResponseDocument,
-    RunDocument, RunLine, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument,
-    SweepDocument, UnitsDocument, VerifyDocument, WalkerDocument, WalkingDocument,
+    FigureDocument, FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument,
+    MeasuredTipDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument,
+    ResponseDocument, RunDocument, RunLine, SnakingBoundaryDocument, StabilityDocument,
+    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument, WalkerDocument, WalkingDocument,
 };
 
 use schemars::{Schema, schema_for};
@@ -15,7 +15,7 @@ use schemars::{Schema, schema_for};
 pub type NamedSchema = (&'static str, fn() -> Schema);
 
 /// All documents with a schema.
-pub const SCHEMAS: [NamedSchema; 28] = [
+pub const SCHEMAS: [NamedSchema; 29] = [
     ("run", || schema_for!(RunDocument)),
     ("run-lines", || schema_for!(RunLine)),
     ("checkpoint", || schema_for!(CheckpointHead)),
@@ -35,6 +35,7 @@ pub const SCHEMAS: [NamedSchema; 28] = [
     ("raster-surface", || schema_for!(RasterSurfaceDocument)),
     ("raster-stability", RasterStabilityDocument::schema),
     ("raster-boundary", RasterBoundaryDocument::schema),
+    ("load-map", LoadMapDocument::schema),
     ("snaking-boundary", SnakingBoundaryDocument::schema),
     ("sweep", SweepDocument::schema),
     ("tip", MeasuredTipDocument::schema),

@@ -3,9 +3,10 @@
 use super::{Summary, again, digits, times};
 use crate::commands::job::Product;
 use stickslip::{
-    HeightMap, PathName, PatternDocument, RasterBoundaryDocument, RasterCompareDocument,
-    RasterCompareFound, RasterCriticalDocument, RasterDocument, RasterKindName,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, SnakingBoundaryDocument,
+    HeightMap, LoadMapDocument, PathName, PatternDocument, RasterBoundaryDocument,
+    RasterCompareDocument, RasterCompareFound, RasterCriticalDocument, RasterDocument,
+    RasterKindName, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
+    SnakingBoundaryDocument,
 };
 
 impl Product for RasterDocument {
@@ -76,7 +77,9 @@ impl Product for RasterStabilityDocument {
                 format!("α = {}, q = {} 1/σ{crests}", number(at.alpha), digits(at.q, 7)),
             )
         });
-        summary.remarks(&self.remarks).next(again("--alpha 0.5 -o growth.csv --plot growth.svg"))
+        let alpha = if self.parameters.at_critical_point { "--alpha 0.5 " } else { "" };
+        let next = again(&format!("{alpha}-o growth.csv --plot growth.svg"));
+        summary.remarks(&self.remarks).next(next)
     }
 }
 
@@ -196,5 +199,32 @@ impl Product for RasterSurfaceDocument {
         let high = digits(heights.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
         Summary::new(format!("{} heights from {low} to {high} kσ²/a", heights.len()))
             .next(again("-o surface.npz --plot surface.png"))
+    }
+}
+
+impl Product for LoadMapDocument {
+    fn summary(&self) -> Summary {
+        let nanonewtons = |load: Option<f64>| load.map(|load| format!("{} nN", digits(load, 6)));
+        let lever = &self.lever;
+        let here = format!("{} nN, r = {}", digits(lever.load, 6), digits(lever.velocity, 6));
+        let regime = lever.regime.map_or("unknown".into(), |regime| regime.to_string());
+        let apart = lever.wavelength.map(|length| format!("{} σ", digits(length, 6)));
+        let headline = match &apart {
+            Some(apart) => format!("at {here}: ripples, {apart} apart"),
+            None => format!("at {here}: {regime}"),
+        };
+        let ripples = self.points.iter().filter(|point| point.wavelength.is_some());
+        let part = format!("at {} of {} points", ripples.clone().count(), self.points.len());
+        let lengths = ripples.filter_map(|point| point.wavelength);
+        let shortest = lengths.clone().fold(f64::INFINITY, f64::min);
+        let longest = lengths.fold(0.0, f64::max);
+        let range =
+            (longest > 0.0).then(|| format!("{} to {} σ", digits(shortest, 6), digits(longest, 6)));
+        Summary::new(headline)
+            .maybe("critical load there", nanonewtons(self.lever_critical_load))
+            .row("ripples", part)
+            .maybe("wavelengths", range)
+            .remarks(&self.remarks)
+            .next(again("-o loads.csv --plot loads.svg"))
     }
 }

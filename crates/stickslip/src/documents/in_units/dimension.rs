@@ -81,10 +81,14 @@ impl Dimension {
     /// Products of decimals such as 40 nm/(20 nm) miss the decimal that they stand for by units of the last place: within four of
     /// them the number of 15 digits is taken, so that a quantity has the bits of the number that is typed in its place.
     pub fn number(self, quantity: f64, scales: &KnownScales) -> Option<f64> {
-        let number = quantity / self.factor(scales)?;
-        let typed: f64 = format!("{number:.14e}").parse().ok()?;
+        Some(Self::rounded(quantity / self.factor(scales)?))
+    }
+
+    /// The number of 15 digits within four units of the last place, or else the number itself.
+    pub fn rounded(number: f64) -> f64 {
+        let typed: f64 = format!("{number:.14e}").parse().unwrap_or(number);
         let is_same = (typed - number).abs() <= 4.0 * f64::EPSILON * number.abs();
-        Some(if is_same { typed } else { number })
+        if is_same { typed } else { number }
     }
 
     /// The suffix of names of such numbers, such as `nm_per_s`.

@@ -1,0 +1,113 @@
+//! Figure of a map of loads: the wavelength of ripples over load and velocity, the critical load, and the measured point.
+
+use super::drawn::{Drawn, View};
+use super::tip::tip_name;
+use crate::error::FigureError;
+use crate::number::short;
+use stickslip::{
+    CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, LoadMapDocument,
+    LoadPoint, MapDocument, PanelDocument, RegimeName, StyleName,
+};
+
+/// Regimes without ripples, with their colours; the last is that of failed points.
+const OTHERS: [(&str, Option<RegimeName>, ColourName); 4] = [
+    ("steady", Some(RegimeName::Steady), ColourName::Silver),
+    ("trapped", Some(RegimeName::Trapped), ColourName::Grey),
+    ("not settled", Some(RegimeName::Transient), ColourName::Orange),
+    ("unknown", None, ColourName::Black),
+];
+
+/// Percentage of the distances of ripples that have colours of their own: towards trapping they have no bound.
+const SHOWN: usize = 85;
+
+impl Drawn for LoadMapDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        let parameters = &self.parameters;
+        let columns = self.velocity.len();
+        if columns < 2
+            || self.points.len() != columns * columns
+            || self.critical_load.len() != columns
+        {
+            return Err(FigureError::Damaged("the points do not fill a grid".into()));
+        }
+        let loads: Vec<f64> = self.points.iter().step_by(columns).map(|point| point.load).collect();
+        let growth = match parameters.width_exponent {
+            0.0 => String::new(),
+            exponent => format!(", σ ∝ F^{{{}}}", short(exponent)),
+        };
+        let title = format!(
+            "{}, α = {} at {} nN{growth}",
+            tip_name(&(&parameters.tip.0).into()),
+            short(parameters.alpha),
+            short(parameters.load)
+        );
+        let mut panel = PanelDocument::new("", ("velocity (kσ/Γ)", "load (nN)"));
+        let mut lengths: Vec<f64> = self.points.iter().filter_map(|p| p.wavelength).collect();
+        lengths.sort_by(f64::total_cmp);
+        let ends = lengths.first().zip(lengths.get(lengths.len() * SHOWN / 100));
+        panel.map = ends.map(|(low, high)| MapDocument {
+            x: self.velocity.clone(),
+            y: loads.clone(),
+            // Cells cover the others.
+            z: self
+                .points
+                .chunks(columns)
+                .map(|row| row.iter().map(|p| p.wavelength.unwrap_or(*low)).collect())
+                .collect(),
+            z_label: "distance of ripples (σ)".into(),
+            colours: ColoursName::Cividis,
+            z_range: (low < high).then_some([*low, *high]),
+        });
+        let named: Vec<_> = OTHERS
+            .iter()
+            .filter(|(_, regime, _)| {
+                self.points.iter().any(|p| is_bare(p) && kind_of(p) == *regime)
+            })
+            .collect();
+        let kind = |point: &LoadPoint| {
+            let regime = kind_of(point);
+            named.iter().position(|(_, of, _)| *of == regime).filter(|_| is_bare(point))
+        };
+        panel.cells = Some(CellsDocument {
+            x: self.velocity.clone(),
+            y: loads.clone(),
+            kinds: self.points.chunks(columns).map(|row| row.iter().map(kind).collect()).collect(),
+            names: named.iter().map(|(name, ..)| (*name).into()).collect(),
+            colours: named.iter().map(|(.., colour)| *colour).collect(),
+        });
+        let [bottom, top] = parameters.load_range;
+        let inside = |load: &Option<f64>| {
+            load.filter(|load| (bottom..=top).contains(load)).unwrap_or(f64::NAN)
+        };
+        let critical: Vec<f64> = self.critical_load.iter().map(inside).collect();
+        if critical.iter().any(|load| load.is_finite()) {
+            let mut curve =
+                CurveDocument::new(StyleName::Line, "critical load", &self.velocity, &critical);
+            curve.colour = Some(ColourName::Vermillion);
+            panel.curves.push(curve);
+        }
+        let (v, f) = (self.lever.velocity, self.lever.load);
+        let [left, right] = parameters.r_range;
+        if (left..=right).contains(&v) && (bottom..=top).contains(&f) {
+            let mut lever = CurveDocument::new(StyleName::OpenSquares, "lever", &[v], &[f]);
+            lever.colour = Some(ColourName::Vermillion);
+            panel.curves.push(lever);
+        }
+        let mut figure = FigureDocument::new("load-map", &title, vec![]);
+        figure.panels = vec![panel];
+        Ok(figure)
+    }
+}
+
+/// Whether a point has no wavelength.
+fn is_bare(point: &LoadPoint) -> bool {
+    point.wavelength.is_none()
+}
+
+/// The regime of a point without ripples; others than those named have not settled.
+fn kind_of(point: &LoadPoint) -> Option<RegimeName> {
+    match point.regime? {
+        regime @ (RegimeName::Steady | RegimeName::Trapped) => Some(regime),
+        _ => Some(RegimeName::Transient),
+    }
+}

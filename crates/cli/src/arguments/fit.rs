@@ -19,7 +19,7 @@ use stickslip::{Fit, FitImage};
 /// line are removed. The tip must be held on its lines, all of which are scanned in one direction.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
-#[command(mut_arg("width", |width| width.help(WIDTH)))]
+#[command(mut_arg("width", |width| width.help(WIDTH).visible_alias("sigma")))]
 pub(crate) struct FitArguments {
     /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
     /// writes it.

@@ -16,8 +16,8 @@ use stickslip_units::Unit;
 /// A command line whose quantities are numbers, and these numbers as they were typed.
 pub(crate) struct Translated {
     pub(crate) words: Vec<OsString>,
-    /// Options with a number, and with what was typed in its place.
-    typed: Vec<[String; 2]>,
+    /// Options with a number, with what was typed in its place, and both with the unit.
+    typed: Vec<[String; 3]>,
 }
 
 impl Translated {
@@ -25,9 +25,13 @@ impl Translated {
     pub(crate) fn restored(&self, failure: Failure) -> Failure {
         match failure {
             Failure::Input { option, message } => {
-                let typed = self.typed.iter().find(|[number, _]| *number == option);
-                let option = typed.map_or(option, |[_, typed]| typed.clone());
-                Failure::Input { option, message }
+                match self.typed.iter().find(|[number, ..]| *number == option) {
+                    // The numbers of the message are those of the model.
+                    Some([_, typed, meant]) => {
+                        Failure::input(typed, format!("{message} ({meant})"))
+                    }
+                    None => Failure::Input { option, message },
+                }
             }
             other => other,
         }
@@ -45,7 +49,7 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
         (_, "width" | "start-position" | "kick" | "kick-across" | "noise-spacing") => LENGTH,
         (_, "noise-spacing-across" | "width-y" | "pitch" | "pitch-range" | "length") => LENGTH,
         (_, "tolerance" | "x" | "y" | "range" | "y-range" | "spacing" | "spacing-y") => LENGTH,
-        (_, "largest-radius") | ("tip", "centre") => LENGTH,
+        (_, "largest-radius") | ("tip", "centre") | ("fit", "sigma") => LENGTH,
         (_, "until" | "at" | "sample-every" | "sample-at" | "hold" | "healing-time") => TIME,
         (_, "grid-until" | "step" | "longest-period" | "checkpoint-every") => TIME,
         (_, "depth-limit" | "noise") => &["kσ²/a"],
@@ -100,8 +104,10 @@ pub(crate) fn translated(
     let quantities: Vec<Quantity> = line.quantities(&command).collect();
     let Some(first) = quantities.first() else { return Ok(translated) };
     parser.build();
-    let is_of_data =
-        matches!((&*command[0], &*first.option), ("fit", "--width") | ("tip", "--centre"));
+    let is_of_data = matches!(
+        (&*command[0], &*first.option),
+        ("fit", "--width" | "--sigma") | ("tip", "--centre")
+    );
     let (scales, unit) = if is_of_data {
         let unit = line.value("unit").unwrap_or(first.suffix());
         let length = Unit::Length.one(unit);
@@ -115,7 +121,8 @@ pub(crate) fn translated(
         let Quantity { option, value, place, is_joined, .. } = quantity;
         translated.words[*place] =
             if *is_joined { format!("{option}={number}").into() } else { number.into() };
-        translated.typed.push([format!("{option} {shown}"), format!("{option} {value}")]);
+        let meant = format!("{value} is {shown} {}", quantity.units.join(", "));
+        translated.typed.push([format!("{option} {shown}"), format!("{option} {value}"), meant]);
     }
     if let Some(unit) = unit.filter(|_| line.value("unit").is_none()) {
         translated.words.insert(at + 1, format!("--unit={unit}").into());

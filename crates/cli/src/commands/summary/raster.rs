@@ -67,6 +67,7 @@ impl Product for RasterStabilityDocument {
             .maybe("critical α", at.map(|at| number(at.alpha)))
             .maybe("q along the lines", at.map(|at| format!("{} 1/σ", number(at.q))))
             .maybe("wavelength along them", length)
+            .maybe("wavelength across the crests", at.and_then(across_crests))
             .maybe("phase per line", at.map(|at| number(at.phase_per_line)))
             .maybe("crests to scan axis", at.and_then(angle));
         let others = self.thresholds.iter().flatten().skip(1);
@@ -81,6 +82,12 @@ impl Product for RasterStabilityDocument {
         let next = again(&format!("{alpha}-o growth.csv --plot growth.svg"));
         summary.remarks(&self.remarks).next(next)
     }
+}
+
+/// 2π/|(q, κ)|, as rasters have it; `None` for a zigzag, where the phase alternates.
+fn across_crests(at: &RasterCriticalDocument) -> Option<String> {
+    let length = std::f64::consts::TAU / at.q.hypot(at.kappa?);
+    Some(format!("{} σ", digits(length, 10)))
 }
 
 /// Description of the motion that grows above a threshold.
@@ -204,11 +211,16 @@ impl Product for RasterSurfaceDocument {
 
 impl Product for LoadMapDocument {
     fn summary(&self) -> Summary {
+        let scales = self.physical.as_ref().map(|physical| physical.scales).unwrap_or_default();
+        let length = |value: f64| match scales.length {
+            Some(sigma) => format!("{} nm", digits(value * sigma * 1e9, 6)),
+            None => format!("{} σ", digits(value, 6)),
+        };
         let nanonewtons = |load: Option<f64>| load.map(|load| format!("{} nN", digits(load, 6)));
         let lever = &self.lever;
         let here = format!("{} nN, r = {}", digits(lever.load, 6), digits(lever.velocity, 6));
         let regime = lever.regime.map_or("unknown".into(), |regime| regime.to_string());
-        let apart = lever.wavelength.map(|length| format!("{} σ", digits(length, 6)));
+        let apart = lever.wavelength.map(length);
         let headline = match &apart {
             Some(apart) => format!("at {here}: ripples, {apart} apart"),
             None => format!("at {here}: {regime}"),
@@ -223,7 +235,7 @@ impl Product for LoadMapDocument {
         Summary::new(headline)
             .maybe("critical load there", nanonewtons(self.lever_critical_load))
             .row("ripples", part)
-            .maybe("wavelengths", range)
+            .maybe("their distances", range)
             .remarks(&self.remarks)
             .next(again("-o loads.csv --plot loads.svg"))
     }

@@ -4,21 +4,63 @@
 use super::varied::{Phase, Varied};
 use crate::axis::extremes;
 use crate::compose::labels::WIDE;
-use stickslip::{CurveDocument, PanelDocument, ScaleName, StyleName, SweepDocument, SweepPoint};
+use stickslip::{
+    ColourName, CurveDocument, EnsembleDocument, PanelDocument, ScaleName, StatisticsDocument,
+    StyleName, SweepDocument, SweepPoint,
+};
 
 /// A quantity of a point.
 type Measure = fn(&SweepPoint) -> Option<f64>;
+/// Its statistics over seeds.
+type Statistics = fn(&EnsembleDocument) -> &Option<StatisticsDocument>;
 
 /// Panels of dots, one for each quantity that any point has; the first one if none has any.
 pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
-    let measures: [(&str, Measure); 2] =
-        [("amplitude of x₀ (σ)", |p| p.amplitude_x0), ("period (Γ/k)", |p| p.period)];
-    let is_there =
-        |(_, value): &(&str, Measure)| document.points.iter().any(|p| value(&p).is_some());
+    let measures: [(&str, Measure, Statistics); 4] = [
+        ("amplitude of x₀ (σ)", |p| p.amplitude_x0, |e| &e.amplitude_x0),
+        ("period (Γ/k)", |p| p.period, |e| &e.period),
+        ("mean of l (σ)", |p| p.mean_l, |e| &e.mean_l),
+        ("deviation of l (σ)", |p| p.deviation_l, |e| &e.deviation_l),
+    ];
+    // Of motions that need not have settled, where there are several.
+    let ensemble = document.ensembles.as_deref().unwrap_or_default().first();
+    let measures = &measures[..if ensemble.is_some() { 4 } else { 2 }];
+    let is_there = |(_, value, _): &&(&str, Measure, Statistics)| {
+        document.points.iter().any(|p| value(&p).is_some())
+    };
     let count = measures.iter().filter(|measure| is_there(measure)).count();
-    let shown = measures.into_iter().filter(|measure| count == 0 || is_there(measure));
-    let panel = |(label, value): (&str, Measure)| panel(document, axis, label, value);
+    let shown = measures.iter().filter(|measure| count == 0 || is_there(measure));
+    let panel = |(label, value, statistics): &(&str, Measure, Statistics)| {
+        let mut panel = panel(document, axis, label, *value);
+        let found = ensemble
+            .filter(|_| axis.label == "seed")
+            .and_then(|ensemble| statistics(ensemble).as_ref());
+        if let (Some(found), Some(ends)) = (found, extremes(axis.values.iter().copied())) {
+            draw(&mut panel, found, ends);
+        }
+        panel
+    };
     shown.take(count.max(1)).map(panel).collect()
+}
+
+/// Adds the mean of an ensemble and its spread, and fits the ordinates to them.
+fn draw(panel: &mut PanelDocument, found: &StatisticsDocument, (first, last): (f64, f64)) {
+    let line = |style, name: &str, at: f64| {
+        let mut curve = CurveDocument::new(style, name, &[first, last], &[at, at]);
+        curve.colour = Some(ColourName::Black);
+        curve
+    };
+    panel.curves.push(line(StyleName::Line, "mean", found.mean));
+    let spread = found.deviation.unwrap_or_default();
+    let beside = [("mean ± deviation", found.mean - spread), ("", found.mean + spread)];
+    panel.curves.extend(beside.map(|(name, at)| line(StyleName::Dashed, name, at)));
+    let air = 0.1 * (found.largest - found.least).max(spread);
+    if air > 0.0
+        && panel.y_scale == ScaleName::Linear
+        && !panel.curves.iter().any(|c| c.style == StyleName::SmallTriangles)
+    {
+        panel.y_range = Some([found.least - air, found.largest + air]);
+    }
 }
 
 fn panel(document: &SweepDocument, axis: Varied, label: &str, value: Measure) -> PanelDocument {

@@ -41,8 +41,19 @@ fn fields(root: &Value, at: &Value, part: &str, found: &mut Vec<[String; 3]>, de
 const UNTOUCHED: [&str; 6] =
     ["parameters", "history", "work", "verification", "physical", "floquet"];
 /// Documents that are in units, with their own or none, or are not told in them.
-const OTHERS: [&str; 8] =
-    ["run-lines", "checkpoint", "verify", "tip", "fit", "units", "figure", "reproduction"];
+const OTHERS: [&str; 11] = [
+    "run-lines",
+    "checkpoint",
+    "verify",
+    "tip",
+    "fit",
+    "fit-image",
+    "friction",
+    "load-map",
+    "units",
+    "figure",
+    "reproduction",
+];
 
 /// What has the unit of what it is a part, or a statistic, of.
 const OF_THE_WHOLE: [&str; 8] =

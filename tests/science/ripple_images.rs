@@ -159,7 +159,7 @@ fn strongest((x, y, u): (&[f64], &[f64], &[Vec<f64>]), mut at: [f64; 2]) -> [f64
             .map(|i| [-1.0, 0.0, 1.0].map(|j| [at[0] + i * step, at[1] + j * step]));
         let best = near.into_iter().flatten().map(|[q, kappa]| (power(q, kappa), [q, kappa]));
         let (_, best) = best.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-        if best == at {
+        if best.map(f64::to_bits) == at.map(f64::to_bits) {
             step *= 0.5;
         }
         at = best;
@@ -249,7 +249,8 @@ impl Counts {
     }
 }
 
-/// 288 images of 36 rasters.
+/// 288 images of 36 rasters. In 174 the ripples have not settled, and 2 are refused; of the other 112 the intervals contain α in 103, r
+/// and the wavelength in 106 and the crest angle in all.
 #[test]
 #[ignore = "minutes"]
 fn study_of_200_images() {

@@ -215,7 +215,9 @@ fn positive(name: &'static str, value: f64) -> Result<f64, Refused> {
 fn is_even(at: &[f64]) -> bool {
     let [first, .., last] = at else { return false };
     let step = (last - first) / (at.len() - 1) as f64;
-    let off = |(i, v): (usize, &f64)| !((v - first - step * i as f64).abs() <= UNEVEN * step);
+    let off = |(i, v): (usize, &f64)| {
+        !v.is_finite() || (v - first - step * i as f64).abs() > UNEVEN * step
+    };
     step > 0.0 && !at.iter().enumerate().any(off)
 }
 

@@ -261,7 +261,7 @@ fn the_race_is_told_as_it_was_run() {
         &[
             format!("on one core of {machine}"),
             format!(
-                "{} and {} is what is measured at an error of $10^{{-5}}$",
+                "{} and {} are the ratios at an error of $10^{{-5}}$",
                 times(delays),
                 times(jit)
             ),

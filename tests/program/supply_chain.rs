@@ -42,6 +42,23 @@ fn is_ours(package: &Value) -> bool {
 }
 
 #[test]
+fn all_that_names_the_version_names_the_same() {
+    let version = env!("CARGO_PKG_VERSION");
+    for (file, line) in [
+        ("CITATION.cff", format!("version: {version}")),
+        ("packages/conda/recipe.yaml", format!("version: \"{version}\"")),
+        ("crates/python/Cargo.toml", format!("version = \"{version}\"")),
+        ("crates/python/stickslip/__init__.py", format!("__version__ = \"{version}\"")),
+        ("crates/web/Cargo.toml", format!("version = \"{version}\"")),
+        ("CHANGELOG.md", format!("## {version} - ")),
+    ] {
+        let text = fs::read_to_string(root().join(file)).unwrap();
+        let is_there = text.lines().any(|l| l.trim_start().starts_with(&line));
+        assert!(is_there, "{file}: no {line}");
+    }
+}
+
+#[test]
 fn default_features_are_asked_for_only_where_they_are_wanted() {
     let all = packages();
     let defaults = |name: &Value| -> Vec<String> {

@@ -25,6 +25,7 @@ KERNELS = {
     "cycle and multipliers": "cycle --alpha 1.5 --r 1 --points 10",
     "linear theory": "boundary --r-range 0.1,3 --points 300",
     "map": "sweep --r 0.8:1.2:2 --alpha 0.9:1.6:4 --threads 1",
+    "runs side by side": "sweep --until 200 --r 1 --alpha 1.1:1.5:64 --kick 0.05 --threads 1",
     "raster": "raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 16 --length 20",
     "surface": "surface run.json --at 200 --range 0:210 --spacing 0.02",
 }

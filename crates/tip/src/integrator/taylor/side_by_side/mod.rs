@@ -330,12 +330,13 @@ fn follow(numbers: &mut Numbers) {
             break;
         }
         let at = RADAU.c.map(|c| part * (i as f64 + c));
-        *nodes = [Lanes::ZERO; STAGES];
+        let mut values = [Lanes::ZERO; STAGES];
         for coefficient in displacement.iter().rev() {
-            for (node, at) in nodes.iter_mut().zip(&at) {
-                *node = *node * *at + *coefficient;
+            for (value, at) in values.iter_mut().zip(&at) {
+                *value = *value * *at + *coefficient;
             }
         }
+        *nodes = values;
     }
 }
 

@@ -11,7 +11,7 @@ use num_complex::Complex;
 pub(super) struct Exponentials {
     terms: Vec<Term>,
     /// `Re w_j s_j^{n-1}` and `-Im w_j s_j^{n-1}`, n = 1, 2, …: what Re z and Im z count for in the n-th derivative.
-    derivatives: Vec<[[f64; 2]; ROOM]>,
+    derivatives: Vec<[[f64; ROOM]; 2]>,
     /// `s_j^m`
     powers: Vec<[[f64; 2]; HIGHEST_DEGREE + 1]>,
     /// How far a polynomial of each degree follows all of them.
@@ -20,8 +20,8 @@ pub(super) struct Exponentials {
     pub(super) of_tip: [f64; MOST_ORDER],
 }
 
-/// Derivatives that are summed at a time, and room for whole blocks of them.
-const AT_ONCE: usize = 8;
+/// Derivatives that are summed at a time, few as in a block of an expansion, and room for whole blocks of them.
+const AT_ONCE: usize = 6;
 const ROOM: usize = MOST_ORDER.next_multiple_of(AT_ONCE);
 
 /// 1/m!
@@ -38,11 +38,12 @@ const INVERSE_FACTORIALS: [f64; HIGHEST_DEGREE + 1] = {
 impl Exponentials {
     pub(super) fn new(fit: &Fit) -> Self {
         let terms = fit.terms().to_vec();
-        let derivatives: Vec<[[f64; 2]; ROOM]> = terms
-            .iter()
-            .map(|term| powers_of(term.exponent, term.weight).map(|[re, im]| [re, -im]))
-            .collect();
-        let sum = |n: usize| derivatives.iter().map(|of_term| of_term[n][0]).sum();
+        let counts = |term: &Term| {
+            let powers: [[f64; 2]; ROOM] = powers_of(term.exponent, term.weight);
+            [powers.map(|[re, _]| re), powers.map(|[_, im]| -im)]
+        };
+        let derivatives: Vec<[[f64; ROOM]; 2]> = terms.iter().map(counts).collect();
+        let sum = |n: usize| derivatives.iter().map(|[re, _]| re[n]).sum();
         Self {
             powers: terms.iter().map(|term| powers_of(term.exponent, Complex::ONE)).collect(),
             lengths: expansion_lengths(&terms, fit.wanted()),
@@ -138,11 +139,12 @@ impl Past {
     pub(super) fn derivatives(&self, of: &Exponentials, factor: Lanes, into: &mut [Lanes]) {
         for (block, into) in into.chunks_mut(AT_ONCE).enumerate() {
             let mut sums = [Lanes::ZERO; AT_ONCE];
-            for ([re, im], powers) in self.states.iter().zip(&of.derivatives) {
-                let powers = &powers.as_chunks::<AT_ONCE>().0[block];
-                for (sum, [by_re, by_im]) in sums.iter_mut().zip(powers) {
-                    *sum += *re * *by_re;
-                    *sum += *im * *by_im;
+            for (parts, counts) in self.states.iter().zip(&of.derivatives) {
+                for (part, counts) in parts.iter().zip(counts) {
+                    let counts = &counts.as_chunks::<AT_ONCE>().0[block];
+                    for (sum, count) in sums.iter_mut().zip(counts) {
+                        *sum += *part * *count;
+                    }
                 }
             }
             for (entry, sum) in into.iter_mut().zip(sums) {
@@ -155,9 +157,8 @@ impl Past {
     /// exponentials can be expanded.
     #[inline(always)]
     pub(super) fn remember(&mut self, of: &Exponentials, displacement: &[Lanes], visits: &Visits) {
-        let blocks = visits.count.div_ceil(BLOCK);
         let mut positions = [Lanes::ZERO; MOST_NODES];
-        positions_at(displacement, &visits.parts, &mut positions, blocks);
+        positions_at(displacement, &visits.parts, &mut positions, visits.count);
         let mut end = Lanes::ZERO;
         displacement.iter().for_each(|coefficient| end += *coefficient);
         let mut stretches = [Stretch { start: 0.0, end: 0.0, nodes: (0, 0) }; LANES];
@@ -248,12 +249,13 @@ impl Stretch {
     }
 }
 
-/// The places of visits, by Horner's rule.
+/// The places of the first visits, by Horner's rule. Three at a time: of four, compilers make vectors across them.
 #[inline(always)]
-fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, blocks: usize) {
-    let (parts, _) = parts.as_chunks::<BLOCK>();
-    for (parts, into) in parts[..blocks].iter().zip(into.as_chunks_mut::<BLOCK>().0) {
-        let mut values = [Lanes::ZERO; BLOCK];
+fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, count: usize) {
+    const CHAINS: usize = 3;
+    let (parts, _) = parts[..count.next_multiple_of(CHAINS)].as_chunks::<CHAINS>();
+    for (parts, into) in parts.iter().zip(into.as_chunks_mut::<CHAINS>().0) {
+        let mut values = [Lanes::ZERO; CHAINS];
         for coefficient in series.iter().rev() {
             for (value, part) in values.iter_mut().zip(parts) {
                 *value = *value * *part + *coefficient;

@@ -83,8 +83,12 @@ impl Outlook {
         for (coefficient, counts) in series[1..].iter().zip(&outlook()[1..]) {
             let scaled = *coefficient * power;
             power *= over;
-            for (sum, count) in sums.iter_mut().zip(counts) {
-                *sum += scaled * *count;
+            // Half of them at a time: see the block of an expansion.
+            let halves = sums.as_chunks_mut::<{ BLOCK / 2 }>().0.iter_mut();
+            for (sums, counts) in halves.zip(counts.as_chunks::<{ BLOCK / 2 }>().0) {
+                for (sum, count) in sums.iter_mut().zip(counts) {
+                    *sum += scaled * *count;
+                }
             }
         }
         let [moved, rest @ ..] = sums.map(|sum| sum.map(f64::abs));

@@ -22,9 +22,15 @@ def call(path, given, progress):
             # What was computed until then.
             error.result = result_of(error.document)
         raise
-    for line in said:
-        warnings.warn(in_words_of_python(path, line.removeprefix("stickslip: ")), StickslipWarning, stacklevel=3)
+    said = [line.removeprefix("stickslip: ") for line in said]
+    for line in dict.fromkeys(said + remarks(document)):
+        warnings.warn(in_words_of_python(path, line), StickslipWarning, stacklevel=3)
     return None if document is None else result_of(document)
+
+
+def remarks(document):
+    """The remarks of a document."""
+    return list(document.field("remarks")) if document is not None and "remarks" in document.names() else []
 
 
 def run_many(questions, *, progress=None):
@@ -46,8 +52,10 @@ def run_many(questions, *, progress=None):
     except (ValueError, RuntimeError, KeyboardInterrupt) as error:
         error.args = tuple(": ".join([number, in_words_of_python(path, why)]) if why else number for number, why in map(apart, error.args))
         raise
-    for number, line in said:
-        line = in_words_of_python(path, line.removeprefix("stickslip: "))
+    said = [(number, line.removeprefix("stickslip: ")) for number, line in said]
+    said += [(number, line) for number, (document, _) in enumerate(runs) for line in remarks(document)]
+    for number, line in dict.fromkeys(said):
+        line = in_words_of_python(path, line)
         warnings.warn(f"run {number}: {line}", StickslipWarning, stacklevel=2)
     results = [None if document is None else result_of(document) for document, _ in runs]
     failed = [f"run {number}: {in_words_of_python(path, why)}" for number, (_, why) in enumerate(runs) if why is not None]

@@ -1,5 +1,6 @@
 """Who is told how far the work has come."""
 
+import re
 from contextlib import contextmanager
 
 
@@ -9,7 +10,16 @@ def told(progress):
     if progress is None or progress is False:
         yield None
     elif callable(progress):
-        yield progress
+        last = [None, ""]
+
+        def tell(part, counted):
+            last[:] = part, counted
+            progress(part, counted)
+
+        yield tell
+        if last[0] is not None and last[0] < 1:
+            # The program counts at intervals: what is done is done.
+            progress(1.0, re.sub(r"^\S+ of (\S+)", r"\1 of \1", last[1]))
     else:
         with bar() as shown:
             yield shown

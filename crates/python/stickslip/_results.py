@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections import namedtuple
 
 from . import _native
@@ -76,7 +77,7 @@ class Result:
     def to_xarray(self):
         """Its table as an xarray Dataset over its first column, and what defines it as attributes."""
         columns = self.columns()
-        return dataset(self, columns, next(iter(columns), None))
+        return dataset(self, columns, next(iter(columns), None), physical(self))
 
     def __repr__(self):
         text = self._document.text.rstrip("\n")
@@ -171,11 +172,15 @@ class RunResult(Result):
 
     def to_xarray(self):
         """The samples as an xarray Dataset over t."""
-        return dataset(self, self.samples, "t")
+        return dataset(self, self.samples, "t", physical(self, "samples"))
 
 
 class CycleResult(Result):
     """A cycle: period, wavelength, amplitudes, profile, floquet multipliers, stable."""
+
+    def to_xarray(self):
+        """The profile as an xarray Dataset over t."""
+        return dataset(self, self.columns(), "t", physical(self, "profile"))
 
 
 class ContinueResult(Result):
@@ -183,7 +188,8 @@ class ContinueResult(Result):
 
     def to_xarray(self):
         """A list of Datasets, a branch each, over the point's place on it."""
-        return [dataset(self, branch, None) for branch in self.branches]
+        there = physical(self, "branches")
+        return [dataset(self, branch, None, there[i] if there else {}) for i, branch in enumerate(self.branches)]
 
 
 class StabilityResult(Result):
@@ -199,11 +205,28 @@ class ResponseResult(Result):
 
     def to_xarray(self):
         """The samples as an xarray Dataset over t."""
-        return dataset(self, self.samples, "t")
+        return dataset(self, self.samples, "t", physical(self, "samples"))
 
 
 class RasterResult(Result):
     """Lines scanned over one surface, and the pattern that comes of it."""
+
+    def to_xarray(self):
+        """The samples as an xarray Dataset over line and sample, with the y of each line; NaN where a line has fewer."""
+        import numpy as np
+        import xarray
+
+        there = physical(self, "lines")
+        lines = [with_units(line["samples"], there[i].get("samples", {}) if there else {}) for i, line in enumerate(self.lines)]
+        longest = max((len(line["t"][0]) for line in lines), default=0)
+        data = {}
+        for name in lines[0] if lines else []:
+            rows = [np.asarray(line[name][0], dtype=float) for line in lines]
+            rows = [np.pad(row, (0, longest - len(row)), constant_values=np.nan) for row in rows]
+            data[name] = (("line", "sample"), np.array(rows), lines[0][name][1])
+        ys = [with_units({"y": [line["y"]]}, {f"y_{k}": [v] for k, v in units_of("y", there[i] if there else {}).items()}) for i, line in enumerate(self.lines)]
+        data["y"] = ("line", np.array([y["y"][0][0] for y in ys]), ys[0]["y"][1] if ys else {})
+        return xarray.Dataset(data, attrs=attributes(self)).set_coords([name for name in ("t", "y") if name in data])
 
 
 class SurfaceResult(Result):
@@ -213,15 +236,42 @@ class SurfaceResult(Result):
         """u as an xarray DataArray over t and x, or t, y and x."""
         import xarray
 
-        if self.surfaces:
-            first = self.surfaces[0]
-            u = [surface["u"] for surface in self.surfaces]
-            over = {"t": [surface["t"] for surface in self.surfaces], "x": first["x"]}
+        name = "surfaces" if len(self.surfaces) else "images"
+        there = physical(self, name)
+        found = [with_units(dict(one), there[i] if there else {}) for i, one in enumerate(getattr(self, name))]
+        u = [one["u"][0] for one in found]
+        over = {dim: found[0][dim] for dim in ("t", "y", "x") if dim in found[0]}
+        if "t" in over:
+            over["t"] = ([one["t"][0] for one in found], over["t"][1])
         else:
-            first = self.images[0]
-            u = [image["u"] for image in self.images]
-            over = {"t": [image["t"] for image in self.images], "y": first["y"], "x": first["x"]}
-        return xarray.DataArray(u, coords=over, dims=tuple(over), name="u", attrs=attributes(self))
+            u = u[0]
+        coords = {dim: (dim, values, unit) for dim, (values, unit) in over.items()}
+        return xarray.DataArray(u, coords=coords, dims=tuple(over), name="u", attrs={**attributes(self), **found[0]["u"][1]})
+
+
+class LoadMapResult(Result):
+    """Ripples over load and velocity, and the critical load."""
+
+    def to_xarray(self):
+        """An xarray Dataset over load, in nN, and velocity."""
+        import numpy as np
+        import xarray
+
+        columns = with_units(self.columns(), {})
+        n = len(self.velocity)
+        velocity = with_units({"velocity": self.velocity}, physical(self))["velocity"]
+        coords = {"load": ("load", columns["load_nN"][0][::n], {"units": "nN"}), "velocity": ("velocity", *velocity)}
+        there = physical(self, "points")
+        data = {}
+        for name in ("alpha", "regime", "wavelength", "width"):
+            values, unit = columns[name]
+            known = units_of(name, there[0]) if there else {}
+            if known:
+                (suffix, _), = known.items()
+                values, unit = [point.get(f"{name}_{suffix}", np.nan) for point in there], {"units": in_words(suffix)}
+            data[name] = (("load", "velocity"), np.asarray(values).reshape(-1, n), unit)
+        data["critical_load"] = ("velocity", np.asarray(columns["critical_load_nN"][0][:n]), {"units": "nN"})
+        return xarray.Dataset(data, coords=coords, attrs=attributes(self))
 
 
 class SweepResult(Result):
@@ -265,6 +315,8 @@ KINDS = {
     "stickslip/response": ResponseResult,
     "stickslip/raster": RasterResult,
     "stickslip/surface": SurfaceResult,
+    "stickslip/raster-surface": SurfaceResult,
+    "stickslip/load-map": LoadMapResult,
     "stickslip/sweep": SweepResult,
     "stickslip/raster-sweep": RasterSweepResult,
     "stickslip/fit": FitResult,
@@ -289,22 +341,56 @@ def loads(text):
     return result_of(_native.read(text))
 
 
-def dataset(result, columns, over):
-    """Columns of equal length as a Dataset over one of them, or over their rows."""
+def dataset(result, columns, over, there=None):
+    """Columns of equal length as a Dataset over one of them, or over their rows; in nm, s and nN where `there` has them."""
     import numpy as np
     import xarray
 
-    there = {name: np.asarray(column) for name, column in columns.items() if column is not None}
-    there = {name: column for name, column in there.items() if column.ndim == 1}
+    columns = {name: column for name, column in columns.items() if column is not None and np.asarray(column).ndim == 1}
     dim = over or "point"
-    data = {name: (dim, column) for name, column in there.items()}
+    data = {name: (dim, np.asarray(column), unit) for name, (column, unit) in with_units(columns, there or {}).items()}
     return xarray.Dataset(data, attrs=attributes(result)).set_coords([over] if over else [])
 
 
 def attributes(result):
-    """What defines a result, where it is a number or a word."""
+    """What defines a result, where it is a number or a word; NetCDF has no truth values."""
     parameters = result.parameters.items()
-    return {name: value for name, value in parameters if isinstance(value, (int, float, str))}
+    kept = {name: value for name, value in parameters if isinstance(value, (int, float, str))}
+    return {name: int(value) if isinstance(value, bool) else value for name, value in kept.items()}
+
+
+# The unit at the end of a name, such as nm_per_s.
+UNIT = re.compile(r"(?:(?:nN|nm|s)\d?(?:_(?:nN|nm|s)\d?)*)?(?:_?per_(?:nN|nm|s)\d?)*")
+
+
+def physical(result, part=None):
+    """The numbers of a document, or of a part of it, in nm, s and nN, by names with units; empty without scales."""
+    there = result._document.field("physical") if "physical" in result._document.names() else None
+    there = recorded(there) if there is not None else {}
+    return there if part is None else there.get(part, {})
+
+
+def units_of(name, there):
+    """The values in nm, s and nN of the number of this name, by the suffix of its unit."""
+    found = {key[len(name) + 1 :]: value for key, value in there.items() if key.startswith(name + "_")}
+    return {suffix: value for suffix, value in found.items() if suffix and UNIT.fullmatch(suffix)}
+
+
+def in_words(suffix):
+    """``nm/s`` of ``nm_per_s``."""
+    return suffix.replace("_per_", "/").replace("per_", "1/").replace("_", " ")
+
+
+def with_units(columns, there):
+    """Each column with its attributes: where it is there in nm, s or nN, these values and their unit."""
+    found = {}
+    for name, column in columns.items():
+        if name == "lateral_force":
+            continue
+        known = units_of(name, there)
+        suffix = next(iter(known), None)
+        found[name] = (column, {}) if suffix is None else (known[suffix], {"units": in_words(suffix)})
+    return found
 
 
 def grid(result, axes):
@@ -314,12 +400,15 @@ def grid(result, axes):
 
     shape = tuple(len(values) for values in axes.values())
     places = np.array([point["index"] for point in result.points])
-    data = {}
+    data, there = {}, physical(result, "points")
     for name, column in result.columns().items():
         if name in axes:
             continue
-        column = np.asarray(column)
+        suffix = next((suffix for point in there for suffix in units_of(name, point)), None)
+        if suffix is not None:
+            column = [point.get(f"{name}_{suffix}") for point in there]
+        column = np.asarray([np.nan if value is None else value for value in column])
         empty = np.full(shape, "" if column.dtype.kind == "U" else np.nan, dtype=column.dtype)
         empty.reshape(-1)[places] = column
-        data[name] = (tuple(axes), empty)
+        data[name] = (tuple(axes), empty, {} if suffix is None else {"units": in_words(suffix)})
     return xarray.Dataset(data, coords=axes, attrs=attributes(result))

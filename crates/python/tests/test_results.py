@@ -167,3 +167,45 @@ def test_animations_are_those_of_the_program(run, tmp_path):
         run.plot().save(tmp_path / "run.gif")
     with pytest.raises(ValueError, match="run or raster"):
         stickslip.cycle(alpha=1.2, r=1).animate()._repr_png_()
+
+
+SCALES = {"sigma": "20nm", "stiffness": "0.2N/m", "damping": "3.2mNs/m", "slope_force": "5nN"}
+
+
+@pytest.mark.filterwarnings("ignore::stickslip.StickslipWarning")
+@pytest.mark.parametrize("scales", [{}, SCALES])
+def test_each_document_is_xarray_in_its_units_and_netcdf(tmp_path, scales):
+    pytest.importorskip("xarray")
+    run = stickslip.run(alpha=1.3, r=0.8, kick=0.3, until=40, sample_every=1, **scales)
+    raster = stickslip.raster(tip="gaussian", alpha=0.4, r=0.8, pitch=1, lines=3, length=6, tolerance=1e-4, **scales)
+    image = stickslip.surface(run, at=[30, 40], range=(20, 30, 5), y_range=(-1, 1, 3), **scales).to_xarray()
+    assert image.dims == ("t", "y", "x") and image.shape == (2, 3, 5)
+    assert stickslip.surface(raster, range=(1, 3, 5), y=[0, 1], **scales).to_xarray().dims == ("y", "x")
+    lines = raster.to_xarray()
+    assert lines["x0"].dims == ("line", "sample") and lines["x0"].shape[0] == 3
+    assert np.allclose(lines["x0"].values[1, :4], np.asarray(raster.lines[1]["samples"]["x0"][:4]) * (20 if scales else 1), rtol=1e-14)
+    loads = stickslip.boundary(alpha=1.3, r=0.8, load=10, load_range=(2, 20), r_range=(0.4, 1.6, 3), **scales).to_xarray()
+    assert loads["wavelength"].dims == ("load", "velocity") and loads["critical_load"].attrs["units"] == "nN"
+    cycle = stickslip.cycle(alpha=1.3, r=0.8, **scales).to_xarray()
+    swept = stickslip.sweep(r=(0.8, 1, 2), alpha=(0.9, 1.3, 3), **scales).to_xarray()
+    several = {"run": run.to_xarray(), "image": image, "lines": lines, "cycle": cycle, "swept": swept, "loads": loads}
+    for name, data in several.items():
+        data.to_netcdf(tmp_path / f"{name}.nc")
+    found = [several["run"]["x0"], image, lines["x0"], cycle["l"], swept["wavelength"], loads["wavelength"]]
+    assert [data.attrs.get("units") for data in found] == (["nm"] * 6 if scales else [None] * 6)
+
+
+def test_remarks_are_warnings_and_progress_ends():
+    with pytest.warns(stickslip.StickslipWarning, match="kick=D"):
+        stickslip.run(alpha=1.2, r=1, until=60)
+    heard = []
+    stickslip.sweep(r=(0.3, 2, 40), alpha=(0.5, 3, 40), progress=lambda part, counted: heard.append(part))
+    assert heard and heard[-1] == 1
+
+
+def test_quantities_are_numbers_of_the_model():
+    told = stickslip.cycle(alpha=1.3, r=0.8, healing_time="0.8s", **SCALES)
+    assert told.to_dict()["parameters"] == stickslip.cycle(alpha=1.3, r=0.8, healing_time=50, **SCALES).to_dict()["parameters"]
+    pint = pytest.importorskip("pint")
+    second = pint.UnitRegistry().second
+    assert stickslip.cycle(alpha=1.3, r=0.8, healing_time=800 * second / 1000, **SCALES).parameters["healing_time"] == 50

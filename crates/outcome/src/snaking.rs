@@ -271,20 +271,21 @@ fn left(sizes: [f64; 2], [last, before]: [f64; 2]) -> f64 {
 
 /// Turning points of y0 within a step, and whether each is a maximum.
 fn turns(step: &Step) -> impl Iterator<Item = (Turn, bool)> {
+    let velocity = step.velocity_across();
     let time = |i: u32| step.along.t + step.along.h * f64::from(i) / f64::from(LOOKS);
-    let velocity = |t: f64| step.velocity(t)[1];
-    let turn_in = move |i: u32| {
-        let (from, to) = (velocity(time(i)), velocity(time(i + 1)));
-        (from * to < 0.0).then(|| (turn(step, (time(i), time(i + 1))), from > 0.0))
-    };
-    (0..LOOKS).filter_map(turn_in)
+    let mut from = (time(0), velocity(time(0)));
+    (1..=LOOKS).filter_map(move |i| {
+        let before = std::mem::replace(&mut from, (time(i), velocity(time(i))));
+        let turned = before.1 * from.1 < 0.0;
+        turned.then(|| (turn(step, &velocity, (before.0, from.0)), before.1 > 0.0))
+    })
 }
 
-fn turn(step: &Step, (mut low, mut high): (f64, f64)) -> Turn {
-    let rises = step.velocity(low)[1] > 0.0;
+fn turn(step: &Step, velocity: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> Turn {
+    let rises = velocity(low) > 0.0;
     for _ in 0..BISECTIONS {
         let middle = f64::midpoint(low, high);
-        if (step.velocity(middle)[1] > 0.0) == rises { low = middle } else { high = middle }
+        if (velocity(middle) > 0.0) == rises { low = middle } else { high = middle }
     }
     let t = f64::midpoint(low, high);
     Turn { t, y: step.y0(t) }

@@ -1,6 +1,6 @@
 //! The history of a tip in two coordinates: its accepted steps, each a polynomial along and one across.
 
-use crate::collocation::{RADAU, STAGES, Stages};
+use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::step::healing;
 use crate::{Support, Wider};
 use gauss_quad::legendre::GaussLegendre;
@@ -42,6 +42,12 @@ impl Step {
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         let across = RADAU.slope(&self.across, self.part(t)) / self.along.h;
         [self.along.velocity(t), across]
+    }
+
+    /// y0' on its polynomial as a function of t, for many t.
+    pub fn velocity_across(&self) -> impl Fn(f64) -> f64 + use<'_> {
+        let rates = apply(&RADAU.derivative, &self.across);
+        move |t| RADAU.between(&rates, self.part(t)) / self.along.h
     }
 
     fn part(&self, t: f64) -> f64 {

@@ -132,8 +132,8 @@ fn a_small_kick_along_grows_as_linear_theory_says() {
             scenario.along.kick = kick;
             both_ways(&scenario)
         });
-        for way in 0..2 {
-            let [(name, up), (_, down)] = [0, 1].map(|sign: usize| &pair[sign][way]);
+        let [up, down] = pair;
+        for ((name, up), (_, down)) in up.iter().zip(&down) {
             let found = growth(|t| 0.5 * (up.x0(t) - down.x0(t)), 40.0, 1.5);
             let miss = (found - lambda).norm();
             println!("{alpha} {stiffness} {name}: {found:.9}, theory {lambda:.9}: {miss:.1e}");

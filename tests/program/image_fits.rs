@@ -84,7 +84,7 @@ fn what_an_image_lacks_is_named() {
         ("fit --ripple loop.csv --slow-scan up", ["--slow-scan up", "no meaning"]),
         (
             "run --alpha 1 --r 1 --until 9 --tip gaussian --width 30nm",
-            ["--width", "without a unit"],
+            ["--width", "a unit needs the scales"],
         ),
     ] {
         folder.refuses(line, &words);

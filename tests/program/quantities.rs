@@ -85,6 +85,8 @@ const DIMENSIONLESS: &[&str] = &[
     "grid",
     "tip",
     "only",
+    "force-unit",
+    "sensitivity",
     "width-exponent",
 ];
 

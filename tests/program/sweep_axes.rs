@@ -177,7 +177,7 @@ fn pictures_have_whatever_varies_on_their_axes() {
     assert!(cells.contains("depth limit") && cells.contains("α"), "{cells}");
     // A hundred seeds share an abscissa.
     let row = drawn("sweep --r 1 --alpha 1.2:1.4:2 --until 60 --noise 1e-3 --seed 1:4:4");
-    assert!(row.contains("amplitude of x") && !row.contains("seed"), "{row}");
+    assert!(row.contains("mean of l") && !row.contains("seed"), "{row}");
     folder.refuses(
         "sweep --r 1:2:2 --alpha 2:4:2 --depth-limit 5:20:2 -o map.json --plot map.svg",
         &["--plot", "two ranges"],

@@ -26,7 +26,7 @@ pub(super) const TABLES: [(&str, &str); 2] = [
 ];
 
 /// Every command with what it cannot do without.
-const LINES: [&str; 23] = [
+const LINES: [&str; 24] = [
     "run --alpha 1.2 --r 1 --until 30",
     "verify run.json",
     "surface run.json",
@@ -50,6 +50,7 @@ const LINES: [&str; 23] = [
     "stability --no-spring --alpha -1",
     "tip pit.csv --resamples 20",
     "fit --onsets onsets.csv --tip gaussian",
+    "friction pit.csv",
 ];
 /// Has no numbers.
 const WITHOUT: [&str; 3] = ["schema", "completions", "help"];

@@ -44,12 +44,12 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
     const TIME: &[&str] = &["Γ/k"];
     Some(match (command, option) {
         // Quantities in themselves, and pictures.
-        ("units", _) | ("plot", "width" | "times") => return None,
+        ("units" | "fit" | "friction", _) | ("plot", "width" | "times") => return None,
         ("continue" | "cycle" | "sweep", "tolerance") => &["kσ/Γ"],
         (_, "width" | "start-position" | "kick" | "kick-across" | "noise-spacing") => LENGTH,
         (_, "noise-spacing-across" | "width-y" | "pitch" | "pitch-range" | "length") => LENGTH,
         (_, "tolerance" | "x" | "y" | "range" | "y-range" | "spacing" | "spacing-y") => LENGTH,
-        (_, "largest-radius") | ("tip", "centre") | ("fit", "sigma") => LENGTH,
+        (_, "largest-radius") | ("tip", "centre") => LENGTH,
         (_, "until" | "at" | "sample-every" | "sample-at" | "hold" | "healing-time") => TIME,
         (_, "grid-until" | "step" | "longest-period" | "checkpoint-every") => TIME,
         (_, "depth-limit" | "noise") => &["kσ²/a"],
@@ -104,10 +104,7 @@ pub(crate) fn translated(
     let quantities: Vec<Quantity> = line.quantities(&command).collect();
     let Some(first) = quantities.first() else { return Ok(translated) };
     parser.build();
-    let is_of_data = matches!(
-        (&*command[0], &*first.option),
-        ("fit", "--width" | "--sigma") | ("tip", "--centre")
-    );
+    let is_of_data = (&*command[0], &*first.option) == ("tip", "--centre");
     let (scales, unit) = if is_of_data {
         let unit = line.value("unit").unwrap_or(first.suffix());
         let length = Unit::Length.one(unit);

@@ -26,7 +26,7 @@ import zipfile
 
 HERE = pathlib.Path(__file__).parent
 MEASURED = HERE.parent.parent / "examples" / "measured"
-OF_A_BUILD = re.compile(r"(seconds|speedup|software\.(commit|clean))$")
+OF_A_BUILD = re.compile(r"(seconds|speedup|software\.(commit|clean|version))$")
 
 INPUTS = {
     "surface.csv": "x,u\n" + "".join(f"{x},{0.02 * (x % 3) - 0.02}\n" for x in range(20, 60)),

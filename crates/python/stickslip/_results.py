@@ -265,7 +265,8 @@ class LoadMapResult(Result):
         data = {}
         for name in ("alpha", "regime", "wavelength", "width"):
             values, unit = columns[name]
-            known = units_of(name, there[0]) if there else {}
+            # Points without ripples have no wavelength.
+            known = next(filter(None, (units_of(name, point) for point in there or [])), {})
             if known:
                 (suffix, _), = known.items()
                 values, unit = [point.get(f"{name}_{suffix}", np.nan) for point in there], {"units": in_words(suffix)}

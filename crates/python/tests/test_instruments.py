@@ -138,6 +138,7 @@ def test_images_give_the_same_footprint_as_the_file_of_gwyddion(folder):
     for name in made.FORMATS:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
+            warnings.filterwarnings("ignore", message="the profile determines")
             if name not in ("scan.gsf",):
                 warnings.simplefilter("ignore", stickslip.StickslipWarning)
             found = stickslip.tip(stickslip.open(folder / name), resamples=20)
@@ -150,6 +151,7 @@ def test_the_channel_that_is_used_is_named(folder):
         stickslip.tip(scan, resamples=0)
     with warnings.catch_warnings():
         warnings.simplefilter("error", stickslip.StickslipWarning)
+        warnings.filterwarnings("ignore", message="the profile determines")
         stickslip.tip(scan["Height retrace"], resamples=0)
     with pytest.raises(ValueError, match="no channel is a length: there are Friction"):
         stickslip.tip(scan[["Friction"]])

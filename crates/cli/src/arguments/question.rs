@@ -11,6 +11,9 @@ use std::path::PathBuf;
 use stickslip::Question;
 use stickslip::parameter::{Kind, Parameter, parameters};
 
+/// Symbol of a parameter with several values, along which a grid may vary.
+const RANGE: &str = "RANGE";
+
 /// The questions that a command can answer.
 pub(crate) trait Questions {
     /// The parameters of all of them.
@@ -162,6 +165,8 @@ fn argument(parameter: &Parameter) -> Arg {
         }
         Kind::Text => valued,
         Kind::Ends => valued.value_parser(value_parser!(Interval)),
+        // A range LO:HI:N, to which Python turns a tuple, or a list in one word.
+        Kind::Numbers if symbol == RANGE => valued.value_parser(value_parser!(Range)),
         Kind::Numbers => valued.value_parser(value_parser!(Range)).value_delimiter(','),
         _ => valued.value_parser(value_parser!(f64)),
     }

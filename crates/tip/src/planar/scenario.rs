@@ -11,7 +11,7 @@ use thiserror::Error;
 /// A line y = 0, scanned by a tip that also moves across it.
 #[derive(Debug, Clone)]
 pub struct PlanarScenario {
-    /// Parameters of the motion along the scan; the footprint is one of [`TipFunction::of_footprint`].
+    /// Parameters of the motion along the scan; the footprint is one of [`TipFunction::of_footprint`](crate::TipFunction::of_footprint).
     pub along: Scenario,
     /// Stiffness κ_y of the spring across the scan, in units of that along it.
     pub stiffness_across: f64,

@@ -9,7 +9,7 @@ use stickslip_cli::hosted;
 /// Processor time, in seconds, after which an example is at its work: bad input is found out before.
 const AT_WORK: u32 = 1;
 
-/// What a shell makes of a line, ended by the system after so many seconds of processor time.
+/// The output of a shell for a command line, which the system ends after a limit of processor time.
 fn shell(folder: &Folder, line: &str, seconds: Option<u32>) -> Output {
     let limit = seconds.map_or(String::new(), |seconds| format!("ulimit -t {seconds}; "));
     let program = cargo_bin("stickslip");

@@ -96,7 +96,7 @@ impl Folder {
         (output, took)
     }
 
-    /// The same, ended by the system after so many seconds of processor time.
+    /// The same, but the system ends it after a limit of processor time, in seconds.
     #[cfg(unix)]
     pub fn measured_within(&self, line: &str, seconds: u64) -> Measured {
         let inner = self.command(line);

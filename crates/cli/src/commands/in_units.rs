@@ -211,7 +211,7 @@ impl Scaled {
     }
 }
 
-/// Scales from σ and k/a in a unit of so many metres.
+/// Scales from σ and k/a in a unit of length, which is given in m.
 fn of_ripples(metres: f64, sigma: f64, gain: Option<f64>) -> KnownScales {
     KnownScales {
         length: Some(sigma * metres),

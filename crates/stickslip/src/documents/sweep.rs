@@ -98,11 +98,6 @@ impl SweepParameters {
         self.shard.unwrap_or(ShardDocument::WHOLE)
     }
 
-    /// Whether the point with this index belongs to this part.
-    pub fn has(&self, index: usize) -> bool {
-        index < self.points() && self.part().has(index)
-    }
-
     /// Number of points of the whole grid.
     pub fn points(&self) -> usize {
         let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);

@@ -1,9 +1,9 @@
 // One file of everything: `node build.mjs OUT.html`. The module and its JavaScript are those that `wasm-bindgen` has
-// written to target/site-build/web.
+// written to target/site-build/web; beside them, in declared.json, is what examples/declared.rs prints.
 import { build } from 'esbuild';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { fileURLToPath } from 'node:url';
 import { createHash } from 'node:crypto';
 import { pack } from './pack.mjs';
 
@@ -28,11 +28,8 @@ async function script(entry) {
 /** A text within <script> must not end it. */
 const within = (text) => text.replaceAll('</script', '<\\/script');
 
-/** What the questions declare, from the module itself. */
 const bytes = await readFile(join(made, 'stickslip_web_bg.wasm'));
-const { initSync, declared } = await import(pathToFileURL(join(made, 'stickslip_web.js')));
-initSync({ module: bytes });
-const questions = declared();
+const questions = await readFile(join(made, 'declared.json'), 'utf8');
 
 const style = await readFile(join(here, '../node_modules/uplot/dist/uPlot.min.css'), 'utf8');
 const parts = {

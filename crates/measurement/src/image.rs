@@ -11,6 +11,7 @@ use crate::least_squares::{Minimum, Residuals, forward, minimum};
 use crate::profile::{Profile, ProfileError};
 use crate::projection::project;
 use crate::tip::MeasuredTip;
+use std::ops::Range;
 use stickslip_tip::Gaussian;
 use thiserror::Error;
 
@@ -100,6 +101,15 @@ impl Image {
     #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
+    }
+
+    /// These columns and rows.
+    ///
+    /// # Errors
+    /// Too few.
+    pub(crate) fn part(&self, columns: Range<usize>, rows: Range<usize>) -> Result<Self, ImageError> {
+        let cut = self.rows[rows.clone()].iter().map(|row| row[columns.clone()].to_vec());
+        Self::new(self.x[columns.clone()].to_vec(), self.y[rows].to_vec(), cut.collect())
     }
 
     /// Every `every`th pixel in both directions: x, y and height.

@@ -6,6 +6,7 @@ use super::problem::Problem;
 use super::verdict::Verdict;
 use crate::Estimate;
 use crate::least_squares::{Minimum, minimum, squares};
+use crate::likelihood::crossing;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -34,10 +35,6 @@ pub(super) struct Rival {
 const FARTHEST: f64 = 20.0;
 /// The same factor for a parameter of the extended model with little effect at its best value.
 const FARTHEST_OF_A_LAW: f64 = 1e5;
-/// Largest number of points of a profile on either side.
-const MOST_POINTS: usize = 7;
-/// Tolerance of the root at the end of an interval.
-const MET: f64 = 0.02;
 
 /// The best fit, and its neighbourhood.
 pub(super) struct Around<'a> {
@@ -204,42 +201,10 @@ impl<'a> Around<'a> {
 
     /// The offset at which the residual reaches the limit, and the points on the way there.
     fn end(&self, i: usize, side: f64) -> (Option<f64>, Vec<(f64, f64)>) {
-        let wanted = self.quantile;
         let most = self.farthest(i);
         let deviation = self.independent[(i, i)].max(0.0).sqrt() * self.factor(i);
-        let mut offset = side * (wanted * deviation).clamp(1e-9, most);
-        // Below it too little is left, above it too much.
-        let (mut inside, mut outside): ((f64, f64), Option<(f64, f64)>) = ((0.0, 0.0), None);
-        let mut points = vec![];
-        for _ in 0..MOST_POINTS {
-            let root = self.root(i, offset).unwrap_or(f64::INFINITY);
-            if root.is_finite() {
-                points.push((offset, root));
-            }
-            if (root - wanted).abs() < MET * wanted {
-                return (Some(offset), points);
-            }
-            if root < wanted {
-                if offset.abs() >= most {
-                    return (None, points);
-                }
-                inside = (offset, root);
-            } else {
-                outside = Some((offset, root));
-            }
-            offset = match outside {
-                Some((far, root)) if root.is_finite() => {
-                    let part = (wanted - inside.1) / (root - inside.1);
-                    inside.0 + part.clamp(0.05, 0.95) * (far - inside.0)
-                }
-                Some((far, _)) => 0.5 * (inside.0 + far),
-                None => {
-                    let further = wanted / inside.1.max(0.2 * wanted) * 1.05;
-                    side * (offset.abs() * further).min(most)
-                }
-            };
-        }
-        (outside.map(|_| offset), points)
+        let guess = side * (self.quantile * deviation).clamp(1e-9, most);
+        crossing(|offset| self.root(i, offset), self.quantile, (guess, most))
     }
 
     /// √((S/S0 - 1)(n - p)) with one parameter fixed at an offset of its logarithm, divided by the factor of

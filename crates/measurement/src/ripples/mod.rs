@@ -4,19 +4,20 @@
 //! the same wave (`travelling`). For a given pitch the wave vector alone determines α and r of the neutral wave; the
 //! harmonics tell how far α is above that. The gain of the heights and the phase of the wave are fitted along.
 
+mod explained;
+mod part;
 mod travelling;
 mod wave;
 
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
-use crate::least_squares::{Residuals, differences, minimum};
-use nalgebra::{Cholesky, Complex, DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
-use std::f64::consts::{PI, TAU};
+use explained::Problem;
+use part::Part;
+use std::f64::consts::TAU;
 use stickslip_tip::Footprint;
 use thiserror::Error;
-use travelling::{Lines, Travelling, crest_angle};
-use wave::{HARMONICS, UNKNOWNS, Wave, height, levelled_image, phase};
+use travelling::{Lines, crest_angle};
+use wave::coarse_image;
 
 /// What is known of an image of ripples.
 #[derive(Debug, Clone)]
@@ -60,6 +61,9 @@ pub struct Ripples {
     pub forward: bool,
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
+    /// First and last x and y of the part of the image in which the ripples have settled, from which all numbers are: the whole
+    /// image if it can be.
+    pub part: [[f64; 2]; 2],
     /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
     /// [`Ripples::LEAST_MISFIT`] the model does not explain them.
     pub misfit: f64,
@@ -118,10 +122,6 @@ pub enum RippleError {
     },
 }
 
-/// Least F of the wave against white noise: the strongest of 10⁵ waves of noise alone has about 3.
-const LEAST_STRENGTH: f64 = 15.0;
-/// Least number of standard deviations, by the scatter of the blocks of the image, of the first harmonic.
-const STANDS_OUT: f64 = 5.0;
 impl Ripples {
     /// Least probability of χ² at which the model is said to explain the ripples.
     pub const LEAST_MISFIT: f64 = 0.005;
@@ -134,7 +134,7 @@ impl Ripples {
     /// # Errors
     /// The result is too small.
     pub fn levelled(image: &Image, most: usize) -> Result<Image, ImageError> {
-        levelled_image(image, most)
+        coarse_image(image, most)
     }
 
     /// Whether the model explains the ripples.
@@ -171,13 +171,6 @@ impl Ripples {
     }
 }
 
-/// Degrees of freedom of the errors: those of the blocks of the image.
-const BLOCK_FREEDOM: f64 = 15.0;
-/// First values of the swing of θ'.
-const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
-/// Step of the parameters, which are of order 1.
-const STEP: f64 = 1e-5;
-
 /// Estimates α and r from an image of settled ripples made by a one-way raster under the basic model.
 ///
 /// # Errors
@@ -187,218 +180,27 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let lines = Lines::new(&request.footprint, request.pitch / request.sigma)
         .filter(|_| positive)
         .ok_or(RippleError::Request("needs σ and pitch above 0, and a footprint that fades"))?;
-    let wave = Wave::of(image)?;
-    if wave.strength < LEAST_STRENGTH {
-        return Err(RippleError::Nothing);
-    }
-    let error = (wave.covariance[(2, 2)] + wave.covariance[(3, 3)]).sqrt();
-    if wave.harmonic(1).norm() < STANDS_OUT * error {
-        return Err(RippleError::NotUniform);
-    }
+    let part = Part::settled(image)?;
+    let wave = &part.wave;
     let ways = [(true, true), (true, false), (false, true), (false, false)];
     let admitted = ways.into_iter().filter(|(forward, upward)| {
         request.forward.is_none_or(|known| known == *forward)
             && request.upward.is_none_or(|known| known == *upward)
     });
-    let found =
-        admitted.filter_map(|way| Problem::new(&lines, &wave, request.sigma, way)?.solved());
-    let best = found.max_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let middle = |at: &[f64]| 0.5 * (at[0] + at[at.len() - 1]);
-    let best = best.map(|found| {
-        let [q, kappa] = found.wave_vector;
-        let phase = found.phase - q * middle(image.x()) - kappa * middle(image.y());
-        Ripples { phase: phase.rem_euclid(TAU), ..found }
+    let closest = admitted.filter_map(|way| {
+        let problem = Problem::new(&lines, wave, request.sigma, way)?;
+        let closest = problem.closest()?;
+        Some((problem, closest))
     });
-    best.ok_or_else(|| RippleError::NoPattern {
+    let best = closest.min_by(|a, b| a.1.sum.total_cmp(&b.1.sum));
+    let found = best.and_then(|(problem, closest)| problem.solved(&closest));
+    let found = found.ok_or_else(|| RippleError::NoPattern {
         wavelength: TAU / wave.q().hypot(wave.kappa()) / request.sigma,
         angle: crest_angle(wave.q(), wave.kappa()),
         pitch: request.pitch / request.sigma,
-    })
-}
-
-/// The wave of the image against that of the model. Parameters: swing, ln r, κσ, ln gain and phase, relative to a start.
-struct Problem<'a> {
-    lines: &'a Lines,
-    wave: &'a Wave,
-    sigma: f64,
-    way: (bool, bool),
-    /// The wave as the scan saw it, in σ: q, κ, Re B_k, Im B_k.
-    data: DVector<f64>,
-    /// L⁻¹ of the covariance LLᵀ of the data.
-    whitening: DMatrix<f64>,
-    start: Vec<f64>,
-    /// q of linear theory, from which Newton's method starts.
-    q: f64,
-}
-
-impl<'a> Problem<'a> {
-    /// `None` if linear theory has no such wave.
-    fn new(lines: &'a Lines, wave: &'a Wave, sigma: f64, way: (bool, bool)) -> Option<Self> {
-        let (forward, upward) = way;
-        // A mirrored x makes (q, κ) of (-q, κ), whose conjugate is (q, -κ); a mirrored y makes (q, -κ).
-        let mut signs = [1.0; UNKNOWNS];
-        signs[1] = if forward == upward { 1.0 } else { -1.0 };
-        if !forward {
-            (0..HARMONICS).for_each(|k| signs[3 + 2 * k] = -1.0);
-        }
-        let scale = |i: usize| signs[i] * if i < 2 { sigma } else { 1.0 };
-        let data = DVector::from_fn(UNKNOWNS, |i, _| scale(i) * wave.values[i]);
-        let covariance = DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| {
-            scale(i) * scale(j) * wave.covariance[(i, j)]
-        });
-        let whitening = Cholesky::new(covariance)?.l().try_inverse()?;
-        let (_, r) = lines.neutral(data[0], data[1])?;
-        let q = data[0];
-        let kappa = data[1];
-        let start = vec![0.0, r.ln(), kappa, 0.0, 0.0];
-        Some(Self { lines, wave, sigma, way, data, whitening, start, q })
-    }
-
-    /// The pattern, grown from linear theory to the swing.
-    fn pattern(&self, at: &[f64]) -> Option<Travelling> {
-        let (swing, r, kappa) = (at[0], at[1].exp(), at[2]);
-        if !(swing > 0.0 && swing < 2.0 && r.is_finite()) {
-            return None;
-        }
-        let direct = self.lines.pattern(r, kappa, swing, Err(self.q));
-        if direct.is_some() {
-            return direct;
-        }
-        let mut near = self.lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
-        for part in [0.5, 0.75, 1.0] {
-            near = self.lines.pattern(r, kappa, part * swing, Ok(&near))?;
-        }
-        Some(near)
-    }
-
-    fn predicted(&self, at: &[f64]) -> Option<DVector<f64>> {
-        let found = self.pattern(at)?;
-        let mut values = DVector::zeros(UNKNOWNS);
-        (values[0], values[1]) = (found.q, at[2]);
-        for k in 1..=HARMONICS {
-            let turn = Complex::from_polar(at[3].exp(), k as f64 * at[4]);
-            let height = found.heights[k - 1] * turn;
-            (values[2 * k], values[2 * k + 1]) = (height.re, height.im);
-        }
-        Some(values)
-    }
-
-    fn solved(&self) -> Option<Ripples> {
-        let from = |swing: f64| {
-            let mut start = self.start.clone();
-            start[0] = swing;
-            let model = self.pattern(&start)?.heights[0];
-            let data = Complex::new(self.data[2], self.data[3]);
-            start[3] = (data.norm() / model.norm()).ln();
-            start[4] = (data / model).arg();
-            minimum(self, &start)
-        };
-        let best = SWINGS.into_iter().filter_map(from).min_by(|a, b| a.sum.total_cmp(&b.sum))?;
-        let slopes = self.derivatives(&best.residuals, &best.parameters)?;
-        let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
-        let jacobian = DMatrix::from_columns(&columns);
-        let freedom = (UNKNOWNS - columns.len()) as f64;
-        let more = best.sum / freedom;
-        let covariance = jacobian.tr_mul(&jacobian).try_inverse()? * more.max(1.0);
-        let misfit = FisherSnedecor::new(freedom, BLOCK_FREEDOM).map_or(0.0, |law| law.sf(more));
-        let at = &best.parameters;
-        let found = self.pattern(at)?;
-        let log_alpha = |i: usize| {
-            let beside = |step: f64| {
-                let mut there = at.clone();
-                there[i] += step;
-                self.pattern(&there).map(|p| p.alpha.ln())
-            };
-            Some((beside(STEP)? - beside(-STEP)?) / (2.0 * STEP))
-        };
-        let slope = (0..at.len()).map(log_alpha).collect::<Option<Vec<f64>>>()?;
-        let slope = DVector::from_vec(slope);
-        let quantile = quantile(BLOCK_FREEDOM);
-        let factor = |variance: f64| (quantile * variance.sqrt()).exp();
-        let exact = |value: f64| Estimate { value, low: value, high: value };
-        let alpha =
-            exact(found.alpha).wider_by(factor((slope.transpose() * &covariance * &slope)[(0, 0)]));
-        let r = exact(at[1].exp()).wider_by(factor(covariance[(1, 1)]));
-        let (forward, upward) = self.way;
-        let (wavelength, angle, amplitude) = self.shape(quantile);
-        Some(Ripples {
-            alpha,
-            r,
-            wavelength,
-            crest_angle: angle,
-            amplitude,
-            wave_vector: [self.wave.q(), self.wave.kappa()],
-            phase: self.wave.harmonic(1).arg(),
-            profile: self.profile(&found, at),
-            height_gain: at[3].exp() / (self.sigma * self.sigma),
-            neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
-            forward,
-            upward,
-            misfit,
-            modulation: self.wave.modulation,
-            residual: self.wave.residual,
-            explained: self.wave.explained,
-        })
-    }
-
-    /// The mean ripple of the image beside that of the pattern.
-    fn profile(&self, pattern: &Travelling, at: &[f64]) -> RippleProfile {
-        let turned = |(k, height): (usize, &Complex<f64>)| {
-            let height = height * Complex::from_polar(at[3].exp(), (k + 1) as f64 * at[4]);
-            if self.way.0 { height } else { height.conj() }
-        };
-        let model: Vec<Complex<f64>> = pattern.heights.iter().enumerate().map(turned).collect();
-        let crest = -self.wave.harmonic(1).arg();
-        let length = self.wave.q().hypot(self.wave.kappa());
-        let row = |(part, [mean, error]): (usize, &[f64; 2])| {
-            let phase = phase(part);
-            let away = (phase - crest + PI).rem_euclid(TAU) - PI;
-            [away / length, *mean, *error, height(&model, phase)]
-        };
-        let mut rows: Vec<[f64; 4]> = self.wave.folded.iter().enumerate().map(row).collect();
-        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let [distance, height, error, model] =
-            [0, 1, 2, 3].map(|i| rows.iter().map(|row| row[i]).collect());
-        RippleProfile { distance, height, error, model }
-    }
-
-    /// Wavelength, crest angle and amplitude of the wave in the image.
-    fn shape(&self, quantile: f64) -> (Estimate, Estimate, Estimate) {
-        let [q, kappa] = [self.wave.q(), self.wave.kappa()];
-        let length = q.hypot(kappa);
-        let c = &self.wave.covariance;
-        let error = |i: usize, by: [f64; 2]| {
-            let square = by[0] * by[0] * c[(i, i)]
-                + 2.0 * by[0] * by[1] * c[(i, i + 1)]
-                + by[1] * by[1] * c[(i + 1, i + 1)];
-            quantile * square.max(0.0).sqrt()
-        };
-        let around =
-            |value: f64, error: f64| Estimate { value, low: value - error, high: value + error };
-        let wavelength = TAU / length;
-        let turned = error(0, [kappa / (length * length), -q / (length * length)]);
-        let first = self.wave.harmonic(1);
-        let size = first.norm();
-        (
-            around(wavelength, error(0, [q, kappa].map(|v| wavelength * v / (length * length)))),
-            around(crest_angle(q, kappa), turned.to_degrees()),
-            around(2.0 * size, 2.0 * error(2, [first.re / size, first.im / size])),
-        )
-    }
-}
-
-impl Residuals for Problem<'_> {
-    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
-        let off = self.predicted(parameters)? - &self.data;
-        Some((&self.whitening * off).iter().copied().collect())
-    }
-
-    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
-        differences(self, (here, parameters), STEP)
-    }
-}
-
-/// 97.5 % quantile of Student's distribution.
-fn quantile(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+    })?;
+    let middle = |[first, last]: [f64; 2]| 0.5 * (first + last);
+    let ([q, kappa], [x, y]) = (found.wave_vector, part.ends);
+    let phase = (found.phase - q * middle(x) - kappa * middle(y)).rem_euclid(TAU);
+    Ok(Ripples { phase, part: part.ends, ..found })
 }

@@ -87,7 +87,7 @@ pub(crate) fn height(harmonics: &[Complex64], phase: f64) -> f64 {
 }
 
 /// The image without offsets and slopes of its rows, averaged to at most `most` rows and columns.
-pub(crate) fn levelled_image(image: &Image, most: usize) -> Result<Image, ImageError> {
+pub(crate) fn coarse_image(image: &Image, most: usize) -> Result<Image, ImageError> {
     let Rows { x, y, z } = Rows::of(image).coarse(most);
     let moved = |at: &[f64], of: &[f64]| -> Vec<f64> {
         let middle = 0.5 * (of[0] + of[of.len() - 1]);

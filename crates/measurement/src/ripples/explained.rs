@@ -1,0 +1,281 @@
+//! The settled pattern of the model that explains the wave of an image, and 95 % intervals.
+
+use super::travelling::{Lines, Travelling, crest_angle};
+use super::wave::{HARMONICS, UNKNOWNS, Wave, height, phase};
+use super::{RippleProfile, Ripples};
+use crate::interval::Estimate;
+use crate::least_squares::{Minimum, Residuals, differences, minimum, squares};
+use crate::likelihood::crossing;
+use nalgebra::{Cholesky, Complex, DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
+use std::cell::RefCell;
+use std::f64::consts::{PI, TAU};
+
+/// Degrees of freedom of the errors: those of the blocks of the image.
+const BLOCK_FREEDOM: f64 = 15.0;
+/// Degrees of freedom of χ²: the numbers of the wave minus the parameters.
+const FREEDOM: f64 = (UNKNOWNS - 5) as f64;
+/// First values of the swing of θ'.
+const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
+/// Step of the parameters, which are of order 1.
+const STEP: f64 = 1e-5;
+/// Weight of a quantity that is held, in terms of its standard deviation: it then deviates by 1e-4 of that.
+const HELD: f64 = 100.0;
+/// Largest logarithm of the ratio of an end of an interval to the value.
+const FARTHEST: f64 = 3.0;
+
+/// The wave of the image against that of the model. Parameters: swing, ln r, κσ, ln gain and phase, relative to a start.
+pub(super) struct Problem<'a> {
+    lines: &'a Lines,
+    wave: &'a Wave,
+    sigma: f64,
+    way: (bool, bool),
+    /// The wave as the scan saw it, in σ: q, κ, Re B_k, Im B_k.
+    data: DVector<f64>,
+    /// L⁻¹ of the covariance LLᵀ of the data.
+    whitening: DMatrix<f64>,
+    start: Vec<f64>,
+    /// q of linear theory, from which Newton's method starts.
+    q: f64,
+    last: RefCell<Option<Travelling>>,
+}
+
+impl<'a> Problem<'a> {
+    /// `None` if linear theory has no such wave.
+    pub(super) fn new(lines: &'a Lines, wave: &'a Wave, sigma: f64, way: (bool, bool)) -> Option<Self> {
+        let (forward, upward) = way;
+        // A mirrored x makes (q, κ) of (-q, κ), whose conjugate is (q, -κ); a mirrored y makes (q, -κ).
+        let mut signs = [1.0; UNKNOWNS];
+        signs[1] = if forward == upward { 1.0 } else { -1.0 };
+        if !forward {
+            (0..HARMONICS).for_each(|k| signs[3 + 2 * k] = -1.0);
+        }
+        let scale = |i: usize| signs[i] * if i < 2 { sigma } else { 1.0 };
+        let data = DVector::from_fn(UNKNOWNS, |i, _| scale(i) * wave.values[i]);
+        let covariance = DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| {
+            scale(i) * scale(j) * wave.covariance[(i, j)]
+        });
+        let whitening = Cholesky::new(covariance)?.l().try_inverse()?;
+        let (_, r) = lines.neutral(data[0], data[1])?;
+        let q = data[0];
+        let kappa = data[1];
+        let start = vec![0.0, r.ln(), kappa, 0.0, 0.0];
+        Some(Self { lines, wave, sigma, way, data, whitening, start, q, last: RefCell::default() })
+    }
+
+    /// The pattern, from the last one nearby or grown from linear theory to the swing.
+    fn pattern(&self, at: &[f64]) -> Option<Travelling> {
+        let (swing, r, kappa) = (at[0], at[1].exp(), at[2]);
+        if !(swing > 0.0 && swing < 2.0 && r.is_finite()) {
+            return None;
+        }
+        let last = self.last.borrow().clone();
+        let near = last.and_then(|near| self.lines.pattern(r, kappa, swing, Ok(&near)));
+        let found = near.or_else(|| self.lines.pattern(r, kappa, swing, Err(self.q))).or_else(|| {
+            let mut near = self.lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
+            for part in [0.5, 0.75, 1.0] {
+                near = self.lines.pattern(r, kappa, part * swing, Ok(&near))?;
+            }
+            Some(near)
+        })?;
+        self.last.replace(Some(found.clone()));
+        Some(found)
+    }
+
+    fn predicted(&self, at: &[f64]) -> Option<DVector<f64>> {
+        let found = self.pattern(at)?;
+        let mut values = DVector::zeros(UNKNOWNS);
+        (values[0], values[1]) = (found.q, at[2]);
+        for k in 1..=HARMONICS {
+            let turn = Complex::from_polar(at[3].exp(), k as f64 * at[4]);
+            let height = found.heights[k - 1] * turn;
+            (values[2 * k], values[2 * k + 1]) = (height.re, height.im);
+        }
+        Some(values)
+    }
+
+    /// The pattern closest to the wave.
+    pub(super) fn closest(&self) -> Option<Minimum> {
+        let from = |swing: f64| {
+            let mut start = self.start.clone();
+            start[0] = swing;
+            let model = self.pattern(&start)?.heights[0];
+            let data = Complex::new(self.data[2], self.data[3]);
+            start[3] = (data.norm() / model.norm()).ln();
+            start[4] = (data / model).arg();
+            minimum(self, &start)
+        };
+        SWINGS.into_iter().filter_map(from).min_by(|a, b| a.sum.total_cmp(&b.sum))
+    }
+
+    /// Probability of an equally large χ² by chance.
+    pub(super) fn misfit(&self, best: &Minimum) -> f64 {
+        FisherSnedecor::new(FREEDOM, BLOCK_FREEDOM).map_or(0.0, |law| law.sf(best.sum / FREEDOM))
+    }
+
+    pub(super) fn solved(&self, best: &Minimum) -> Option<Ripples> {
+        let around = Around::of(self, best)?;
+        let alpha = around.estimate(|at| Some(self.pattern(at)?.alpha.ln()))?;
+        let r = around.estimate(|at| Some(at[1]))?;
+        let at = &best.parameters;
+        let found = self.pattern(at)?;
+        let (forward, upward) = self.way;
+        let (wavelength, angle, amplitude) = self.shape(around.quantile);
+        Some(Ripples {
+            alpha,
+            r,
+            wavelength,
+            crest_angle: angle,
+            amplitude,
+            wave_vector: [self.wave.q(), self.wave.kappa()],
+            phase: self.wave.harmonic(1).arg(),
+            profile: self.profile(&found, at),
+            height_gain: at[3].exp() / (self.sigma * self.sigma),
+            neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
+            forward,
+            upward,
+            part: [[0.0; 2]; 2],
+            misfit: self.misfit(best),
+            modulation: self.wave.modulation,
+            residual: self.wave.residual,
+            explained: self.wave.explained,
+        })
+    }
+
+    /// The mean ripple of the image beside that of the pattern.
+    fn profile(&self, pattern: &Travelling, at: &[f64]) -> RippleProfile {
+        let turned = |(k, height): (usize, &Complex<f64>)| {
+            let height = height * Complex::from_polar(at[3].exp(), (k + 1) as f64 * at[4]);
+            if self.way.0 { height } else { height.conj() }
+        };
+        let model: Vec<Complex<f64>> = pattern.heights.iter().enumerate().map(turned).collect();
+        let crest = -self.wave.harmonic(1).arg();
+        let length = self.wave.q().hypot(self.wave.kappa());
+        let row = |(part, [mean, error]): (usize, &[f64; 2])| {
+            let phase = phase(part);
+            let away = (phase - crest + PI).rem_euclid(TAU) - PI;
+            [away / length, *mean, *error, height(&model, phase)]
+        };
+        let mut rows: Vec<[f64; 4]> = self.wave.folded.iter().enumerate().map(row).collect();
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let [distance, height, error, model] =
+            [0, 1, 2, 3].map(|i| rows.iter().map(|row| row[i]).collect());
+        RippleProfile { distance, height, error, model }
+    }
+
+    /// Wavelength, crest angle and amplitude of the wave in the image.
+    fn shape(&self, quantile: f64) -> (Estimate, Estimate, Estimate) {
+        let [q, kappa] = [self.wave.q(), self.wave.kappa()];
+        let length = q.hypot(kappa);
+        let c = &self.wave.covariance;
+        let error = |i: usize, by: [f64; 2]| {
+            let square = by[0] * by[0] * c[(i, i)]
+                + 2.0 * by[0] * by[1] * c[(i, i + 1)]
+                + by[1] * by[1] * c[(i + 1, i + 1)];
+            quantile * square.max(0.0).sqrt()
+        };
+        let around =
+            |value: f64, error: f64| Estimate { value, low: value - error, high: value + error };
+        let wavelength = TAU / length;
+        let turned = error(0, [kappa / (length * length), -q / (length * length)]);
+        let first = self.wave.harmonic(1);
+        let size = first.norm();
+        (
+            around(wavelength, error(0, [q, kappa].map(|v| wavelength * v / (length * length)))),
+            around(crest_angle(q, kappa), turned.to_degrees()),
+            around(2.0 * size, 2.0 * error(2, [first.re / size, first.im / size])),
+        )
+    }
+}
+
+impl Residuals for Problem<'_> {
+    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let off = self.predicted(parameters)? - &self.data;
+        Some((&self.whitening * off).iter().copied().collect())
+    }
+
+    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
+        differences(self, (here, parameters), STEP)
+    }
+}
+
+/// The neighbourhood of the closest pattern, for intervals by profile likelihood: the range of a quantity over which the patterns that
+/// have it are close enough to the wave. At strong noise α is far from linear in the parameters.
+struct Around<'a> {
+    problem: &'a Problem<'a>,
+    best: &'a Minimum,
+    /// Covariance of the parameters if all is linear, and χ² per degree of freedom, at least 1.
+    covariance: DMatrix<f64>,
+    excess: f64,
+    /// Half of a 95 % interval, in standard deviations.
+    quantile: f64,
+}
+
+impl<'a> Around<'a> {
+    fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
+        let slopes = problem.derivatives(&best.residuals, &best.parameters)?;
+        let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
+        let jacobian = DMatrix::from_columns(&columns);
+        let covariance = jacobian.tr_mul(&jacobian).try_inverse()?;
+        let excess = (best.sum / FREEDOM).max(1.0);
+        Some(Self { problem, best, covariance, excess, quantile: quantile(BLOCK_FREEDOM) })
+    }
+
+    /// The quantity with this logarithm, and its interval.
+    fn estimate(&self, log: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
+        let at = &self.best.parameters;
+        let value = log(at)?;
+        let slope = (0..at.len()).map(|i| {
+            let beside = |step: f64| {
+                let mut there = at.clone();
+                there[i] += step;
+                log(&there)
+            };
+            Some((beside(STEP)? - beside(-STEP)?) / (2.0 * STEP))
+        });
+        let slope = DVector::from_vec(slope.collect::<Option<Vec<f64>>>()?);
+        let toward = &self.covariance * &slope;
+        let variance = slope.dot(&toward);
+        let deviation = variance.sqrt();
+        let root = |offset: f64| {
+            let start = at.iter().zip(&toward).map(|(at, t)| at + t / variance * offset);
+            let held =
+                Held { problem: self.problem, log: &log, goal: value + offset, weight: HELD / deviation };
+            let found = minimum(&held, &start.collect::<Vec<f64>>())?;
+            let more = squares(&found.residuals[..UNKNOWNS]) - self.best.sum;
+            Some((more.max(0.0) / self.excess).sqrt())
+        };
+        let guess = self.quantile * (self.excess * variance).sqrt();
+        let end = |side: f64| crossing(root, self.quantile, (side * guess, FARTHEST)).0;
+        Some(Estimate {
+            value: value.exp(),
+            low: end(-1.0).map_or(0.0, |offset| (value + offset).exp()),
+            high: end(1.0).map_or(f64::INFINITY, |offset| (value + offset).exp()),
+        })
+    }
+}
+
+/// The problem with the logarithm of a quantity held, by one more residual.
+struct Held<'a, F> {
+    problem: &'a Problem<'a>,
+    log: &'a F,
+    goal: f64,
+    weight: f64,
+}
+
+impl<F: Fn(&[f64]) -> Option<f64>> Residuals for Held<'_, F> {
+    fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let mut residuals = self.problem.at(parameters)?;
+        residuals.push(self.weight * ((self.log)(parameters)? - self.goal));
+        Some(residuals)
+    }
+
+    fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
+        differences(self, (here, parameters), STEP)
+    }
+}
+
+/// 97.5 % quantile of Student's distribution.
+fn quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+}

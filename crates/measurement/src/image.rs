@@ -107,7 +107,11 @@ impl Image {
     ///
     /// # Errors
     /// Too few.
-    pub(crate) fn part(&self, columns: Range<usize>, rows: Range<usize>) -> Result<Self, ImageError> {
+    pub(crate) fn part(
+        &self,
+        columns: Range<usize>,
+        rows: Range<usize>,
+    ) -> Result<Self, ImageError> {
         let cut = self.rows[rows.clone()].iter().map(|row| row[columns.clone()].to_vec());
         Self::new(self.x[columns.clone()].to_vec(), self.y[rows].to_vec(), cut.collect())
     }

@@ -21,6 +21,9 @@ const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
 const STEP: f64 = 1e-5;
 /// Weight of a quantity that is held, in terms of its standard deviation: it then deviates by 1e-4 of that.
 const HELD: f64 = 100.0;
+/// Largest part of its offset by which a held quantity may miss it, and least part of the quantile up to which a profile must be known.
+const MISSED: f64 = 0.05;
+const NEAR: f64 = 0.8;
 /// Largest logarithm of the ratio of an end of an interval to the value.
 const FARTHEST: f64 = 3.0;
 
@@ -37,12 +40,18 @@ pub(super) struct Problem<'a> {
     start: Vec<f64>,
     /// q of linear theory, from which Newton's method starts.
     q: f64,
+    /// The last pattern, from which the next one starts.
     last: RefCell<Option<Travelling>>,
 }
 
 impl<'a> Problem<'a> {
     /// `None` if linear theory has no such wave.
-    pub(super) fn new(lines: &'a Lines, wave: &'a Wave, sigma: f64, way: (bool, bool)) -> Option<Self> {
+    pub(super) fn new(
+        lines: &'a Lines,
+        wave: &'a Wave,
+        sigma: f64,
+        way: (bool, bool),
+    ) -> Option<Self> {
         let (forward, upward) = way;
         // A mirrored x makes (q, κ) of (-q, κ), whose conjugate is (q, -κ); a mirrored y makes (q, -κ).
         let mut signs = [1.0; UNKNOWNS];
@@ -71,13 +80,14 @@ impl<'a> Problem<'a> {
         }
         let last = self.last.borrow().clone();
         let near = last.and_then(|near| self.lines.pattern(r, kappa, swing, Ok(&near)));
-        let found = near.or_else(|| self.lines.pattern(r, kappa, swing, Err(self.q))).or_else(|| {
-            let mut near = self.lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
-            for part in [0.5, 0.75, 1.0] {
-                near = self.lines.pattern(r, kappa, part * swing, Ok(&near))?;
-            }
-            Some(near)
-        })?;
+        let found =
+            near.or_else(|| self.lines.pattern(r, kappa, swing, Err(self.q))).or_else(|| {
+                let mut near = self.lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
+                for part in [0.5, 0.75, 1.0] {
+                    near = self.lines.pattern(r, kappa, part * swing, Ok(&near))?;
+                }
+                Some(near)
+            })?;
         self.last.replace(Some(found.clone()));
         Some(found)
     }
@@ -134,7 +144,7 @@ impl<'a> Problem<'a> {
             neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
             forward,
             upward,
-            part: [[0.0; 2]; 2],
+            part: None,
             misfit: self.misfit(best),
             modulation: self.wave.modulation,
             residual: self.wave.residual,
@@ -239,14 +249,29 @@ impl<'a> Around<'a> {
         let deviation = variance.sqrt();
         let root = |offset: f64| {
             let start = at.iter().zip(&toward).map(|(at, t)| at + t / variance * offset);
-            let held =
-                Held { problem: self.problem, log: &log, goal: value + offset, weight: HELD / deviation };
-            let found = minimum(&held, &start.collect::<Vec<f64>>())?;
+            let held = Held {
+                problem: self.problem,
+                log: &log,
+                goal: value + offset,
+                weight: HELD / deviation,
+            };
+            // Where the others go if all is linear may be outside of the domain.
+            let found =
+                minimum(&held, &start.collect::<Vec<f64>>()).or_else(|| minimum(&held, at))?;
+            // A search that does not get to the goal says nothing.
+            let off = found.residuals.last().map_or(f64::INFINITY, |off| off.abs());
+            if off > 1.0 + MISSED * HELD * (offset / deviation).abs() {
+                return None;
+            }
             let more = squares(&found.residuals[..UNKNOWNS]) - self.best.sum;
             Some((more.max(0.0) / self.excess).sqrt())
         };
         let guess = self.quantile * (self.excess * variance).sqrt();
-        let end = |side: f64| crossing(root, self.quantile, (side * guess, FARTHEST)).0;
+        let end = |side: f64| {
+            let (end, points) = crossing(root, self.quantile, (side * guess, FARTHEST));
+            // Failed searches exclude nothing.
+            end.filter(|_| points.iter().any(|(_, root)| *root > NEAR * self.quantile))
+        };
         Some(Estimate {
             value: value.exp(),
             low: end(-1.0).map_or(0.0, |offset| (value + offset).exp()),

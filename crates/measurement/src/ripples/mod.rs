@@ -61,9 +61,9 @@ pub struct Ripples {
     pub forward: bool,
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
-    /// First and last x and y of the part of the image in which the ripples have settled, from which all numbers are: the whole
-    /// image if it can be.
-    pub part: [[f64; 2]; 2],
+    /// First and last x and y of the part of the image in which the ripples have settled, from which all numbers are; `None` if they
+    /// are from the whole image.
+    pub part: Option<[[f64; 2]; 2]>,
     /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
     /// [`Ripples::LEAST_MISFIT`] the model does not explain them.
     pub misfit: f64,
@@ -147,6 +147,11 @@ impl Ripples {
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];
+        if let Some([[left, right], [low, high]]) = self.part {
+            remarks.push(format!(
+                "the ripples have not settled everywhere: all numbers are from x = {left:.4} to {right:.4}, y = {low:.4} to {high:.4}"
+            ));
+        }
         if self.modulation > Self::MOST_MODULATION {
             remarks.push(format!(
                 "the ripples differ by {:.0} % between the parts of the image: they have not settled, and α and r get no intervals; \
@@ -202,5 +207,6 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let middle = |[first, last]: [f64; 2]| 0.5 * (first + last);
     let ([q, kappa], [x, y]) = (found.wave_vector, part.ends);
     let phase = (found.phase - q * middle(x) - kappa * middle(y)).rem_euclid(TAU);
-    Ok(Ripples { phase, part: part.ends, ..found })
+    let is_whole = part.ends == part::ends(image);
+    Ok(Ripples { phase, part: (!is_whole).then_some(part.ends), ..found })
 }

@@ -100,6 +100,6 @@ fn stands_out(wave: &Wave) -> bool {
     wave.harmonic(1).norm() >= STANDS_OUT * error
 }
 
-fn ends(image: &Image) -> [[f64; 2]; 2] {
+pub(super) fn ends(image: &Image) -> [[f64; 2]; 2] {
     [image.x(), image.y()].map(|at| [at[0], at[at.len() - 1]])
 }

@@ -46,6 +46,10 @@ pub struct FitImageFound {
     pub scan: ScanName,
     /// Direction in which the lines followed each other.
     pub slow_scan: SlowScanName,
+    /// The part of the image in which the ripples have settled, from which all numbers are; null if they are from the whole
+    /// image.
+    #[serde(default)]
+    pub settled_part: Option<SettledPart>,
     /// Whether the ripples are uniform and the model explains them; otherwise α and r have no intervals.
     pub explained: bool,
     /// Probability of an equally large deviation from settled ripples of the model by chance; below 0.005 the model does
@@ -109,6 +113,16 @@ pub enum SlowScanName {
     Up,
     /// Towards smaller y.
     Down,
+}
+
+/// A part of an image, first and last position.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SettledPart {
+    /// Along the lines.
+    pub x: [f64; 2],
+    /// Across the lines.
+    pub y: [f64; 2],
 }
 
 /// The mean ripple; columns of equal length.
@@ -288,6 +302,7 @@ impl FitImageFound {
             neutral_alpha: found.neutral_alpha,
             scan: if found.forward { ScanName::Right } else { ScanName::Left },
             slow_scan: if found.upward { SlowScanName::Up } else { SlowScanName::Down },
+            settled_part: found.part.map(|[x, y]| SettledPart { x, y }),
             explained,
             misfit: found.misfit,
             modulation: found.modulation,

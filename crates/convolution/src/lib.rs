@@ -41,6 +41,7 @@
 
 mod convolver;
 mod density;
+mod expander;
 mod field;
 mod kernel;
 mod lattice;
@@ -52,6 +53,7 @@ mod window;
 
 pub use convolver::Convolver;
 pub use density::Density;
+pub use expander::{Expander, PowerSeries, TERMS};
 pub use field::Field;
 pub use kernel::Kernel;
 pub use plan::{Plan, Taper};

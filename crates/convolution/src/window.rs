@@ -78,7 +78,7 @@ impl Window {
 
     /// The sixteen weights `φ((k − 7 − offset)/8)`, `k = 0..16`, of the cells from seven below to
     /// eight above the one at or below a position, for an offset in [0, 1] spacings above it.
-    #[inline]
+    #[inline(always)]
     pub fn weights(&self, offset: f64) -> [f64; WIDTH] {
         let s = 2.0 * offset - 1.0;
         let square = s * s;
@@ -132,7 +132,7 @@ impl Window {
 }
 
 /// Weight `k` is even + odd, weight `15 − k` is even − odd.
-#[inline]
+#[inline(always)]
 fn unfold(even: [f64; HALF], odd: [f64; HALF]) -> [f64; WIDTH] {
     let mut all = [0.0; WIDTH];
     for k in 0..HALF {

@@ -333,7 +333,7 @@ impl Grooves {
 }
 
 /// The smallest and the largest y of the lines from each one on; after the last, an empty range.
-fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
+pub(crate) fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
     let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
     let mut ahead = vec![ends];
     for n in (0..plan.lines()).rev() {
@@ -346,7 +346,7 @@ fn ahead(plan: &Plan) -> Vec<(f64, f64)> {
 }
 
 /// Whether two values of y are equal, so that their products can be shared.
-fn same(a: f64, b: f64) -> bool {
+pub(crate) fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 0.0
 }
 

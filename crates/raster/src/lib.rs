@@ -29,6 +29,8 @@
 //! ```
 
 mod area;
+mod course;
+mod earlier;
 mod error;
 mod free;
 mod grooves;
@@ -38,6 +40,7 @@ mod pattern;
 mod plan;
 mod scan;
 mod surface;
+mod trace;
 
 pub use area::Area;
 pub use error::{MOST_LINES, RasterError};

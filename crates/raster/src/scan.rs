@@ -1,5 +1,6 @@
 //! Scan of the lines one after the other; it can be stopped and resumed between any two.
 
+use crate::course::{Course, Rows};
 use crate::error::RasterError;
 use crate::free::Free;
 use crate::grooves::Grooves;
@@ -12,8 +13,16 @@ use stickslip_tip::{InitialSurface, Running, Step, Work, stop};
 /// A raster in progress.
 pub struct Scanning<'a> {
     plan: &'a Plan,
-    grooves: Grooves,
+    past: Past<'a>,
     lines: Vec<Line>,
+}
+
+/// What lines leave for later ones.
+enum Past<'a> {
+    /// Of a tip that is held on its lines: as power series.
+    Traces(Course<'a>, Rows),
+    /// Of other tips, and of footprints with many layers: as transforms of whole lines.
+    Grooves(Box<Grooves>),
 }
 
 impl<'a> Scanning<'a> {
@@ -23,7 +32,12 @@ impl<'a> Scanning<'a> {
     /// A parameter is out of range.
     pub fn new(plan: &'a Plan) -> Result<Self, RasterError> {
         plan.validate()?;
-        Ok(Self { plan, grooves: Grooves::new(plan), lines: vec![] })
+        let course = if plan.free.is_none() { Course::new(plan) } else { None };
+        let past = match course {
+            Some(course) => Past::Traces(course, Rows::default()),
+            None => Past::Grooves(Box::new(Grooves::new(plan))),
+        };
+        Ok(Self { plan, past, lines: vec![] })
     }
 
     /// The state after these lines of the same plan: all later lines are the same to the last bit as without the
@@ -33,8 +47,11 @@ impl<'a> Scanning<'a> {
     /// As [`new`](Self::new).
     pub fn resumed(plan: &'a Plan, lines: Vec<Line>) -> Result<Self, RasterError> {
         let mut scanning = Self::new(plan)?;
-        for n in 1..=lines.len() {
-            scanning.grooves.add(&lines[..n]);
+        for (n, line) in lines.iter().enumerate() {
+            match &mut scanning.past {
+                Past::Traces(course, rows) => course.put(n, line, rows),
+                Past::Grooves(grooves) => grooves.add(&lines[..=n]),
+            }
         }
         Ok(Self { lines, ..scanning })
     }
@@ -52,9 +69,13 @@ impl<'a> Scanning<'a> {
         if self.lines.len() >= self.plan.lines() {
             return InitialSurface::flat();
         }
-        let track = self.plan.track(self.lines.len());
-        let relief = self.grooves.relief(&track);
-        relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
+        match &mut self.past {
+            Past::Traces(course, rows) => course.surface(self.lines.len(), rows),
+            Past::Grooves(grooves) => {
+                let relief = grooves.relief(&self.plan.track(self.lines.len()));
+                relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
+            }
+        }
     }
 
     /// Scans the next line; `None` after the last one, or if the work is [cancelled](stop), in which case the
@@ -67,14 +88,54 @@ impl<'a> Scanning<'a> {
         if n == self.plan.lines() {
             return Ok(None);
         }
-        let line = match &self.plan.free {
-            None => self.held_line(n)?,
-            Some(free) => self.free_line(n, free)?,
+        let begins = self.begins(self.plan.track(n));
+        let line = match (&mut self.past, &self.plan.free) {
+            (Past::Traces(course, rows), _) => course.line(n, rows, begins)?,
+            (Past::Grooves(_), None) => self.held_line(n)?,
+            (Past::Grooves(_), Some(free)) => self.free_line(n, free)?,
         };
         let Some(line) = line else { return Ok(None) };
         self.lines.push(line);
-        self.grooves.add(&self.lines);
+        if let Past::Grooves(grooves) = &mut self.past {
+            grooves.add(&self.lines);
+        }
         Ok(self.lines.last())
+    }
+
+    /// Scans all lines that are left on this number of threads (0: one per core), and passes each to `take`, in their
+    /// order, until that is false or the work is [cancelled](stop). The lines do not depend on the number of threads.
+    ///
+    /// A zigzag line begins with the tip where the one before has ended, so that lines to and fro, like those of a tip that
+    /// is free to move across them or of many layers, are made one after the other.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met.
+    pub fn scan(
+        &mut self,
+        threads: usize,
+        mut take: impl FnMut(&Line) -> bool,
+    ) -> Result<(), RasterError> {
+        let threads = match threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            given => given,
+        };
+        let Self { plan, past, lines } = self;
+        if let (Past::Traces(course, rows), true) = (past, plan.path != Path::Zigzag && threads > 1)
+        {
+            let begin = (lines.len(), rows.clone());
+            return course.each_line(begin, threads, |line, after| {
+                *rows = after;
+                let goes_on = take(&line);
+                lines.push(line);
+                goes_on
+            });
+        }
+        while let Some(line) = self.next_line()? {
+            if !take(line) {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Line n of a tip that is held on it; `None` if the work is cancelled.
@@ -105,7 +166,8 @@ impl<'a> Scanning<'a> {
         let along = self.plan.line(n, self.begins(track));
         let scenario = free.scenario(&self.plan.footprint, along, (n, off));
         loop {
-            let earlier = self.grooves.around(&track);
+            let Past::Grooves(grooves) = &mut self.past else { return Ok(None) };
+            let earlier = grooves.around(&track);
             match run(&scenario, earlier.as_ref()) {
                 Ok(Some((steps, work))) => {
                     let model = &scenario.along.model;
@@ -113,7 +175,7 @@ impl<'a> Scanning<'a> {
                 }
                 Ok(None) => return Ok(None),
                 // The surface farther away from the line is needed too.
-                Err(PlanarError::BeyondGrooves { .. }) => self.grooves.widen_across(&self.lines),
+                Err(PlanarError::BeyondGrooves { .. }) => grooves.widen_across(&self.lines),
                 Err(error) => return Err(RasterError::of_free(n, error)),
             }
         }

@@ -143,6 +143,18 @@ impl Step {
     pub(crate) fn weights(&self, wider: &Wider) -> Stages {
         self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
     }
+
+    /// The weights of the nodes in the [residence](Trajectory::residence) of the tip until t, at or after the end of
+    /// the step.
+    #[must_use]
+    pub fn spent(&self, wider: &Wider, t: f64) -> Stages {
+        let left = match wider.healing_time {
+            None => RADAU.b().map(|b| b * self.h),
+            Some(time) => healing(self.h, time)[STAGES - 1],
+        };
+        let (weights, since) = (self.weights(wider), wider.left_after(t - self.end()));
+        std::array::from_fn(|i| left[i] * weights[i] * since)
+    }
 }
 
 impl Heights {
@@ -273,12 +285,9 @@ impl Trajectory {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
             let origin = self.support.position(step.t) - step.extension;
-            let spent = step.weights(&self.wider);
             if step.end() <= t {
                 positions.extend(step.displacement.map(|d| origin + d));
-                let left = self.left(step).into_iter().zip(spent);
-                let since = self.wider.left_after(t - step.end());
-                weights.extend(left.map(|(left, spent)| left * spent * since));
+                weights.extend(step.spent(&self.wider, t));
                 continue;
             }
             let part = (t - step.t) / step.h;
@@ -315,14 +324,6 @@ impl Trajectory {
         let factors = exponents.iter().map(|exponent| exp(exponent - largest));
         weights.iter_mut().zip(factors).for_each(|(weight, factor)| *weight *= factor);
         (positions, weights, largest)
-    }
-
-    /// What is left, at the end of a step, of what its nodes stand for.
-    fn left(&self, step: &Step) -> Stages {
-        match self.wider.healing_time {
-            None => RADAU.b().map(|b| b * step.h),
-            Some(time) => healing(step.h, time)[STAGES - 1],
-        }
     }
 
     /// The step that holds t.

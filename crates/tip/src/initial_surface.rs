@@ -5,6 +5,7 @@
 //! -u0'(x0), because u0 is a height.
 
 use crate::Model;
+use crate::memory::ROOM;
 use crate::relief::{Noise, Piece, Relief};
 use crate::series::SeriesError;
 
@@ -108,18 +109,18 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
-    /// u0, u0', u0'' and u0''' on the stretch, without the groove of steady motion; `None` if some of them are
-    /// unknown.
-    pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64) -> Option<[f64; 4]> {
-        let mut sum = [0.0; 4];
-        if stretch.flat {
-            return Some(sum);
+    /// Sets u0 and its derivatives on the stretch, without the groove of steady motion; `None` if some of them are
+    /// unknown. Otherwise the number of those that are not 0.
+    pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64, jet: &mut [f64; ROOM]) -> Option<usize> {
+        if stretch.flat || self.reliefs.is_empty() {
+            return Some(0);
         }
-        for (relief, piece) in self.reliefs.iter().zip(&stretch.pieces) {
-            let jet = relief.jet_on(*piece, x)?;
-            sum.iter_mut().zip(jet).for_each(|(sum, term)| *sum += term);
-        }
-        Some(sum)
+        jet.fill(0.0);
+        let mut reliefs = self.reliefs.iter().zip(&stretch.pieces);
+        let add = |most: usize, (relief, piece): (&Relief, &Option<usize>)| {
+            Some(most.max(relief.add_jet_on(*piece, x, jet)?))
+        };
+        reliefs.try_fold(0, add)
     }
 
     /// u0 of the same function.

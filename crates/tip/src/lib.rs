@@ -51,7 +51,7 @@ pub use initial_surface::InitialSurface;
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use memory::MemoryChoice;
 pub use model::{Model, ModelError};
-pub use relief::{Noise, Relief};
+pub use relief::{Ground, Noise, Relief};
 pub use run::{
     Collected, MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, collect_each, run,
     run_each, run_many, run_observed,

@@ -1,13 +1,18 @@
 //! A single contribution to the initial surface: a height profile with two derivatives.
 
+mod expanded;
 mod on_lattice;
 
+use crate::memory::ROOM;
 use crate::series::{SeriesError, checked};
 use crate::spline::CubicSpline;
 use crate::{Model, TipFunction};
+use expanded::Expanded;
+pub use expanded::Ground;
 use on_lattice::OnLattice;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::sync::Arc;
 use stickslip_convolution::Field;
 
 /// A height as a function of x, smooth except at known breaks.
@@ -32,6 +37,7 @@ enum Shape {
     /// A spline, and 0 outside of it.
     Spline(CubicSpline),
     OnLattice(OnLattice),
+    Expanded(Expanded),
 }
 
 /// The profile (24) of a tip in steady motion that is now at `position`.
@@ -116,6 +122,13 @@ impl Relief {
         Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }
 
+    /// A height that is known by power series: the groove of earlier lines. `along` is as in
+    /// [`on_lattice`](Self::on_lattice).
+    #[must_use]
+    pub fn expanded(ground: Arc<dyn Ground>, along: (f64, bool)) -> Self {
+        Self(Shape::Expanded(Expanded::new(ground, along)))
+    }
+
     /// Height at x.
     #[must_use]
     pub fn height(&self, x: f64) -> f64 {
@@ -124,6 +137,7 @@ impl Relief {
             Shape::Spline(spline) if is_inside(spline, x) => spline.value(x),
             Shape::Spline(_) => 0.0,
             Shape::OnLattice(relief) => relief.height(x),
+            Shape::Expanded(relief) => relief.height(x),
         }
     }
 
@@ -134,6 +148,7 @@ impl Relief {
             (Shape::Spline(spline), Some(piece)) => spline.jet_on(piece, x).0,
             (Shape::Spline(_), None) => 0.0,
             (Shape::OnLattice(relief), _) => relief.height(x),
+            (Shape::Expanded(relief), _) => relief.height(x),
         }
     }
 
@@ -154,18 +169,29 @@ impl Relief {
             }
             (Shape::Spline(_), None) => (0.0, 0.0),
             (Shape::OnLattice(relief), _) => relief.slope_and_curvature(x),
+            (Shape::Expanded(relief), _) => relief.slope_and_curvature(x),
         }
     }
 
-    /// Height and three derivatives on a piece if all higher ones are 0; zeros for the groove of steady motion;
-    /// `None` otherwise.
-    pub(crate) fn jet_on(&self, piece: Option<usize>, x: f64) -> Option<[f64; 4]> {
+    /// Adds the height and its derivatives on a piece to these, without the groove of steady motion; `None` if they
+    /// are unknown. Otherwise the number of those that are not 0.
+    pub(crate) fn add_jet_on(
+        &self,
+        piece: Option<usize>,
+        x: f64,
+        jet: &mut [f64; ROOM],
+    ) -> Option<usize> {
+        let mut add = |terms: &[f64]| {
+            jet.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            Some(terms.len())
+        };
         match (&self.0, piece) {
-            (Shape::SteadyPast(_), _) | (Shape::Spline(_), None) => Some([0.0; 4]),
+            (Shape::SteadyPast(_), _) | (Shape::Spline(_), None) => Some(0),
             (Shape::Spline(spline), Some(piece)) => {
                 let (height, slope, curvature) = spline.jet_on(piece, x);
-                Some([height, slope, curvature, spline.third_on(piece)])
+                add(&[height, slope, curvature, spline.third_on(piece)])
             }
+            (Shape::Expanded(relief), _) => add(&relief.derivatives(x)),
             (Shape::OnLattice(_), _) => None,
         }
     }
@@ -175,14 +201,14 @@ impl Relief {
     pub fn steady_position(&self) -> Option<f64> {
         match &self.0 {
             Shape::SteadyPast(past) => Some(past.position),
-            Shape::Spline(_) | Shape::OnLattice(_) => None,
+            Shape::Spline(_) | Shape::OnLattice(_) | Shape::Expanded(_) => None,
         }
     }
 
     /// The end of a relief with breaks.
     pub(crate) fn end(&self) -> Option<f64> {
         match &self.0 {
-            Shape::SteadyPast(_) | Shape::OnLattice(_) => None,
+            Shape::SteadyPast(_) | Shape::OnLattice(_) | Shape::Expanded(_) => None,
             Shape::Spline(spline) => Some(spline.last()),
         }
     }
@@ -193,6 +219,7 @@ impl Relief {
             Shape::SteadyPast(past) => past.covers(x),
             Shape::Spline(spline) => is_inside(spline, x),
             Shape::OnLattice(relief) => relief.covers(x),
+            Shape::Expanded(_) => true,
         }
     }
 
@@ -202,7 +229,7 @@ impl Relief {
         match &self.0 {
             Shape::SteadyPast(past) => x - past.position > past.reach + FARTHEST_LOOK,
             Shape::Spline(_) => piece.index.is_none(),
-            Shape::OnLattice(_) => false,
+            Shape::OnLattice(_) | Shape::Expanded(_) => false,
         }
     }
 

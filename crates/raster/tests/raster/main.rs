@@ -6,4 +6,5 @@ mod definition;
 mod free;
 mod patterns;
 mod resolved;
+mod threads;
 mod wider_linear_theory;

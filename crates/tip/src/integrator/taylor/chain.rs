@@ -119,7 +119,7 @@ impl Chain {
         (order, with_height): (usize, bool),
         alpha: f64,
         (past, of_tip): (&[f64; ROOM], &[f64; ROOM]),
-        relief: [f64; 4],
+        relief: &[f64],
     ) {
         if order != self.order {
             self.order = order;
@@ -130,7 +130,7 @@ impl Chain {
         let from = 1 - self.slope;
         let first = &mut self.rows[0];
         first.iter_mut().zip(&past[from..]).for_each(|(g, past)| *g = alpha * past);
-        first.iter_mut().zip(&relief[from..]).for_each(|(g, relief)| *g -= relief);
+        first.iter_mut().zip(relief.iter().skip(from)).for_each(|(g, relief)| *g -= relief);
         let sources = self.sources[1..].iter_mut().zip(&of_tip[from..]);
         sources.for_each(|(source, of_tip)| *source = alpha * of_tip);
     }

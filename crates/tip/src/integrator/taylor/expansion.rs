@@ -2,13 +2,15 @@
 
 use super::super::Integrator;
 use super::chain::Acting;
-use crate::memory::{Memory, SteadyPast};
+use crate::memory::{Memory, ROOM, SteadyPast};
 
 impl<M: Memory> Integrator<'_, M> {
     /// The series from here on; false where there is none.
     pub(super) fn look_ahead(&mut self) -> bool {
         let order = self.taylor.order;
-        let Some(jet) = self.surface.jet_on(&self.stretch, self.position()) else { return false };
+        let mut jet = [0.0; ROOM];
+        let known = self.surface.jet_on(&self.stretch, self.position(), &mut jet);
+        let Some(count) = known else { return false };
         let steady = self.steady_past();
         let told = &mut self.taylor.told;
         if !self.memory.derivatives(steady.as_ref(), order + 1, told) {
@@ -22,7 +24,8 @@ impl<M: Memory> Integrator<'_, M> {
         let alpha = self.model.alpha();
         let groove = (&told.past, &told.of_tip);
         let first = (order, self.corner.is_some());
-        self.taylor.chain.start(first, alpha, groove, jet.map(|jet| relief * jet));
+        jet[..count].iter_mut().for_each(|jet| *jet *= relief);
+        self.taylor.chain.start(first, alpha, groove, &jet[..count]);
         let depth = self.weight_now();
         if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
             return false;

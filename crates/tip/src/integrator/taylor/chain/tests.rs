@@ -77,7 +77,7 @@ fn the_series_is_that_of_the_exponentials() {
             past[n] = modes().iter().map(|m| (power(m) * m[2]).re).sum::<f64>();
             of_tip[n] = modes().iter().map(|m| power(m).re).sum::<f64>();
         }
-        chain.start((ORDER, depth.is_some()), ALPHA, (&past, &of_tip), [0.0; 4]);
+        chain.start((ORDER, depth.is_some()), ALPHA, (&past, &of_tip), &[]);
         chain.force[..ORDER].copy_from_slice(&force);
         let mut plain = chain.clone();
         chain.run(&acting);

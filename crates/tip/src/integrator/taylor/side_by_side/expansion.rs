@@ -141,7 +141,7 @@ mod tests {
             }
             for lane in 0..LANES {
                 let (mut chain, past) = (Chain::new(), std::array::from_fn(|n| number(lane, n)));
-                chain.start((order, false), acting.alpha.0[lane], (&past, &of_tip), [0.0; 4]);
+                chain.start((order, false), acting.alpha.0[lane], (&past, &of_tip), &[]);
                 chain.run(&chain::Acting {
                     spring: 1.0,
                     support: acting.support.0[lane],

@@ -1,0 +1,348 @@
+//! Lines of a tip that is held on them, one after the other or several at a time.
+//!
+//! What a line feels of the one before is local: it may begin when that one is a few reaches of the footprint ahead. Its
+//! motion depends on the traces of earlier lines alone, and not on when they become known. Should a tip return to where the
+//! next line has already been, that line and all later ones begin anew.
+
+use crate::earlier::{Earlier, Expanders};
+use crate::error::RasterError;
+use crate::grooves::{ahead, same};
+use crate::line::Line;
+use crate::plan::Plan;
+use crate::trace::{Trace, Ways, Writer};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use stickslip_tip::{InitialSurface, Relief, Running, Step, Support, stop};
+
+/// The lines at one y, in the order of the last of them.
+#[derive(Clone)]
+struct Row {
+    y: f64,
+    /// The part of it that has not yet healed.
+    left: f64,
+    trace: Arc<Trace>,
+}
+
+/// The rows that lines still to come may feel.
+#[derive(Clone, Default)]
+pub(crate) struct Rows(Vec<Row>);
+
+/// The course of all lines.
+pub(crate) struct Course<'a> {
+    plan: &'a Plan,
+    expanders: Arc<Expanders>,
+    /// Range of y of the remaining lines after each line.
+    ahead: Vec<(f64, f64)>,
+}
+
+/// A line to be made.
+struct Job {
+    n: usize,
+    /// Before it and after it.
+    rows: Rows,
+    after: Rows,
+    given_up: Arc<AtomicBool>,
+}
+
+/// What the threads share.
+struct Shared {
+    /// The next line to begin, and the rows before it.
+    next: usize,
+    rows: Rows,
+    /// Lines under way.
+    under_way: BTreeMap<usize, Arc<AtomicBool>>,
+    /// Lines that wait for those before them, with the rows after each.
+    finished: BTreeMap<usize, (Result<Line, RasterError>, Rows)>,
+    /// A line whose tip has returned: none begins before it ends.
+    returned: Option<usize>,
+    /// The first line that has not been handed out.
+    out: usize,
+    ended: bool,
+}
+
+/// Number of lines per thread that may wait for those before them.
+const WAITING: usize = 4;
+/// Longest time until waiting threads notice that the work is cancelled.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+impl<'a> Course<'a> {
+    /// `None` for footprints of which transforms of whole lines cost less.
+    pub(crate) fn new(plan: &'a Plan) -> Option<Self> {
+        Some(Self { plan, expanders: Expanders::new(plan)?, ahead: ahead(plan) })
+    }
+
+    /// Line n after these rows, begun at this distance ahead of the support with this velocity; `None` if it is
+    /// cancelled.
+    pub(crate) fn line(
+        &self,
+        n: usize,
+        rows: &mut Rows,
+        begins: (f64, f64),
+    ) -> Result<Option<Line>, RasterError> {
+        let job = self.job(n, rows);
+        let Some((line, writer)) = self.run(&job, begins, |_, _| {})? else { return Ok(None) };
+        writer.finish();
+        *rows = job.after;
+        Ok(Some(line))
+    }
+
+    /// Adds a finished line to the rows.
+    pub(crate) fn put(&self, n: usize, line: &Line, rows: &mut Rows) {
+        let job = self.job(n, rows);
+        let mut writer = self.writer(&job);
+        for step in line.trajectory().steps() {
+            writer.add(step);
+        }
+        writer.finish();
+        *rows = job.after;
+    }
+
+    fn job(&self, n: usize, rows: &Rows) -> Job {
+        let after = self.after(n, rows);
+        Job { n, rows: rows.clone(), after, given_up: Arc::default() }
+    }
+
+    /// The surface of line n after these rows.
+    pub(crate) fn surface(&self, n: usize, rows: &Rows) -> InitialSurface {
+        self.surface_of(&self.job(n, rows))
+    }
+
+    /// Lines from `out` on, on this number of threads, each passed to `take` in their order with the rows after it, until
+    /// that is false or the work is cancelled. One-way and repeated lines only.
+    pub(crate) fn each_line(
+        &self,
+        (out, rows): (usize, Rows),
+        threads: usize,
+        mut take: impl FnMut(Line, Rows) -> bool,
+    ) -> Result<(), RasterError> {
+        let (next, under_way, finished) = (out, BTreeMap::new(), BTreeMap::new());
+        let shared = Shared { next, rows, under_way, finished, returned: None, out, ended: false };
+        let (shared, news) = (&Mutex::new(shared), &Condvar::new());
+        let flag = stop::flag().unwrap_or_default();
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                scope.spawn(|| {
+                    let _on_panic = End { shared, news, is_due: std::thread::panicking };
+                    stop::where_asked_by(&flag, || self.work((shared, news), WAITING * threads));
+                });
+            }
+            let _on_return = End { shared, news, is_due: || true };
+            while let Some((line, rows)) = next_finished(self.plan.lines(), (shared, news)) {
+                if !take(line?, rows) {
+                    break;
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// One thread: takes lines until there are no more. At most `most` wait for those before them.
+    fn work(&self, (shared, news): (&Mutex<Shared>, &Condvar), most: usize) {
+        loop {
+            let mut now = lock(shared);
+            while !now.is_over() && (now.returned.is_some() || now.next >= now.out + most) {
+                now = wait(news, now);
+            }
+            if now.is_over() || now.next >= self.plan.lines() {
+                return;
+            }
+            let job = self.job(now.next, &now.rows);
+            (now.next, now.rows) = (job.n + 1, job.after.clone());
+            now.under_way.insert(job.n, Arc::clone(&job.given_up));
+            drop(now);
+            if let Some(made) = self.make(&job, shared).transpose() {
+                lock(shared).take(&job, made);
+                news.notify_all();
+            }
+        }
+    }
+
+    /// Makes a line, and the rows after it; `None` if it is given up.
+    fn make(&self, job: &Job, shared: &Mutex<Shared>) -> Result<Option<(Line, Rows)>, RasterError> {
+        let mut has_returned = false;
+        let made = self.run(job, (0.0, 0.0), |writer, is_ahead| {
+            if !is_ahead && !has_returned {
+                has_returned = true;
+                lock(shared).returns(job);
+            } else if !has_returned {
+                writer.publish();
+            }
+        });
+        Ok(made?.map(|(line, writer)| {
+            if has_returned {
+                let after = self.after(job.n, &job.rows);
+                writer.finish_anew(after.newest());
+                return (line, after);
+            }
+            writer.finish();
+            (line, job.after.clone())
+        }))
+    }
+
+    fn writer(&self, job: &Job) -> Writer {
+        let (n, plan) = (job.n, self.plan);
+        let (track, wider) = (plan.track(n), *plan.law.model.wider());
+        let (support, duration) = (Support::Moving(plan.law.model.r()), plan.duration(n));
+        let left = wider.left_after(duration);
+        let before = job.rows.0.iter().find(|row| same(row.y, track.y));
+        let before = before.map(|row| (Arc::clone(&row.trace), left * row.left));
+        let ways = Ways { track, support, wider, duration, before };
+        let given_up = Arc::clone(&job.given_up);
+        Writer::new(ways, job.after.newest(), self.expanders.spacing(), given_up)
+    }
+
+    /// The rows with line n, without those that no later line feels.
+    fn after(&self, n: usize, rows: &Rows) -> Rows {
+        let y = self.plan.track(n).y;
+        let healed = self.plan.law.model.wider().left_after(self.plan.duration(n));
+        let earlier = rows.0.iter().filter(|row| !same(row.y, y));
+        let mut rows: Vec<Row> =
+            earlier.map(|row| Row { left: healed * row.left, ..row.clone() }).collect();
+        if let Some((low, high)) = self.ahead.get(n + 1) {
+            let reach = self.plan.reach_across();
+            rows.retain(|row| row.y >= low - reach && row.y <= high + reach);
+        }
+        rows.push(Row { y, left: 1.0, trace: Arc::default() });
+        Rows(rows)
+    }
+
+    fn surface_of(&self, job: &Job) -> InitialSurface {
+        let (track, reach) = (self.plan.track(job.n), self.plan.reach_across());
+        let alpha = self.plan.law.model.alpha();
+        let within = job.rows.0.iter().filter(|row| (row.y - track.y).abs() <= reach);
+        let layers = self.plan.footprint.layers();
+        let factor = |row: &Row| {
+            let of = |layer: &stickslip_tip::Layer| {
+                -alpha * row.left * layer.across.value(track.y - row.y)
+            };
+            (layers.iter().map(of).collect(), Arc::clone(&row.trace))
+        };
+        let rows: Vec<(Vec<f64>, Arc<Trace>)> = within.map(factor).collect();
+        if rows.is_empty() {
+            return InitialSurface::flat();
+        }
+        let (expanders, given_up) = (Arc::clone(&self.expanders), Arc::clone(&job.given_up));
+        let earlier = Arc::new(Earlier::new(expanders, rows, given_up));
+        let along = (track.start, track.backward);
+        InitialSurface::flat().with(Relief::expanded(earlier, along))
+    }
+
+    /// The run of a line, each step passed to the writer and then to `made`, with whether it leads on to where nobody
+    /// has read; `None` if it is given up.
+    fn run(
+        &self,
+        job: &Job,
+        begins: (f64, f64),
+        mut made: impl FnMut(&mut Writer, bool),
+    ) -> Result<Option<(Line, Writer)>, RasterError> {
+        let (surface, mut writer) = (self.surface_of(job), self.writer(job));
+        let scenario = self.plan.line(job.n, begins);
+        let failed = |error| RasterError::Line { line: job.n + 1, error };
+        let is_given_up = || job.given_up.load(Ordering::Relaxed) || stop::is_asked();
+        let mut running = Running::new(&scenario, &surface).map_err(failed)?;
+        let mut steps: Vec<Step> = vec![];
+        loop {
+            let step = running.step();
+            if is_given_up() {
+                return Ok(None);
+            }
+            let Some(step) = step.map_err(failed)? else { break };
+            let is_ahead = writer.add(&step);
+            steps.push(step);
+            made(&mut writer, is_ahead);
+        }
+        let line = Line::new(self.plan.track(job.n), &scenario.model, steps, running.work());
+        Ok(Some((line, writer)))
+    }
+}
+
+impl Rows {
+    /// The trace of the last line.
+    fn newest(&self) -> Arc<Trace> {
+        self.0.last().map(|row| Arc::clone(&row.trace)).unwrap_or_default()
+    }
+}
+
+impl Shared {
+    fn is_over(&self) -> bool {
+        self.ended || stop::is_asked()
+    }
+
+    /// The tip of this line has returned to where later lines have been: they are given up.
+    fn returns(&mut self, job: &Job) {
+        if job.given_up.load(Ordering::Relaxed) {
+            return;
+        }
+        self.give_up_from(job.n + 1);
+        self.returned = Some(job.n);
+    }
+
+    fn give_up_from(&mut self, n: usize) {
+        let lines = self.under_way.split_off(&n);
+        lines.values().for_each(|given_up| given_up.store(true, Ordering::Relaxed));
+        self.finished.split_off(&n);
+    }
+
+    /// Takes a line that has been made, unless it was given up meanwhile.
+    fn take(&mut self, job: &Job, made: Result<(Line, Rows), RasterError>) {
+        if job.given_up.load(Ordering::Relaxed) {
+            return;
+        }
+        self.under_way.remove(&job.n);
+        let (line, rows) = match made {
+            Ok((line, rows)) => (Ok(line), rows),
+            Err(error) => (Err(error), job.after.clone()),
+        };
+        if self.returned == Some(job.n) {
+            (self.returned, self.next, self.rows) = (None, job.n + 1, rows.clone());
+        }
+        self.finished.insert(job.n, (line, rows));
+    }
+}
+
+/// The next line in order, once it is finished; `None` after the last one, or when the work ends.
+fn next_finished(
+    lines: usize,
+    (shared, news): (&Mutex<Shared>, &Condvar),
+) -> Option<(Result<Line, RasterError>, Rows)> {
+    let mut now = lock(shared);
+    let n = now.out;
+    while n < lines && !now.is_over() {
+        if let Some(line) = now.finished.remove(&n) {
+            now.out = n + 1;
+            news.notify_all();
+            return Some(line);
+        }
+        now = wait(news, now);
+    }
+    None
+}
+
+/// Ends the work of all threads when it is dropped, if that is due.
+struct End<'a> {
+    shared: &'a Mutex<Shared>,
+    news: &'a Condvar,
+    is_due: fn() -> bool,
+}
+
+impl Drop for End<'_> {
+    fn drop(&mut self) {
+        if (self.is_due)() {
+            let mut now = lock(self.shared);
+            now.ended = true;
+            now.give_up_from(0);
+            drop(now);
+            self.news.notify_all();
+        }
+    }
+}
+
+fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn wait<'a>(news: &Condvar, now: MutexGuard<'a, Shared>) -> MutexGuard<'a, Shared> {
+    news.wait_timeout(now, PATIENCE).unwrap_or_else(PoisonError::into_inner).0
+}

@@ -40,6 +40,11 @@ pub(crate) struct RasterArguments {
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
+    /// Number of lines scanned in parallel, a few widths apart; the result is the same. Lines to and fro follow one
+    /// another [default: the number of cores].
+    #[arg(long, value_name = "N", help_heading = "Work")]
+    pub(crate) threads: Option<usize>,
+
     /// File to write: .json for the document, .csv for the samples, .npz for samples, heights and history as NumPy
     /// arrays, .gsf for the height map in Gwyddion; `-` is standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]

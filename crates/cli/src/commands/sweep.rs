@@ -109,10 +109,7 @@ struct Place<'a> {
 
 impl Place<'_> {
     fn judge(&self, read: &[(&'static str, Option<&Path>)]) -> Result<(), Failure> {
-        if let Some(threads) = self.work.threads.filter(|n| !(1..=MOST_THREADS).contains(n)) {
-            let message = format!("must be 1 to {MOST_THREADS}");
-            return Err(Failure::input(format!("--threads {threads}"), message));
-        }
+        threads(self.work.threads)?;
         judge_places(self.outlet, self.plot, read)
     }
 
@@ -202,4 +199,15 @@ fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Fai
         ),
     };
     Failure::Unfinished { signal, message }
+}
+
+/// The number of threads; 0 for one per core.
+pub(super) fn threads(asked: Option<usize>) -> Result<usize, Failure> {
+    match asked.filter(|n| !(1..=MOST_THREADS).contains(n)) {
+        None => Ok(asked.unwrap_or(0)),
+        Some(n) => {
+            let message = format!("must be 1 to {MOST_THREADS}");
+            Err(Failure::input(format!("--threads {n}"), message))
+        }
+    }
 }

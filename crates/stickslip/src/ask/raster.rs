@@ -363,9 +363,14 @@ impl Ask for Raster {
         let times = self.times(&plan)?;
         let failed = |error: RasterError| Failure::Failed(error.to_string());
         let mut scanning = Scanning::new(&plan).map_err(failed)?;
-        while scanning.next_line().map_err(failed)?.is_some() {
-            context.counted(scanning.lines().len(), plan.lines(), "lines")?;
-        }
+        let (mut done, mut counted) = (0, Ok(()));
+        let take = |_: &Line| {
+            done += 1;
+            counted = context.counted(done, plan.lines(), "lines");
+            counted.is_ok()
+        };
+        scanning.scan(0, take).map_err(failed)?;
+        counted?;
         Ok(RasterFound::of(&plan, scanning.lines(), &times))
     }
 }

@@ -8,6 +8,7 @@ pub(in crate::commands) use heights::field;
 use super::ask::{context, refusal};
 use super::job::{Job, format};
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
+use super::sweep::threads;
 use crate::arguments::{AreaArguments, Format, Options, Questions, RasterArguments};
 use crate::commands::in_units::{in_metres, scales};
 use crate::failure::Failure;
@@ -21,6 +22,7 @@ use stickslip_tip::Pulse;
 
 pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;
+    let threads = threads(arguments.threads)?;
     let read = files_read(options, area);
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
@@ -34,7 +36,7 @@ pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let job = Job::of_format::<RasterDocument>(format, output, &arguments.fields, plot.as_deref())?;
     let interrupt = Interrupt::listen()?;
-    let (lines, finished) = scan::scan(&plan, &question, job.file(), &interrupt)?;
+    let (lines, finished) = scan::scan(&plan, &question, job.file(), &interrupt, threads)?;
     let document = question.document(&plan, &lines, &times).in_units(scales.as_ref());
     if let Some(unit) = in_metres {
         let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;

@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::message::remark;
 use std::collections::HashSet;
-use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,12 +13,14 @@ use stickslip::{KeptLine, Raster};
 use stickslip_raster::{Line, Plan, Scanning};
 use stickslip_tip::stop;
 
-/// All lines, including those of an interrupted raster with the same output.
+/// All lines, on this number of threads (0: one per core), including those of an interrupted raster with the same
+/// output.
 pub(super) fn scan(
     plan: &Plan,
     parameters: &Raster,
     file: Option<&Path>,
     interrupt: &Interrupt,
+    threads: usize,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
     let mut finished: Finished<KeptLine> = match file {
         Some(file) => Finished::beside(file, parameters, |index| index < plan.lines())?,
@@ -42,22 +43,24 @@ pub(super) fn scan(
         });
     }
     let mut progress = Progress::new(first as f64, count as f64).at_every_call();
-    for index in first..count {
-        let next = || scanning.next_line().map(|line| line.is_some());
-        let is_scanned = stop::where_asked_by(interrupt.flag(), next).map_err(failed)?;
-        if let (false, Some(signal)) = (is_scanned, interrupt.signal()) {
-            return Err(unfinished(index, count, finished.path(), signal));
-        }
+    let (mut index, mut unkept) = (first, None);
+    let mut take = |line: &Line| {
         if !kept.contains(&index) {
-            let line = KeptLine::of(index, &scanning.lines()[index]);
-            finished.keep(&line).map_err(|error: io::Error| {
-                let target =
-                    finished.path().map_or("memory".into(), |path| path.display().to_string());
-                Failure::Write { target, error }
-            })?;
+            unkept = finished.keep(&KeptLine::of(index, line)).err();
         }
-        scanned.store(index + 1, Ordering::Relaxed);
-        progress.counted(index as f64 + 1.0, || format!("{} of {count} lines", index + 1));
+        index += 1;
+        scanned.store(index, Ordering::Relaxed);
+        progress.counted(index as f64, || format!("{index} of {count} lines"));
+        unkept.is_none()
+    };
+    let scan = || scanning.scan(threads, &mut take);
+    stop::where_asked_by(interrupt.flag(), scan).map_err(failed)?;
+    if let Some(error) = unkept {
+        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
+        return Err(Failure::Write { target, error });
+    }
+    if let (true, Some(signal)) = (scanning.lines().len() < count, interrupt.signal()) {
+        return Err(unfinished(scanning.lines().len(), count, finished.path(), signal));
     }
     Ok((scanning.into_lines(), finished))
 }

@@ -56,6 +56,58 @@ fn a_raster_is_that_of_the_library() {
     assert!(validator.is_valid(&surface));
 }
 
+/// Documents and what an interrupt leaves do not depend on the number of threads.
+#[test]
+fn a_raster_on_several_threads_is_the_same() {
+    let folder = Folder::new("raster_threads");
+    let line = format!("{GAUSSIAN} --lines 9 --length 60 --tolerance 1e-6");
+    folder.prints(&format!("{line} --threads 1 -o 1.npz"));
+    folder.prints(&format!("{line} --threads 3 -o 3.npz"));
+    assert!(folder.read("1.npz") == folder.read("3.npz"));
+    folder.refuses(&format!("{line} --threads 0"), &["--threads 0", "1 to"]);
+}
+
+/// Pixels of a .gsf file: its counts, and the heights row by row.
+fn pixels(bytes: &[u8]) -> ([usize; 2], Vec<f32>) {
+    let end = bytes.iter().position(|byte| *byte == 0).unwrap();
+    let header = std::str::from_utf8(&bytes[..end]).unwrap();
+    let count = |name: &str| {
+        let line = header.lines().find_map(|line| line.strip_prefix(name));
+        line.unwrap().trim_start_matches(" = ").parse::<usize>().unwrap()
+    };
+    let (words, _) = bytes[(end / 4 + 1) * 4..].as_chunks::<4>();
+    ([count("XRes"), count("YRes")], words.iter().map(|word| f32::from_le_bytes(*word)).collect())
+}
+
+/// An image that is larger than a document may be goes to .gsf row by row: at every hundredth point it is the small
+/// image.
+#[test]
+fn a_large_image_is_written_row_by_row() {
+    let folder = Folder::new("raster_large_image");
+    folder.prints(&format!("{GAUSSIAN} --lines 3 --length 10 -o raster.json"));
+    folder.prints("run --tip gaussian --alpha 0.6 --r 1 --until 10 -o run.json");
+    for (name, more) in [("raster", ""), ("run", "--far-behind")] {
+        let surface = |points: usize, output: &str| {
+            folder.prints(&format!(
+                "surface {name}.json {more} --range=-3:12:{points} --y-range=-2:4:{points} -o {output}"
+            ));
+            pixels(&folder.read(output))
+        };
+        let (large, small) = (surface(3201, "large.gsf"), surface(33, "small.gsf"));
+        assert_eq!((large.0, small.0), ([3201, 3201], [33, 33]));
+        assert_eq!(large.1.len(), 3201 * 3201);
+        for (row, heights) in small.1.chunks(33).enumerate() {
+            for (column, u) in heights.iter().enumerate() {
+                let same = large.1[100 * (3201 * row + column)];
+                assert!((same - u).abs() < 1e-5, "{name} {row} {column}: {same} {u}");
+            }
+        }
+        let line = format!("surface {name}.json --range=-3:12:3201 --y-range=-2:4:3201");
+        folder.refuses(&format!("{line} -o large.json"), &["3", ".gsf"]);
+        folder.refuses(&format!("{line} -o l.gsf --plot l.svg"), &["--plot l.svg", "1e7"]);
+    }
+}
+
 #[test]
 fn every_format_and_every_picture_is_written() {
     let folder = Folder::new("raster_formats");

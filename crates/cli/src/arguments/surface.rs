@@ -78,7 +78,7 @@ pub(crate) struct SurfaceArguments {
     #[arg(long)]
     pub(crate) far_behind: bool,
 
-    /// File to write: .json, .csv (`t,x,u` or `t,x,y,u`), .npz, or .gsf (Gwyddion, one image); `-` is
+    /// File to write: .json, .csv (`t,x,u` or `t,x,y,u`), .npz, or .gsf (Gwyddion, one image of up to 1e9 points); `-` is
     /// standard output.
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Output")]
     pub(crate) output: PathBuf,

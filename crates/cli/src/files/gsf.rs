@@ -11,48 +11,55 @@ use std::fmt::Write;
 use std::path::Path;
 use stickslip_units::Unit;
 
-/// An evenly spaced image.
-pub(crate) struct Field<'a> {
+/// Where an evenly spaced image lies.
+pub(crate) struct Frame<'a> {
     /// Title, without `=`, at which some readers would split it.
     pub(crate) title: &'a str,
+    /// Numbers of columns and rows.
+    pub(crate) counts: [usize; 2],
     /// x and y of the centre of the first pixel.
     pub(crate) first: [f64; 2],
     /// Distances of the pixels in x and y.
     pub(crate) spacing: [f64; 2],
     /// Unit of lengths and of heights; empty for pure numbers.
     pub(crate) unit: &'a str,
-    /// Rows of equal length.
-    pub(crate) rows: &'a [Vec<f64>],
-    /// Heights are multiplied by this.
-    pub(crate) factor: f64,
 }
 
-/// The bytes of the file.
-pub(crate) fn gsf(field: &Field) -> Vec<u8> {
-    let counts = [field.rows.first().map_or(0, Vec::len), field.rows.len()];
+/// The bytes before the pixels.
+pub(crate) fn header(frame: &Frame) -> Vec<u8> {
     let mut header = String::from("Gwyddion Simple Field 1.0\n");
     let mut line = |name: &str, value: &dyn std::fmt::Display| {
         // Writing to a String cannot fail.
         let _ = writeln!(header, "{name} = {value}");
     };
-    line("XRes", &counts[0]);
-    line("YRes", &counts[1]);
+    line("XRes", &frame.counts[0]);
+    line("YRes", &frame.counts[1]);
     for (axis, i) in [("X", 0), ("Y", 1)] {
-        let spacing = field.spacing[i];
-        line(&format!("{axis}Real"), &format!("{:e}", spacing * counts[i] as f64));
+        let spacing = frame.spacing[i];
+        line(&format!("{axis}Real"), &format!("{:e}", spacing * frame.counts[i] as f64));
         // Of the image's edge, half a pixel before the first center.
-        line(&format!("{axis}Offset"), &format!("{:e}", field.first[i] - 0.5 * spacing));
+        line(&format!("{axis}Offset"), &format!("{:e}", frame.first[i] - 0.5 * spacing));
     }
-    if !field.unit.is_empty() {
-        line("XYUnits", &field.unit);
-        line("ZUnits", &field.unit);
+    if !frame.unit.is_empty() {
+        line("XYUnits", &frame.unit);
+        line("ZUnits", &frame.unit);
     }
-    line("Title", &field.title);
+    line("Title", &frame.title);
     let mut bytes = header.into_bytes();
     // One to four of them.
     bytes.resize((bytes.len() / 4 + 1) * 4, 0);
-    let pixels = field.rows.iter().flatten();
-    bytes.extend(pixels.flat_map(|u| ((field.factor * u) as f32).to_le_bytes()));
+    bytes
+}
+
+/// The bytes of these pixels, heights times a factor.
+pub(crate) fn pixels<'a>(heights: impl IntoIterator<Item = &'a f64>, factor: f64) -> Vec<u8> {
+    heights.into_iter().flat_map(|u| ((factor * u) as f32).to_le_bytes()).collect()
+}
+
+/// The bytes of the file with these rows of equal length, heights times a factor.
+pub(crate) fn gsf(frame: &Frame, rows: &[Vec<f64>], factor: f64) -> Vec<u8> {
+    let mut bytes = header(frame);
+    bytes.extend(pixels(rows.iter().flatten(), factor));
     bytes
 }
 
@@ -138,15 +145,14 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         let rows = [vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.5]];
-        let field = Field {
+        let frame = Frame {
             title: "t",
+            counts: [3, 2],
             first: [10e-9, -1e-9],
             spacing: [0.5e-9, 2e-9],
             unit: "m",
-            rows: &rows,
-            factor: 1e-9,
         };
-        let bytes = gsf(&field);
+        let bytes = gsf(&frame, &rows, 1e-9);
         let read = parse_gsf(&bytes).unwrap();
         let close = |found: &[f64], wanted: &[f64]| {
             found.len() == wanted.len()
@@ -163,15 +169,14 @@ mod tests {
     fn the_header_is_padded_with_one_to_four_zeros_to_a_multiple_of_four() {
         for title in ["", "a", "ab", "abc"] {
             let rows = [vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
-            let field = Field {
+            let frame = Frame {
                 title,
+                counts: [3, 2],
                 first: [10.0, -1.0],
                 spacing: [0.5, 2.0],
                 unit: "m",
-                rows: &rows,
-                factor: 2.0,
             };
-            let bytes = gsf(&field);
+            let bytes = gsf(&frame, &rows, 2.0);
             let zeros = bytes.iter().position(|b| *b == 0).unwrap();
             let data = bytes.len() - 24;
             assert!(data.is_multiple_of(4) && (1..=4).contains(&(data - zeros)), "{title}");

@@ -1,6 +1,6 @@
 //! Height maps of rasters, for Gwyddion.
 
-use crate::files::gsf::{Field, gsf};
+use crate::files::gsf::{Frame, gsf};
 use stickslip::{HeightMap, Raster};
 
 /// An evenly spaced map, in σ and kσ²/a times these factors.
@@ -15,12 +15,12 @@ pub(in crate::commands) fn field(
     };
     let first = |v: &[f64]| length * v.first().copied().unwrap_or(0.0);
     let model = parameters.model_parameters();
-    gsf(&Field {
+    let frame = Frame {
         title: &format!("u(x,y) of a raster, alpha {}, r {}", model.alpha, model.r),
+        counts: [map.x.len(), map.y.len()],
         first: [first(&map.x), first(&map.y)],
         spacing: [spacing(&map.x), spacing(&map.y)],
         unit,
-        rows: &map.u,
-        factor: height,
-    })
+    };
+    gsf(&frame, &map.u, height)
 }

@@ -1,6 +1,6 @@
 //! Surfaces of a tip that moves in both coordinates.
 
-use super::places::Places;
+use super::places::{MOST_PIXELS, Places};
 use super::write::{self, SurfaceFormat};
 use crate::arguments::SurfaceArguments;
 use crate::commands::in_units::{in_metres, scales};
@@ -32,7 +32,7 @@ pub(super) fn surface(
     }
     let steps = trajectory.steps().iter().map(|step| step.along).collect();
     let along = Trajectory::under(*scenario.along.model.wider(), scenario.along.support(), steps);
-    let places = Places::asked(arguments, &along)?;
+    let places = Places::asked(arguments, &along, MOST_PIXELS)?;
     let scales = scales(&arguments.in_units, None, Some(scenario.along.model.r()))?;
     let in_metres =
         (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;

@@ -4,6 +4,7 @@ use super::places::Places;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::message::remark;
+use ndarray::Array2;
 use stickslip::lines::footprint;
 use stickslip::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
@@ -73,15 +74,25 @@ impl Images {
     ) -> Result<Vec<SurfaceImage>, Failure> {
         let Places { t, x, y, .. } = places;
         let at = |t: &f64| {
-            let image = if self.far_behind {
-                surface.image_far_behind(&self.footprint, *t, x, y)
-            } else {
-                surface.image(&self.footprint, *t, x, y)
-            };
-            let image = image.map_err(|error| Failure::Run(error.to_string()))?;
+            let image = self.heights(surface, *t, (x, y)).map_err(Failure::Run)?;
             let u = image.rows().into_iter().map(|row| row.to_vec()).collect();
             Ok(SurfaceImage { t: *t, x: x.clone(), y: y.clone(), u })
         };
         t.iter().map(at).collect()
+    }
+
+    /// u at every y (rows) and every x (columns).
+    pub(super) fn heights(
+        &self,
+        surface: &Surface,
+        t: f64,
+        (x, y): (&[f64], &[f64]),
+    ) -> Result<Array2<f64>, String> {
+        let image = if self.far_behind {
+            surface.image_far_behind(&self.footprint, t, x, y)
+        } else {
+            surface.image(&self.footprint, t, x, y)
+        };
+        image.map_err(|error| error.to_string())
     }
 }

@@ -46,14 +46,20 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let trajectory = document.trajectory().map_err(unusable)?;
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
-    let places = Places::asked(arguments, &trajectory)?;
+    let places = Places::asked(arguments, &trajectory, format.most_pixels())?;
     let scales = scales(&arguments.in_units, None, Some(model.r()))?;
     let in_metres =
         (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;
     let images = Images::asked(arguments, &model, &places)?;
-    let job = format.job(arguments)?;
-
     let surface = Surface::new(&model, &initial, &trajectory);
+    if let (Some(images), Some(unit), true) = (&images, in_metres, places.is_large(&places.y)) {
+        images.warn();
+        let t = places.t[0];
+        let title = write::title(t, model.alpha(), model.r());
+        let rows = |y: &[f64]| images.heights(&surface, t, (&places.x, y));
+        return write::large(arguments, (&places, &places.y), &title, unit, rows);
+    }
+    let job = format.job(arguments)?;
     let found = match &images {
         Some(images) => {
             images.warn();

@@ -1,13 +1,15 @@
 //! Heights of a raster: points, profiles and images.
 
-use super::places::{MOST_PIXELS, Places, evenly};
-use super::write::SurfaceFormat;
+use super::places::{OR_GSF, Places, evenly};
+use super::write::{SurfaceFormat, large};
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::in_units::{in_metres, scales};
 use crate::commands::job::Job;
 use crate::commands::raster::field;
 use crate::failure::Failure;
+use std::cell::RefCell;
 use stickslip::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
+use stickslip_raster::Scanned;
 
 pub(super) fn surface(
     arguments: &SurfaceArguments,
@@ -21,10 +23,10 @@ pub(super) fn surface(
             format!("damaged: {error}"),
         )
     };
-    let (plan, _) = raster.scanned().map_err(damaged)?;
+    let (plan, lines) = raster.scanned().map_err(damaged)?;
     let (low, high) = plan.area.ends();
     let (from, to) = (low - plan.reach_across(), high + plan.reach_across());
-    let places = Places::over(arguments, vec![0.0], (from, to))?;
+    let places = Places::over(arguments, vec![0.0], (from, to), format.most_pixels())?;
     let y = match (&arguments.y, places.y.is_empty()) {
         (Some(y), _) => y.clone(),
         (None, false) => places.y.clone(),
@@ -36,8 +38,16 @@ pub(super) fn surface(
             if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
         }
     };
-    judge_size(&places, &y)?;
+    judge_size(&places, &y, format.most_pixels())?;
     let scales = scales(&arguments.in_units, None, Some(plan.law.model.r()))?;
+    if places.is_large(&y) {
+        let model = &plan.law.model;
+        let title = format!("u(x,y) of a raster, alpha {}, r {}", model.alpha(), model.r());
+        let scanned = RefCell::new(Scanned::new(&plan, &lines));
+        let rows = |y: &[f64]| Ok(scanned.borrow_mut().heights(&places.x, y));
+        let unit = in_metres(scales.as_ref())?;
+        return large(arguments, (&places, &y), &title, unit, rows);
+    }
     let (is_gsf, written) = match format {
         SurfaceFormat::Document(format) => (false, format),
         SurfaceFormat::Gsf => (true, Format::Json),
@@ -53,17 +63,17 @@ pub(super) fn surface(
 }
 
 /// Rejects too many heights; by default the rows are the lines, of which there may be a million.
-fn judge_size(places: &Places, y: &[f64]) -> Result<(), Failure> {
+fn judge_size(places: &Places, y: &[f64], most: f64) -> Result<(), Failure> {
     let (columns, rows) = (places.x.len() as f64, y.len() as f64);
-    if columns * rows <= MOST_PIXELS {
+    if columns * rows <= most {
         return Ok(());
     }
-    let least = places.spacing.unwrap_or(1.0) * columns * rows / MOST_PIXELS;
+    let least = places.spacing.unwrap_or(1.0) * columns * rows / most;
     Err(Failure::input(
         "--spacing and --y",
         format!(
             "make {columns} columns of {rows} rows, more than fit in memory; take --spacing {least:.3e} or more, or \
-             fewer rows by --y or --y-range"
+             fewer rows by --y or --y-range{OR_GSF}"
         ),
     ))
 }

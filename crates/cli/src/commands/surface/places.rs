@@ -10,6 +10,11 @@ const MARGIN: f64 = 12.0;
 /// Largest number of points, in curves and in images: 200 MB with their text.
 const MOST_POINTS: f64 = 3e6;
 pub(super) const MOST_PIXELS: f64 = 1e7;
+/// The same of a .gsf file, which is written row by row: 4 GB.
+pub(super) const MOST_PIXELS_OF_GSF: f64 = 1e9;
+
+/// Advice for those who want more points than a document may have.
+pub(super) const OR_GSF: &str = ", or write an image to a .gsf file, of up to 1e9 points";
 
 /// Times and positions.
 #[derive(Debug)]
@@ -32,18 +37,25 @@ struct Range {
 }
 
 impl Places {
+    /// Whether an image with these rows is larger than a document may be.
+    pub(super) fn is_large(&self, y: &[f64]) -> bool {
+        self.x.len() as f64 * y.len() as f64 > MOST_PIXELS
+    }
+
     pub(super) fn asked(
         arguments: &SurfaceArguments,
         trajectory: &Trajectory,
+        most: f64,
     ) -> Result<Self, Failure> {
-        Self::over(arguments, times(arguments, trajectory)?, default_range(trajectory))
+        Self::over(arguments, times(arguments, trajectory)?, default_range(trajectory), most)
     }
 
-    /// The given times; positions by default over this range.
+    /// The given times; positions by default over this range, at most this number in an image.
     pub(super) fn over(
         arguments: &SurfaceArguments,
         t: Vec<f64>,
         (low, high): (f64, f64),
+        most_pixels: f64,
     ) -> Result<Self, Failure> {
         let spacing = spacing("--spacing", arguments.spacing, DEFAULT_SPACING)?;
         let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
@@ -62,7 +74,7 @@ impl Places {
             }
             let y = across.map_or(Ok(vec![]), |across| {
                 let each = each / across.points() * x.len() as f64;
-                across.positions("--spacing-y", each, MOST_PIXELS)
+                across.positions("--spacing-y", each, most_pixels)
             })?;
             return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
         }
@@ -71,7 +83,7 @@ impl Places {
             Some(typed) => range(["--range", "--spacing"], typed, arguments.spacing, spacing)?,
         };
         let spacing = along.spacing;
-        let most = if across.is_some() { MOST_PIXELS } else { MOST_POINTS };
+        let most = if across.is_some() { most_pixels } else { MOST_POINTS };
         let x = along.positions("--spacing", each, most)?;
         let y = across.map_or(Ok(vec![]), |across| across.positions("--spacing-y", 1.0, most))?;
         Ok(Self { t, x, spacing: Some(spacing), y, spacing_y })
@@ -147,7 +159,8 @@ impl Range {
             return Err(Failure::input(
                 format!("{option} {}", Typed(spacing)),
                 format!(
-                    "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more"
+                    "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more{}",
+                    if most < MOST_PIXELS_OF_GSF { OR_GSF } else { "" }
                 ),
             ));
         }

@@ -1,10 +1,13 @@
 //! Output of surfaces.
 
-use super::places::Places;
+use super::places::{MOST_PIXELS, MOST_PIXELS_OF_GSF, Places};
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::job::{Job, format};
 use crate::failure::{Failure, Typed};
-use crate::files::gsf::{Field, gsf};
+use crate::files::gsf::{Frame, gsf, header, pixels};
+use crate::files::output::Output;
+use ndarray::Array2;
+use std::io;
 use stickslip::SurfaceDocument;
 
 /// The output: a document, or an image alone.
@@ -16,6 +19,11 @@ pub(super) enum SurfaceFormat {
 }
 
 impl SurfaceFormat {
+    /// Largest number of points of an image.
+    pub(super) fn most_pixels(self) -> f64 {
+        if self == Self::Gsf { MOST_PIXELS_OF_GSF } else { MOST_PIXELS }
+    }
+
     /// Checks that a .gsf file of a run gets an image.
     pub(super) fn judge_of_run(self, arguments: &SurfaceArguments) -> Result<(), Failure> {
         if let Some(y) = arguments.y.as_ref().and_then(|y| y.first()) {
@@ -76,12 +84,57 @@ pub(super) fn field(
 ) -> Vec<u8> {
     let image = &document.images[0];
     let model = &document.parameters.model;
-    gsf(&Field {
-        title: &format!("u(x,y) at time {}, alpha {}, r {}", image.t, model.alpha, model.r),
+    let frame = Frame {
+        title: &title(image.t, model.alpha, model.r),
+        counts: [image.x.len(), image.y.len()],
         first: [length * places.x[0], length * places.y[0]],
         spacing: [length * places.spacing.unwrap_or(1.0), length * places.spacing_y],
         unit,
-        rows: &image.u,
-        factor: height,
+    };
+    gsf(&frame, &image.u, height)
+}
+
+/// The title of an image of a run.
+pub(super) fn title(t: f64, alpha: f64, r: f64) -> String {
+    format!("u(x,y) at time {t}, alpha {alpha}, r {r}")
+}
+
+/// Number of rows of a large image that are computed at a time.
+const ROWS: usize = 64;
+
+/// Writes an image that is larger than a document may be to a .gsf file, some rows at a time, `rows` being the heights at
+/// some y.
+pub(super) fn large(
+    arguments: &SurfaceArguments,
+    (places, y): (&Places, &[f64]),
+    title: &str,
+    (length, height, unit): (f64, f64, &str),
+    rows: impl Fn(&[f64]) -> Result<Array2<f64>, String>,
+) -> Result<(), Failure> {
+    if let Some(path) = &arguments.plot {
+        let advice = "draws at most 1e7 points: leave it out, or take a larger --spacing";
+        return Err(Failure::input(format!("--plot {}", path.display()), advice));
+    }
+    if let Some(field) = arguments.fields.print.first() {
+        let advice = "prints of images of at most 1e7 points: leave it out";
+        return Err(Failure::input(format!("--print {field}"), advice));
+    }
+    let spacing_y = match y {
+        [first, .., last] => (last - first) / (y.len() - 1) as f64,
+        _ => places.spacing_y,
+    };
+    let frame = Frame {
+        title,
+        counts: [places.x.len(), y.len()],
+        first: [length * places.x[0], length * y[0]],
+        spacing: [length * places.spacing.unwrap_or(1.0), length * spacing_y],
+        unit,
+    };
+    Output::open("--output", &arguments.output)?.write_with(|out| {
+        out.write_all(&header(&frame))?;
+        y.chunks(ROWS).try_for_each(|y| {
+            let heights = rows(y).map_err(io::Error::other)?;
+            out.write_all(&pixels(&heights, height))
+        })
     })
 }

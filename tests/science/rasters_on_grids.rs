@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use stickslip_grid::{Layer, RowMethod, Scan, ScanLine, Stepping, scan};
 use stickslip_raster::{Area, AreaLine, Path, Plan, Scanned, Scanning};
-use stickslip_tip::{Footprint, Model, TipFunction, Wider};
+use stickslip_tip::{Footprint, Gaussian, Model, TipFunction, Wider};
 
 /// π over the band of a Gaussian of width 1.
 const EXACT: f64 = PI / 8.7;
@@ -19,6 +19,26 @@ fn triple(x: f64) -> f64 {
 
 fn gaussian(x: f64) -> f64 {
     (-0.5 * x * x).exp()
+}
+
+/// Centres and amplitudes of Gaussians of width 1: a lobe ahead, another behind, and f'(0) = 0.
+fn sides() -> [(f64, f64); 3] {
+    let slope = |center: f64| center * gaussian(center);
+    [(0.0, 1.0), (2.0, -0.4), (-1.5, 0.4 * slope(2.0) / slope(-1.5))]
+}
+
+fn two_sided(x: f64) -> f64 {
+    sides().map(|(center, amplitude)| amplitude * gaussian(x - center)).iter().sum()
+}
+
+/// The other way round.
+fn mirrored(x: f64) -> f64 {
+    two_sided(-x)
+}
+
+fn two_sided_tip() -> TipFunction {
+    let term = |(center, amplitude)| Gaussian { amplitude, center, width: 1.0 };
+    TipFunction::asymmetric_sum(sides().map(term).to_vec()).unwrap()
 }
 
 type Section = fn(f64) -> f64;
@@ -38,9 +58,11 @@ fn rectangle() -> Area {
 }
 
 fn plan(case: &Case) -> Plan {
-    let tip = match case.name.contains("triple") {
-        true => TipFunction::triple_gaussian(1.0, 1.0).unwrap(),
-        false => TipFunction::gaussian(1.0).unwrap(),
+    let tip = match case.name.split([' ', ',']).next() {
+        Some("triple") => TipFunction::triple_gaussian(1.0, 1.0).unwrap(),
+        Some("two-sided") => two_sided_tip(),
+        Some("mirrored") => two_sided_tip().mirrored(),
+        _ => TipFunction::gaussian(1.0).unwrap(),
     };
     let footprint = Footprint::separable(tip.clone(), case.width_y).unwrap();
     let model = Model::under(case.wider, tip, case.alpha, 0.9).unwrap();
@@ -100,6 +122,7 @@ fn cases() -> Vec<Case> {
     let line = |(y, start, length): (f64, f64, f64)| AreaLine { y, start, length };
     let shape = [(0.0, -4.0, 14.0), (0.6, -4.5, 15.0), (1.2, 3.0, 8.0), (0.6, 2.0, 9.0)];
     let shape = Area::Lines(shape.into_iter().map(line).collect());
+    let repeated = Area::Rectangle { pitch: 0.0, lines: 3, length: 20.0 };
     vec![
         case("gaussian", gaussian, 1.0, 0.7, papers, Path::OneWay),
         case("gaussian zigzag", gaussian, 1.6, 0.6, papers, Path::Zigzag),
@@ -107,7 +130,16 @@ fn cases() -> Vec<Case> {
         case("triple limited", triple, 1.0, 1.5, limited, Path::OneWay),
         case("triple limited zigzag", triple, 1.6, 1.5, limited, Path::Zigzag),
         case("gaussian, all, zigzag", gaussian, 1.0, 0.9, all, Path::Zigzag),
-        Case { area: shape, ..case("shape", gaussian, 1.0, 0.7, papers, Path::Zigzag) },
+        Case { area: shape.clone(), ..case("shape", gaussian, 1.0, 0.7, papers, Path::Zigzag) },
+        case("two-sided", two_sided, 1.0, 0.7, papers, Path::OneWay),
+        case("mirrored", mirrored, 1.0, 0.7, papers, Path::OneWay),
+        case("two-sided, zigzag", two_sided, 1.0, 0.8, papers, Path::Zigzag),
+        case("two-sided, all, zigzag", two_sided, 1.6, 0.9, all, Path::Zigzag),
+        Case { area: shape, ..case("two-sided shape", two_sided, 1.0, 0.7, papers, Path::Zigzag) },
+        Case {
+            area: repeated,
+            ..case("two-sided, repeated", two_sided, 1.0, 0.5, papers, Path::Repeat)
+        },
     ]
 }
 

@@ -30,7 +30,7 @@ struct Stretch {
     spectra: Spectra,
     wave_numbers: Vec<f64>,
     /// ĝ_l(k)
-    layers: Vec<Vec<f64>>,
+    layers: Vec<Vec<Complex64>>,
 }
 
 /// Initial distance from a line, in widths of the footprint, up to which the surface is prepared for a tip that is
@@ -68,7 +68,7 @@ impl Stretch {
         let spectra = Spectra::new(band, from - beyond, to + beyond);
         let wave_numbers: Vec<f64> = spectra.wave_numbers().collect();
         let transform =
-            |layer: &Layer| wave_numbers.iter().map(|k| layer.along.fourier(*k)).collect();
+            |layer: &Layer| wave_numbers.iter().map(|k| layer.along.transform(*k)).collect();
         let layers = footprint.layers().iter().map(transform).collect();
         Self { spectra, wave_numbers, layers }
     }
@@ -241,7 +241,7 @@ impl Grooves {
         let last = rows.iter().map(|row| place(row)).max()?;
         let count = usize::try_from(last - first + 1).unwrap_or(0);
         let Stretch { spectra, wave_numbers, layers: transforms } = &mut self.stretch;
-        let layer = |(layer, transform): (&Layer, &Vec<f64>)| {
+        let layer = |(layer, transform): (&Layer, &Vec<Complex64>)| {
             let (mut heights, mut slopes) = (spectra.rows(count), spectra.rows(count));
             for row in &rows {
                 let n = usize::try_from(place(row) - first).unwrap_or(0);

@@ -77,7 +77,7 @@ impl Plan {
         }
         let section = self.footprint.path();
         let differs = |x: f64| (section.value(x) - self.law.model.tip().value(x)).abs() > 1e-12;
-        if (0..20).any(|i| differs(0.37 * f64::from(i) * 8.7 / section.band())) {
+        if (-20..20).any(|i| differs(0.37 * f64::from(i) * 8.7 / section.band())) {
             return Err(RasterError::Section);
         }
         let (reach, most) = (self.reach_across(), MOST_POINTS / self.band());
@@ -160,7 +160,8 @@ impl Plan {
         length / self.law.model.r()
     }
 
-    /// The run of line n; the tip starts `ahead` of the support, with this velocity if it has inertia.
+    /// The run of line n in its frame, where the support moves to larger x and the footprint of a way back is mirrored; the
+    /// tip starts `ahead` of the support, with this velocity if it has inertia.
     pub(crate) fn line(&self, n: usize, (ahead, velocity): (f64, f64)) -> Scenario {
         let has_inertia = self.law.model.wider().inertia.is_some();
         Scenario {
@@ -171,6 +172,11 @@ impl Plan {
             path: None,
             until: self.duration(n),
             force: if n == 0 { self.disturbance.clone() } else { Force::default() },
+            model: if self.track(n).backward {
+                self.law.model.mirrored()
+            } else {
+                self.law.model.clone()
+            },
             ..self.law.clone()
         }
     }

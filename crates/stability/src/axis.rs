@@ -83,7 +83,7 @@ impl Axis {
     pub(super) fn at(&self, wave_number: f64) -> AxisPoint {
         let g = self.transform.at(Complex64::new(0.0, wave_number));
         let sine = -g.value.im / wave_number;
-        let cosine = if self.transform.is_closed_form() {
+        let cosine = if self.transform.is_closed_form() && self.tip.is_even() {
             0.5 * wave_number * wave_number * self.tip.fourier(wave_number)
         } else {
             -g.value.re

@@ -144,6 +144,9 @@ pub enum StabilityError {
     /// The quantity is available for the basic model only.
     #[error("{0} is available for the basic model only, without depth limit, healing and inertia")]
     PapersLawOnly(&'static str),
+    /// The quantity is available for even footprints only.
+    #[error("{0} is available only for a footprint with two equal sides: give one side of it")]
+    EvenOnly(&'static str),
     /// The requested limit does not exist.
     #[error("{0}")]
     NoLimit(&'static str),

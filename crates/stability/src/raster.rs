@@ -23,7 +23,7 @@
 //! Each line affects the later ones by one number, v·(A, B), so that ripples change from line to line by a recurrence:
 //! A_n ∝ zⁿ grows if |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}. Its crests qx + κy =
 //! const., κ = φ/d, are oblique to the scan lines. On the retrace of a zigzag q changes its sign: the coefficients of
-//! a line alone become their complex conjugates. α = a e^{|u0|/b} increases with a. `docs/explanation/rasters.md` derives it.
+//! a line alone become the complex conjugates of those for the mirrored footprint. α = a e^{|u0|/b} increases with a. `docs/explanation/rasters.md` derives it.
 //!
 //! If the tip is flexible across the lines, y' = -u_y + κ_y (Y_n - y), it also deviates by C_n e^{iωt} in y. Steady
 //! motion is then displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart.
@@ -150,11 +150,14 @@ impl Raster {
     /// Inertia acts along the lines only.
     ///
     /// # Errors
-    /// κ_y is not a positive finite number; J0 and cos x.
+    /// κ_y is not a positive finite number; J0 and cos x; a footprint whose sides differ.
     pub fn with_stiffness_across(mut self, stiffness: f64) -> Result<Self, StabilityError> {
         judge_stiffness(stiffness, self.r)?;
         if !is_gaussian(&self.footprint) {
             return Err(StabilityError::NoRipples);
+        }
+        if !self.footprint.is_even() {
+            return Err(StabilityError::EvenOnly("the motion across the lines"));
         }
         self.heights.truncate(1);
         for order in [1, 2] {
@@ -178,9 +181,15 @@ impl Raster {
         let lines = self.lines(path)?;
         let none = StabilityError::NoCrossing { r: self.r };
         let floor = self.least_t(&lines);
-        let single_line = lines.alone();
-        let alone = largest(&single_line, floor)?;
-        let single = alone.place.map_or(floor, |place| place.t);
+        let (mut single, mut single_line, mut alone) =
+            (floor, lines.alone(), Found { place: None, cells: 0 });
+        for line in lines.each_alone() {
+            let found = largest(&line, single)?;
+            alone.cells += found.cells;
+            if let Some(place) = found.place {
+                (single, single_line, alone.place) = (place.t, line, Some(place));
+            }
+        }
         let found = if self.is_alone() {
             Found { place: None, cells: 0 }
         } else {
@@ -274,12 +283,20 @@ impl Raster {
         if !is_gaussian(&self.footprint) {
             return Err(StabilityError::NoRipples);
         }
+        let is_even = self.footprint.is_even();
         match path {
             RasterPath::OneWay => Ok(Lines::one_way(self.waves.clone(), self.terms, &self.heights)),
             RasterPath::Zigzag if self.law.healing_time.is_some() => {
                 Err(StabilityError::HealingZigzag)
             }
-            RasterPath::Zigzag => Ok(Lines::zigzag(self.waves.clone(), self.terms, &self.heights)),
+            RasterPath::Zigzag if !is_even && self.law.depth_limit.is_some() => {
+                Err(StabilityError::EvenOnly("the threshold of a zigzag under a depth limit"))
+            }
+            RasterPath::Zigzag => {
+                let back = (!is_even).then(|| Waves::new(&self.footprint.mirrored(), 0.0));
+                let lines = Lines::zigzag(self.waves.clone(), self.terms, &self.heights);
+                Ok(lines.with_back(back))
+            }
         }
     }
 

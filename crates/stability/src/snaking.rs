@@ -112,6 +112,9 @@ impl Snaking {
             return Err(StabilityError::NoSupport);
         }
         law.validate()?;
+        if !footprint.is_even() {
+            return Err(StabilityError::EvenOnly("the motion across the scan"));
+        }
         let curvature = footprint.curvature_across_path();
         let curvature = curvature.map(|curvature| Arc::new(OneSided::across(&curvature)));
         Ok(Self { footprint: footprint.clone(), curvature, law, r, stiffness })

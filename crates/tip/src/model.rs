@@ -69,6 +69,12 @@ impl Model {
         Self { tip: TipFunction::of_footprint(footprint), ..self }
     }
 
+    /// The same model for a tip that moves to smaller x, in the frame of its motion: with the footprint f(-x).
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self { tip: self.tip.mirrored(), ..self.clone() }
+    }
+
     /// The footprint f.
     #[must_use]
     pub fn tip(&self) -> &TipFunction {

@@ -61,8 +61,8 @@ pub(super) fn bands(lines: &Lines, least: f64, band: f64) -> Result<Vec<Place>, 
 
 fn is_same(lines: &Lines, a: Place, b: Place) -> bool {
     let turned = |a: f64, b: f64| (0.5 * (a - b)).sin().abs() < APART;
-    // Q(W*) = Q(W)* on a zigzag, and at q = 0.
-    let is_mirrored = lines.is_zigzag() || a.q.abs() < APART;
+    // Q(W*) = Q(W)* on a zigzag with equal sides, and at q = 0.
+    let is_mirrored = lines.is_mirrored() || a.q.abs() < APART;
     let is_turned = turned(a.theta, b.theta) || is_mirrored && turned(a.theta, -b.theta);
     is_turned && (a.q - b.q).abs() < APART * (1.0 + a.q)
 }

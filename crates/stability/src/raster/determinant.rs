@@ -21,7 +21,8 @@
 //!     Q = (T - κ - Σ F_l E_l)(T - κ* - Σ F_l* E_l) - (Σ F_l O_l)(Σ F_l* O_l)
 //! ```
 //!
-//! a function of W = w². Q is analytic in w or W within the unit circle, where its zeros are the waves that grow.
+//! a function of W = w². A footprint whose sides differ has on the way back the κ and F of its mirror image in place of κ* and
+//! F*, conjugate. Q is analytic in w or W within the unit circle, where its zeros are the waves that grow.
 //!
 //! Where the tip gives way across the lines Q = det(T - N) has the rows of `plane.rs`, on a zigzag twice: A is a matrix
 //! there, and so are F_l, whose even sums stand beside the own terms and whose odd sums couple both ways.
@@ -51,9 +52,9 @@ pub(super) enum Kind {
     PlaneZigzag,
 }
 
-/// The determinant's functions of q on an interval.
+/// The determinant's functions of q on an interval; on a zigzag also those of the way back.
 #[derive(Debug, Clone)]
-pub(super) struct Wave(Vec<Entry>);
+pub(super) struct Wave(Vec<Entry>, Vec<Entry>);
 
 /// Sums over lines on an interval of the phase of w, or of W.
 #[derive(Debug, Clone)]
@@ -70,6 +71,8 @@ pub(super) struct Phase {
 #[derive(Debug, Clone)]
 pub(super) struct Lines {
     pub(super) waves: Waves,
+    /// Those of the mirror image, for the way back, if the sides of the footprint differ.
+    pub(super) back: Option<Waves>,
     pub(super) kind: Kind,
     pub(super) r: f64,
     mass: f64,
@@ -123,6 +126,11 @@ impl Lines {
         Self::of(waves, terms, kind, [every_other(1), every_other(0)])
     }
 
+    /// The same with these waves on the way back.
+    pub(super) fn with_back(self, back: Option<Waves>) -> Self {
+        Self { back, ..self }
+    }
+
     /// A single line, across alone.
     pub(super) fn single_across(waves: Waves, terms: Terms) -> Self {
         Self::of(waves, terms, Kind::Across, [vec![], vec![]])
@@ -130,7 +138,7 @@ impl Lines {
 
     fn of(waves: Waves, terms: Terms, kind: Kind, [all, odd]: [Vec<Vec<Sequence>>; 2]) -> Self {
         let Terms { r, mass, steepness, beside, across } = terms;
-        Self { waves, kind, r, mass, steepness, beside, across, all, odd }
+        Self { waves, back: None, kind, r, mass, steepness, beside, across, all, odd }
     }
 
     /// A single line over the same even grooves.
@@ -140,7 +148,14 @@ impl Lines {
             Kind::PlaneZigzag => Kind::Plane,
             kind => kind,
         };
-        Self { kind, all: vec![], odd: vec![], ..self.clone() }
+        Self { kind, back: None, all: vec![], odd: vec![], ..self.clone() }
+    }
+
+    /// A single line, and if the sides of the footprint differ one of the way back.
+    pub(super) fn each_alone(&self) -> Vec<Self> {
+        let alone = self.alone();
+        let back = self.back.clone().map(|waves| Self { waves, ..alone.clone() });
+        std::iter::once(alone).chain(back).collect()
     }
 
     /// The same along and across, each as if the other were held.
@@ -155,21 +170,27 @@ impl Lines {
         self.all.is_empty()
     }
 
-    /// Centre and half of the interval of phases: all of them one way; on a zigzag those of Im W ≥ 0, as Q(W*) = Q(W)*.
+    /// Centre and half of the interval of phases: all of them one way; on a zigzag with equal sides those of Im W ≥ 0, as
+    /// Q(W*) = Q(W)*.
     pub(super) fn phases(&self) -> (f64, f64) {
         let half = std::f64::consts::PI;
-        if self.is_zigzag() { (0.5 * half, 0.5 * half) } else { (0.0, half) }
+        if self.is_mirrored() { (0.5 * half, 0.5 * half) } else { (0.0, half) }
     }
 
     /// The middle of an interval of phases, or a phase in it at which a zigzag's determinant is real: 0 or π.
     pub(super) fn symmetric(&self, centre: f64, half: f64) -> f64 {
         let nearest = if centre < 0.5 * std::f64::consts::PI { 0.0 } else { std::f64::consts::PI };
         let is_within = (centre - nearest).abs() < 1.5 * half;
-        if self.is_zigzag() && is_within { nearest } else { centre }
+        if self.is_mirrored() && is_within { nearest } else { centre }
     }
 
     pub(super) fn is_zigzag(&self) -> bool {
         matches!(self.kind, Kind::Zigzag | Kind::PlaneZigzag)
+    }
+
+    /// Whether both ways are mirror images of each other, so that Q(W*) = Q(W)*.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.is_zigzag() && self.back.is_none()
     }
 
     /// Whether the tip gives way across the lines.
@@ -200,6 +221,16 @@ impl Lines {
     }
 
     pub(super) fn wave(&self, centre: f64, half: f64) -> Wave {
+        let entries = self.entries(&self.waves, (centre, half));
+        let back = match &self.back {
+            _ if !self.is_zigzag() => vec![],
+            None => entries.iter().map(Entry::conj).collect(),
+            Some(waves) => self.entries(waves, (centre, half)).iter().map(Entry::conj).collect(),
+        };
+        Wave(entries, back)
+    }
+
+    fn entries(&self, waves: &Waves, (centre, half): (f64, f64)) -> Vec<Entry> {
         let (r, mass, beta) = (self.r, self.mass * self.r * self.r, self.steepness);
         let m = Patch {
             value: Complex64::new(1.0 - mass * centre * centre, r * centre),
@@ -207,33 +238,33 @@ impl Lines {
             rest: mass * half * half,
         };
         let inverse = m.inv();
-        let [height, slope, curvature] = self.waves.own(centre, half);
+        let [height, slope, curvature] = waves.own(centre, half);
         let groove = (Patch::constant(self.still()) - curvature) * inverse;
-        let layers = if self.is_alone() { vec![] } else { self.waves.layers(centre, half) };
+        let layers = if self.is_alone() { vec![] } else { waves.layers(centre, half) };
         let [_, steady, _] = self.waves.steady;
         let fading = steady + self.waves.fading * self.beside;
         if let Some(sideways) = self.across {
             let own = [height, slope, curvature];
             let along = Along { inverse, groove, steepness: beta, fading, own, layers };
-            let across = Across::new(&self.waves, sideways, self.r, (centre, half));
-            return Wave(match self.kind {
+            let across = Across::new(waves, sideways, self.r, (centre, half));
+            return match self.kind {
                 Kind::Across => across.alone(),
                 Kind::PlaneFull => across.all_rows(&along),
                 _ => across.rows(&along),
-            });
+            };
         }
         let each = |of: &dyn Fn(&[Patch; 3]) -> Patch| layers.iter().map(of).collect::<Vec<_>>();
         if self.kind != Kind::Full {
             let lines = each(&|g| g[0] * beta - g[2] * inverse);
-            return Wave(vec![Entry::level(groove + height * beta, lines)]);
+            return vec![Entry::level(groove + height * beta, lines)];
         }
         let fading = Patch::constant(fading);
-        Wave(vec![
+        vec![
             Entry::level(groove, each(&|g| g[2] * inverse * -1.0)),
             Entry::level(height * beta, each(&|g| g[0] * beta)),
             Entry::level(slope * inverse, each(&|g| g[1] * inverse)),
             Entry::level((fading - slope) * beta, each(&|g| g[1] * -beta)),
-        ])
+        ]
     }
 
     /// Q about T.
@@ -252,7 +283,7 @@ impl Lines {
                 [t - a, t - b, c * d]
             }
             Kind::Zigzag => {
-                let (there, back) = (&entries[0], entries[0].conj());
+                let (there, back) = (&entries[0], &wave.1[0]);
                 let felt = there.felt(&phase.odd) * back.felt(&phase.odd) * phase.turn;
                 [t - there.with(&phase.all), t - back.with(&phase.all), felt]
             }
@@ -271,10 +302,9 @@ impl Lines {
             };
             return (0..rows).map(row).collect();
         }
-        let back: Vec<Entry> = entries.iter().map(Entry::conj).collect();
         let row = |i: usize| {
             let (is_back, i) = (i >= rows, i % rows);
-            let of = if is_back { &back } else { entries };
+            let of = if is_back { &wave.1 } else { entries };
             let entry = |column: usize| {
                 let (to_back, j) = (column >= rows, column % rows);
                 let entry = &of[i * rows + j];

@@ -33,7 +33,19 @@ impl Extent {
 
     /// Over all x, Re p = `fading`.
     pub(super) fn two_sided(tip: &TipFunction, fading: f64) -> Self {
-        Self::weighted(tip, false, |x| 2.0 * (fading * x).cosh())
+        if tip.is_even() {
+            return Self::weighted(tip, false, |x| 2.0 * (fading * x).cosh());
+        }
+        let sides = [tip, &tip.mirrored()];
+        let [one, other] = sides.map(|tip| Self::weighted(tip, false, |x| (fading * x).exp()));
+        let both =
+            |of: fn(&Self) -> [f64; 3]| [0, 1, 2].map(|i: usize| of(&one)[i] + of(&other)[i]);
+        Self {
+            area: both(|side| side.area),
+            decay: both(|side| side.decay),
+            second: both(|side| side.second),
+            bend: both(|side| side.bend),
+        }
     }
 
     /// |F''| where |p| ≥ `distance`, of f, f' and f''.

@@ -31,7 +31,7 @@ impl Raster {
         let ratio = alpha / self.r;
         let [.., g] = self.waves.jets(Complex64::new(0.0, q));
         let d = Complex64::new(1.0, self.r * q) + ratio * g.0;
-        let own = q * q * self.footprint.path().fourier(q);
+        let own = q * q * self.footprint.path().transform(q);
         1.0 + ratio * own / d
     }
 

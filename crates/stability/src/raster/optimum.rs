@@ -65,12 +65,12 @@ pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Opt
     moving.into_iter().chain(still).max_by(|a, b| a.t.total_cmp(&b.t))
 }
 
-/// A zero of Q at q = 0. There Q is real where w is, so that T is stationary, and on a zigzag Q is even in q.
+/// A zero of Q at q = 0. There Q is real where w is, so that T is stationary, and on a zigzag with equal sides Q is even in q.
 pub(super) fn still(lines: &Lines, (theta, half): (f64, f64), known: f64) -> Option<Place> {
     let real = if theta.abs() < 0.5 * PI { 0.0 } else { PI.copysign(theta) };
     let is_real = lines.is_alone() || (theta - real).abs() <= half;
     let start = started(lines, 0.0, if is_real { real } else { theta }, known)?;
-    let is_stationary = is_real || lines.is_zigzag();
+    let is_stationary = is_real || lines.is_mirrored();
     solved(lines, start).map(|place| Place { is_stationary, ..place })
 }
 

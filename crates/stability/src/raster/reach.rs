@@ -14,7 +14,7 @@ impl Lines {
     /// Where the tip gives way across it is at most the largest eigenvalue of a matrix of bounds of |N|.
     pub(super) fn largest_beyond(&self, q: f64) -> f64 {
         let p = q.hypot(self.waves.fading);
-        let [height, slope, curvature] = self.waves.own_bounds(p);
+        let [height, slope, curvature] = self.own_bounds(p);
         let layers = self.waves.layer_bounds(p);
         let sums = |power: usize, order: usize| -> f64 {
             let sums = layers.iter().zip(self.totals(order));
@@ -36,6 +36,13 @@ impl Lines {
         let felt = slope + all(1);
         let fading = (steady + self.waves.fading * self.beside).abs();
         groove + weight + (felt / drag * steep * (fading + felt)).sqrt()
+    }
+
+    /// Bounds of |φ|, |φ1|, |G| on either way where |p| ≥ `distance`.
+    fn own_bounds(&self, distance: f64) -> [f64; 3] {
+        let forth = self.waves.own_bounds(distance);
+        let back = self.back.as_ref().map_or(forth, |back| back.own_bounds(distance));
+        [0, 1, 2].map(|i: usize| forth[i].max(back[i]))
     }
 
     /// Of T where it is large: that of a single line, or less.

@@ -51,7 +51,8 @@ pub struct Layer {
     pub across: Across,
 }
 
-/// A footprint f(x,y) that is even in x and in y, with the section f(x,0) that determines the motion.
+/// A footprint f(x,y) that is even in y, with the section f(x,0) that determines the motion. It is even in x if all layers
+/// are.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footprint {
     layers: Vec<Layer>,
@@ -147,8 +148,21 @@ impl Footprint {
             return Err(TipFunctionError::Width { index: i + 1, width });
         }
         let path =
-            TipFunction::gaussian_sum(layers::combined(&layers, |across| across.value(0.0)))?;
+            TipFunction::asymmetric_sum(layers::combined(&layers, |across| across.value(0.0)))?;
         Ok(Self { layers, path })
+    }
+
+    /// Whether f(-x,y) = f(x,y).
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        self.layers.iter().all(|layer| layer.along.is_even())
+    }
+
+    /// f(-x,y): the footprint of a tip that moves to smaller x, in the frame of its motion.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mirrored = |layer: &Layer| Layer { along: layer.along.mirrored(), ..layer.clone() };
+        Self { layers: self.layers.iter().map(mirrored).collect(), path: self.path.mirrored() }
     }
 
     /// The layers.

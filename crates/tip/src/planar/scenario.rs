@@ -168,6 +168,7 @@ impl PlanarScenario {
         let wider = along.model.wider();
         let unavailable = [
             (!wider.spring, "a tip without a spring"),
+            (!along.model.tip().is_even(), "a tip with two different sides"),
             (along.memory == MemoryChoice::Direct, "the memory direct"),
             (along.memory == MemoryChoice::Fft, "the memory fft"),
         ];

@@ -8,18 +8,20 @@ use multiversion::multiversion;
 /// A matrix with a row for each stage.
 pub type Matrix = [Stages; STAGES];
 
-/// f' and f'' at `d_i - d_k` for all pairs of stages. They determine the contribution of the step to the groove under
+/// f' and f'' at `d_i - d_k` and `d_k - d_i` for all pairs of stages. They determine the contribution of the step to the groove under
 /// its own stages, `Σ_k b_ik f'(d_i - d_k)`, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct OwnGroove {
-    slope: Pairs,
-    curvature: Pairs,
+    slope: Both,
+    curvature: Both,
 }
 
 /// Pairs of stages i > k, and one idle pair (0, 0) that fills the SIMD vectors.
 const PAIRS: [(usize, usize); 16] = pairs();
 const IDLE: usize = PAIRS.len() - 1;
 type Pairs = [f64; PAIRS.len()];
+/// At `d_i - d_k`, and at `d_k - d_i`.
+type Both = [Pairs; 2];
 
 const fn pairs() -> [(usize, usize); 16] {
     let mut all = [(0, 0); 16];
@@ -47,14 +49,24 @@ pub fn carving(factor: f64) -> Matrix {
 impl OwnGroove {
     /// All values 0.
     pub(crate) fn nothing() -> Self {
-        Self { slope: [0.0; PAIRS.len()], curvature: [0.0; PAIRS.len()] }
+        Self { slope: [[0.0; PAIRS.len()]; 2], curvature: [[0.0; PAIRS.len()]; 2] }
     }
 
     /// The contribution under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
-        let [slope, curvature] = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
-        Self { slope, curvature }
+        let ahead = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
+        if tip.is_even() {
+            return Self::even(ahead);
+        }
+        let behind = side_by_side(tip, &PAIRS.map(|(i, k)| d[k] - d[i]));
+        Self { slope: [ahead[0], behind[0]], curvature: [ahead[1], behind[1]] }
+    }
+
+    /// Of an even f, of which f' is odd.
+    #[inline]
+    fn even([slope, curvature]: [Pairs; 2]) -> Self {
+        Self { slope: [slope, slope.map(|slope| -slope)], curvature: [curvature; 2] }
     }
 
     /// The same from the polynomial about the apex, where that is accurate.
@@ -63,7 +75,7 @@ impl OwnGroove {
         let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
         let (mut slope, mut curvature) = ([0.0; PAIRS.len()], [0.0; PAIRS.len()]);
         if apex.slopes_and_curvatures(&distance, &mut slope, &mut curvature) {
-            return Self { slope, curvature };
+            return Self::even([slope, curvature]);
         }
         Self::new(tip, d)
     }
@@ -72,8 +84,9 @@ impl OwnGroove {
     #[must_use]
     pub fn slopes(&self) -> Matrix {
         let mut slopes = [[0.0; STAGES]; STAGES];
-        for (slope, (i, k)) in self.slope[..IDLE].iter().zip(PAIRS) {
-            (slopes[i][k], slopes[k][i]) = (*slope, -slope);
+        let [ahead, behind] = &self.slope;
+        for ((ahead, behind), (i, k)) in ahead[..IDLE].iter().zip(behind).zip(PAIRS) {
+            (slopes[i][k], slopes[k][i]) = (*ahead, *behind);
         }
         slopes
     }
@@ -81,17 +94,19 @@ impl OwnGroove {
     /// Adds `Σ_k b_ik f'(d_i - d_k)`.
     #[inline]
     pub fn add_slope(&self, b: &Matrix, groove: &mut Stages) {
-        for (slope, (i, k)) in self.slope.iter().zip(PAIRS) {
-            groove[i] += b[i][k] * slope;
-            groove[k] -= b[k][i] * slope;
+        let [ahead, behind] = &self.slope;
+        for ((ahead, behind), (i, k)) in ahead.iter().zip(behind).zip(PAIRS) {
+            groove[i] += b[i][k] * ahead;
+            groove[k] += b[k][i] * behind;
         }
     }
 
     /// Adds the derivatives of this sum with respect to d. (The idle pair adds and subtracts the same value.)
     #[inline]
     pub fn add_derivatives(&self, b: &Matrix, derivatives: &mut Matrix) {
-        for (curvature, (i, k)) in self.curvature.iter().zip(PAIRS) {
-            let (to_i, to_k) = (b[i][k] * curvature, b[k][i] * curvature);
+        let [ahead, behind] = &self.curvature;
+        for ((ahead, behind), (i, k)) in ahead.iter().zip(behind).zip(PAIRS) {
+            let (to_i, to_k) = (b[i][k] * ahead, b[k][i] * behind);
             derivatives[i][i] += to_i;
             derivatives[i][k] -= to_i;
             derivatives[k][k] += to_k;
@@ -106,31 +121,33 @@ fn side_by_side(tip: &TipFunction, distance: &Pairs) -> [Pairs; 2] {
     tip.slopes_and_curvatures(distance)
 }
 
-/// f at `d_i - d_k`: the height of the contribution of the step to the groove, `Σ_k b_ik f(d_i - d_k)`.
+/// f at `d_i - d_k` and `d_k - d_i`: the height of the contribution of the step to the groove, `Σ_k b_ik f(d_i - d_k)`.
 #[derive(Debug, Clone, Copy)]
 pub struct OwnHeight {
-    value: Pairs,
+    value: Both,
     apex: f64,
 }
 
 impl OwnHeight {
     /// All values 0.
     pub(crate) fn nothing() -> Self {
-        Self { value: [0.0; PAIRS.len()], apex: 0.0 }
+        Self { value: [[0.0; PAIRS.len()]; 2], apex: 0.0 }
     }
 
     /// The heights under stages at these displacements.
     #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
-        let value = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));
-        Self { value, apex: tip.value(0.0) }
+        let ahead = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));
+        let behind = || PAIRS.map(|(i, k)| tip.value(d[k] - d[i]));
+        let behind = if tip.is_even() { ahead } else { behind() };
+        Self { value: [ahead, behind], apex: tip.value(0.0) }
     }
 
     /// The same from the polynomial about the apex, where that is accurate.
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let mut value = [0.0; PAIRS.len()];
         if apex.values(&PAIRS.map(|(i, k)| d[i] - d[k]), &mut value) {
-            return Self { value, apex: value[IDLE] };
+            return Self { value: [value; 2], apex: value[IDLE] };
         }
         Self::new(tip, d)
     }
@@ -139,8 +156,9 @@ impl OwnHeight {
     #[must_use]
     pub fn values(&self) -> Matrix {
         let mut values = [[self.apex; STAGES]; STAGES];
-        for (value, (i, k)) in self.value[..IDLE].iter().zip(PAIRS) {
-            (values[i][k], values[k][i]) = (*value, *value);
+        let [ahead, behind] = &self.value;
+        for ((ahead, behind), (i, k)) in ahead[..IDLE].iter().zip(behind).zip(PAIRS) {
+            (values[i][k], values[k][i]) = (*ahead, *behind);
         }
         values
     }

@@ -1,4 +1,4 @@
-//! f and f' near the apex, as polynomials from their Taylor series.
+//! f and f' near the apex of an even f, as polynomials from their Taylor series.
 
 use super::TipFunction;
 use crate::elementary::{exp, ln, pow};
@@ -22,15 +22,19 @@ const MOST_TERMS: usize = 24;
 const CANCELLATION: f64 = 100.0;
 
 impl Apex {
-    /// Accurate to `error` in f', per unit of the largest |f'|.
+    /// Accurate to `error` in f', per unit of the largest |f'|. Of an f that is not even there is none: no displacement is
+    /// near enough.
     pub(crate) fn new(tip: &TipFunction, error: f64) -> Self {
         let mut apex = Self {
             slope: [0.0; MOST_TERMS],
             curvature: [0.0; MOST_TERMS],
             top: tip.value(0.0),
             value: [0.0; MOST_TERMS],
-            lengths: [0.0; MOST_TERMS],
+            lengths: [-1.0; MOST_TERMS],
         };
+        if !tip.is_even() {
+            return apex;
+        }
         let taylor = tip.taylor(2 * MOST_TERMS);
         for k in 0..MOST_TERMS {
             let degree = (2 * k + 1) as f64;

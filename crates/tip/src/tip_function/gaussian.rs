@@ -9,10 +9,11 @@ use num_complex::Complex;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::Arc;
 
-/// An even sum of Gaussians, validated.
+/// A sum of Gaussians, even or with its apex at 0, validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianSum {
     terms: Vec<Gaussian>,
+    is_even: bool,
     /// The lattice of the terms, if they are those of a table.
     lattice: Option<Lattice>,
     /// The f(x,y) of which this is the section f(x,0).
@@ -21,8 +22,24 @@ pub struct GaussianSum {
 
 impl GaussianSum {
     /// # Errors
-    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not even.
+    /// As [`with_apex_at_0`](Self::with_apex_at_0), or a sum that is not even.
     pub(super) fn new(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
+        let sum = Self::validated(terms)?;
+        if sum.is_even { Ok(sum) } else { Err(sum.not_even()) }
+    }
+
+    /// A sum that need not be even, but has f'(0) = 0.
+    ///
+    /// # Errors
+    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not level at 0.
+    pub(super) fn with_apex_at_0(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
+        let sum = Self::validated(terms)?;
+        let steepest: f64 = sum.terms.iter().map(|g| g.amplitude.abs() / g.width).sum();
+        let is_level = sum.is_even || sum.slope_and_curvature(0.0).0.abs() <= LEVEL * steepest;
+        if is_level { Ok(sum) } else { Err(sum.not_even()) }
+    }
+
+    fn validated(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         for (i, term) in terms.iter().enumerate() {
             let index = i + 1;
             if ![term.amplitude, term.center, term.width].iter().all(|v| v.is_finite()) {
@@ -39,10 +56,25 @@ impl GaussianSum {
         if terms.iter().all(|term| term.amplitude.abs() <= 0.0) {
             return Err(TipFunctionError::Zero);
         }
-        if let Some(term) = terms.iter().find(|term| !has_twin(&terms, term)) {
-            return Err(TipFunctionError::NotEven { center: term.center });
-        }
-        Ok(Self { lattice: Lattice::of(&terms), terms, footprint: None })
+        let is_even = terms.iter().all(|term| has_twin(&terms, term));
+        Ok(Self { is_even, lattice: Lattice::of(&terms), terms, footprint: None })
+    }
+
+    fn not_even(&self) -> TipFunctionError {
+        let single = self.terms.iter().find(|term| !has_twin(&self.terms, term));
+        TipFunctionError::NotEven { center: single.map_or(0.0, |term| term.center) }
+    }
+
+    pub(super) fn is_even(&self) -> bool {
+        self.is_even
+    }
+
+    /// f(-x)
+    pub(super) fn mirrored(&self) -> Self {
+        let mirrored = |g: &Gaussian| Gaussian { center: -g.center, ..*g };
+        let terms: Vec<Gaussian> = self.terms.iter().map(mirrored).collect();
+        let footprint = self.footprint.as_ref().map(|footprint| Arc::new(footprint.mirrored()));
+        Self { is_even: self.is_even, lattice: Lattice::of(&terms), terms, footprint }
     }
 
     /// The terms, as given.
@@ -131,8 +163,10 @@ impl GaussianSum {
                 (before, here) = (here, next);
             }
         }
-        // Odd ones cancel between twins, to round-off.
-        sum.iter_mut().skip(1).step_by(2).for_each(|odd| *odd = 0.0);
+        if self.is_even {
+            // Odd ones cancel between twins, to round-off.
+            sum.iter_mut().skip(1).step_by(2).for_each(|odd| *odd = 0.0);
+        }
         sum
     }
 
@@ -152,6 +186,7 @@ impl GaussianSum {
         self.terms.iter().map(term).sum()
     }
 
+    /// Of an even sum: ∫ f cos(qξ)dξ.
     pub(super) fn fourier(&self, q: f64) -> f64 {
         let term = |g: &Gaussian| {
             let qw = q * g.width;
@@ -160,14 +195,15 @@ impl GaussianSum {
         self.terms.iter().map(term).sum()
     }
 
-    /// f̂(q - iκ), of each Gaussian `a w √(2π) e^{-z²w²/2} cos(zc)` at z = q - iκ.
+    /// f̂(q - iκ), of each Gaussian `a w √(2π) e^{-z²w²/2} e^{-izc}` at z = q - iκ, where twins make of e^{-izc} cos(zc).
     pub(super) fn fourier_fading(&self, q: f64, fading: f64) -> Complex<f64> {
         let z = Complex::new(q, -fading);
         let term = |g: &Gaussian| {
             let turned = Complex::new(0.0, g.center) * z;
-            let cos = 0.5 * (complex_exp(turned) + complex_exp(-turned));
+            let shift = complex_exp(-turned);
+            let shift = if self.is_even { 0.5 * (complex_exp(turned) + shift) } else { shift };
             complex_exp(-0.5 * g.width * g.width * z * z)
-                * cos
+                * shift
                 * (g.amplitude * g.width * (2.0 * PI).sqrt())
         };
         self.terms.iter().map(term).sum()
@@ -195,6 +231,9 @@ impl GaussianSum {
         }
     }
 }
+
+/// Largest slope at the apex, as a fraction of what the terms may have.
+const LEVEL: f64 = 1e-10;
 
 /// Whether the mirror image of `term` is among `terms` as often as `term` itself, to round-off.
 fn has_twin(terms: &[Gaussian], term: &Gaussian) -> bool {

@@ -21,7 +21,10 @@ pub use term::Gaussian;
 
 use num_complex::Complex;
 
-/// An even footprint f(x) → 0, with its derivatives and integrals. x in units of σ.
+/// A footprint f(x) → 0 with f'(0) = 0, with its derivatives and integrals. x in units of σ.
+///
+/// f is even unless it was made by [`asymmetric_sum`](Self::asymmetric_sum). A tip that moves to larger x is affected by
+/// f at x > 0, one that moves to smaller x by f at x < 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TipFunction {
     /// A sum of Gaussians, for example (48); tabulated tips are converted to such sums.
@@ -74,6 +77,32 @@ impl TipFunction {
     /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not even.
     pub fn gaussian_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         GaussianSum::new(terms).map(Self::Gaussians)
+    }
+
+    /// A sum of Gaussians with f'(0) = 0 whose sides may differ: x > 0 is ahead of a tip that moves to larger x.
+    ///
+    /// # Errors
+    /// As [`gaussian_sum`](Self::gaussian_sum); instead of not being even, f' is not 0 at 0.
+    pub fn asymmetric_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
+        GaussianSum::with_apex_at_0(terms).map(Self::Gaussians)
+    }
+
+    /// Whether f(-x) = f(x).
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        match self {
+            Self::Gaussians(sum) => sum.is_even(),
+            Self::Bessel | Self::Cosine => true,
+        }
+    }
+
+    /// f(-x): the footprint of a tip that moves to smaller x, in the frame of its motion.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        match self {
+            Self::Gaussians(sum) if !sum.is_even() => Self::Gaussians(sum.mirrored()),
+            even => even.clone(),
+        }
     }
 
     /// The smooth even function through the points (x, f), sampled on x ≥ 0, and 0 beyond the last point.
@@ -202,7 +231,7 @@ impl TipFunction {
         self.fourier(0.0)
     }
 
-    /// ∫_{-∞}^∞ f(ξ) cos(qξ)dξ, the Fourier transform of the even f at wave number q.
+    /// ∫_{-∞}^∞ f(ξ) cos(qξ)dξ at wave number q: the Fourier transform of an even f.
     #[must_use]
     pub fn fourier(&self, q: f64) -> f64 {
         match self {
@@ -210,6 +239,15 @@ impl TipFunction {
             Self::Bessel => bessel::fourier(q),
             // Two lines, at ±1.
             Self::Cosine => 0.0,
+        }
+    }
+
+    /// ∫_{-∞}^∞ f(ξ) e^{-iqξ}dξ, the Fourier transform at wave number q.
+    #[must_use]
+    pub fn transform(&self, q: f64) -> Complex<f64> {
+        match self {
+            Self::Gaussians(sum) if !sum.is_even() => sum.fourier_fading(q, 0.0),
+            even => even.fourier(q).into(),
         }
     }
 

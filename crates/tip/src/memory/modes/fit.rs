@@ -355,7 +355,7 @@ fn waves(tip: &TipFunction, lattice: f64, error: f64) -> usize {
     let mut beyond = 0.0;
     for k in (1..=all).rev() {
         let q = k as f64 * lattice;
-        beyond += lattice / PI * (q * tip.fourier(q)).abs();
+        beyond += lattice / PI * q * norm(tip.transform(q));
         if beyond > error {
             return k;
         }

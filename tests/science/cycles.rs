@@ -272,6 +272,39 @@ fn what_has_no_cycle_is_refused() {
     }
 }
 
+/// A tip whose sides differ, the one ahead or the other: runs settle into its cycle, and near onset the leading order has
+/// its amplitude, with an error that falls with α - αc.
+#[test]
+fn the_cycle_of_a_tip_with_two_sides_is_that_of_runs_and_of_the_leading_order() {
+    let slope = |c: f64| c * (-0.5 * c * c).exp();
+    let lobes = [(1.0, 0.0), (-0.4, 2.0), (-0.4 * slope(2.0) / slope(1.5), -1.5)];
+    let term = |(amplitude, center)| Gaussian { amplitude, center, width: 1.0 };
+    let sides = TipFunction::asymmetric_sum(lobes.map(term).to_vec()).unwrap();
+    for tip in [sides.clone(), sides.mirrored()] {
+        let at = critical(&Wider::default(), &tip, 1.0).unwrap().alpha;
+        let found = |above: f64| {
+            let model = Model::new(tip.clone(), at + above, 1.0).unwrap();
+            cycle(&model, DEFAULT_TOLERANCE).unwrap()
+        };
+        let leading = onset(&tip, 1.0).unwrap().amplitude_squared_slope;
+        let off =
+            [1e-2, 1e-3].map(|above| found(above).amplitude_x0().powi(2) / above / leading - 1.0);
+        println!("{off:?}");
+        assert!(off[0].abs() < 0.1 && (off[0] / off[1]).log10() > 0.9, "{off:?}");
+        let cycle = found(0.2);
+        let scenario =
+            Scenario { kick: 0.1, tolerance: 1e-11, ..Scenario::new(cycle.model().clone(), 800.0) };
+        let (run, outcome) = run_and_judge(&scenario).unwrap();
+        let oscillation = outcome.oscillation.unwrap();
+        let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
+        let ripple = ripple_behind(&surface, &run.trajectory, oscillation.wavelength).unwrap();
+        let period = (oscillation.period - cycle.period()).abs();
+        let amplitude = (ripple.amplitude - cycle.amplitude_u()).abs();
+        println!("period {period:.1e}, ripple {amplitude:.1e} of {}", ripple.amplitude);
+        assert!(period < 1e-8 && amplitude < 1e-8, "{period:e} {amplitude:e}");
+    }
+}
+
 #[test]
 fn the_ripple_is_that_of_a_run() {
     for case in [(1.0, 1.4, 1.0), (0.0, 2.6, 1.0), (0.5, 10.0, 3.0)] {

@@ -98,6 +98,41 @@ fn every_extension_agrees_with_the_grid() {
     }
 }
 
+/// Trace and retrace in one groove, of a tip whose sides differ: both halves count.
+#[test]
+fn a_tip_with_two_sides_agrees_with_the_grid_to_and_fro() {
+    let slope = |c: f64| c * (-0.5 * c * c).exp();
+    let lobes = [(1.0, 0.0), (-0.4, 2.0), (-0.4 * slope(2.0) / slope(1.5), -1.5)];
+    let term = |(amplitude, center)| stickslip_tip::Gaussian { amplitude, center, width: 1.0 };
+    let sides = TipFunction::asymmetric_sum(lobes.map(term).to_vec()).unwrap();
+    let path = SupportPath::new(vec![0.0, 15.0, 30.0], vec![0.0, 15.0, 0.0]).unwrap();
+    let mut ends = vec![];
+    for tip in [sides.clone(), sides.mirrored()] {
+        for law in [wider(None, None, None), wider(Some(3.0), Some(30.0), Some(0.2))] {
+            let model = Model::under(law, tip.clone(), 1.1, 1.0).unwrap();
+            for (path, memory) in [None, Some(path.clone())]
+                .into_iter()
+                .flat_map(|path| MEMORIES.map(|memory| (path.clone(), memory)))
+            {
+                let until = if path.is_some() { 30.0 } else { 45.0 };
+                let scenario = Scenario {
+                    memory,
+                    path,
+                    kick: 0.05,
+                    tolerance: 1e-9,
+                    ..Scenario::new(model.clone(), until)
+                };
+                let miss = miss(&scenario, 1e-11);
+                println!("{law:?} {memory:?} {miss:.1e}");
+                assert!(miss < 2e-8, "{law:?} {memory:?}: {miss:e}");
+                ends.push(run(&scenario).unwrap().trajectory.x0(25.0));
+            }
+        }
+    }
+    // Its two ways are not the same.
+    assert!((ends[3] - ends[3 + ends.len() / 2]).abs() > 1.0, "{ends:?}");
+}
+
 #[test]
 fn a_support_on_a_path_agrees_with_the_grid() {
     let path = SupportPath::new(

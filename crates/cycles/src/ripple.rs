@@ -51,7 +51,7 @@ impl Ripple {
         for (k, spent) in spent.iter_mut().enumerate() {
             let q = TAU * k as f64 / wavelength;
             match fading {
-                None => *spent *= -alpha / wavelength * tip.fourier(q),
+                None => *spent *= tip.transform(q) * (-alpha / wavelength),
                 Some(fading) => {
                     let transform = tip.fourier_fading(q, fading).unwrap_or_default();
                     *spent *= transform * (-alpha / wavelength * exp(exponent));

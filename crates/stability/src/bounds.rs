@@ -19,7 +19,7 @@ const FARTHEST: f64 = 1e12;
 /// For |p| ≥ 2 the transforms of J0 (Re p ≥ 0) and cos x are below 4/3 of 1/|p|.
 const WAVES: f64 = 4.0 / 3.0;
 
-/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, in this order.
+/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, in this order, of f(x) and of f(-x).
 #[derive(Debug, Clone)]
 pub(super) struct Bounds {
     area: [f64; 3],
@@ -52,20 +52,11 @@ impl Bounds {
         let reach = tip.reach().unwrap_or(1.0);
         let samples = f64::from(SAMPLES).max(reach * tip.band()).min(1e5);
         let step = reach / samples;
-        let at = |x: f64| {
-            let (slope, curvature) = tip.slope_and_curvature(x);
-            [tip.value(x), slope, curvature]
-        };
-        let mut last = at(0.0);
-        let (mut area, mut decay, mut x) = ([0.0; 3], last.map(f64::abs), 0.0);
-        while x < reach {
-            x += step;
-            let here = at(x);
-            for i in 0..3 {
-                area[i] += 0.5 * step * (here[i].abs() + last[i].abs());
-                decay[i] += (here[i] - last[i]).abs();
-            }
-            last = here;
+        let (mut area, mut decay) = extent(tip, reach, step);
+        if !tip.is_even() {
+            let (other_area, other_decay) = extent(&tip.mirrored(), reach, step);
+            area = [0, 1, 2].map(|i: usize| area[i].max(other_area[i]));
+            decay = [0, 1, 2].map(|i: usize| decay[i].max(other_decay[i]));
         }
         let term = |g: &Gaussian| {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
@@ -83,7 +74,8 @@ impl Bounds {
         [0, 1, 2].map(|i: usize| self.area[i].min(self.decay[i] / distance))
     }
 
-    /// Bounds for Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0.
+    /// Bounds for Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0, where those
+    /// at -p are of f(-x).
     fn left(&self, left: f64, top: f64) -> [f64; 3] {
         let mut bounds = self.right(top);
         if left >= 0.0 {
@@ -184,4 +176,24 @@ fn first(holds: impl Fn(f64) -> bool, least: f64) -> f64 {
         at *= STEP;
     }
     at
+}
+
+/// ∫|f|, ∫|f'|, ∫|f''| over x > 0, and f, f', f'' at 0 with their variation there.
+fn extent(tip: &TipFunction, reach: f64, step: f64) -> ([f64; 3], [f64; 3]) {
+    let at = |x: f64| {
+        let (slope, curvature) = tip.slope_and_curvature(x);
+        [tip.value(x), slope, curvature]
+    };
+    let mut last = at(0.0);
+    let (mut area, mut decay, mut x) = ([0.0; 3], last.map(f64::abs), 0.0);
+    while x < reach {
+        x += step;
+        let here = at(x);
+        for i in 0..3 {
+            area[i] += 0.5 * step * (here[i].abs() + last[i].abs());
+            decay[i] += (here[i] - last[i]).abs();
+        }
+        last = here;
+    }
+    (area, decay)
 }

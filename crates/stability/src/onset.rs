@@ -10,7 +10,7 @@ use super::transform::CurvatureTransform;
 use super::{StabilityError, critical};
 use num_complex::Complex64;
 use std::f64::consts::PI;
-use stickslip_tip::{TipFunction, Wider};
+use stickslip_tip::{Gaussian, TipFunction, Wider};
 
 /// On which side of the boundary the small oscillation exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +88,7 @@ struct Coefficients {
 
 impl Coefficients {
     /// Φ_n(Λ) = ∫_0^∞ F^{(n)}(rτ) e^{-Λrτ}dτ, from G by parts: Φ1 = -κG, Φ2 = -κ(ΛG - f''(0)),
-    /// Φ3 = -κΛ(ΛG - f''(0)), with κ = α/r.
+    /// Φ3 = -κ(Λ(ΛG - f''(0)) - f'''(0)), with κ = α/r.
     fn new(tip: &TipFunction, critical: &Critical) -> Self {
         let transform = CurvatureTransform::new(tip);
         let kappa = critical.alpha / critical.r;
@@ -99,18 +99,31 @@ impl Coefficients {
         let second = |z: Complex64, g: Complex64| -(z * g - curvature) * kappa;
         let (p2, p2_double) = (second(i_omega, first.value), second(i_omega * 2.0, double.value));
         let p2_zero = kappa * curvature;
-        // F''' at Λ = 0: -κ·0, as f'''(0) = 0.
-        let (p3, p3_double) = (i_omega * p2, i_omega * 2.0 * p2_double);
+        // 0 for an even f.
+        let p3_zero = kappa * third_derivative_at_0(tip);
+        let (p3, p3_double) = (i_omega * p2 + p3_zero, i_omega * 2.0 * p2_double + p3_zero);
 
         // Second harmonic: D(2iω) B = b A².
         let b = (p2_double - p2 * 2.0 + p2_zero) * 0.5;
         let d_double = i_omega * (2.0 * critical.r) + 1.0 + double.value * kappa;
         let quadratic = b / d_double * (p2 - p2.conj() - p2_double + p2_zero);
-        let cubic = quadratic + (p3 * 3.0 + p3.conj() - p3_double) * 0.5;
+        let cubic = quadratic + (p3 * 3.0 + p3.conj() - p3_double - p3_zero * 3.0) * 0.5;
         Self {
             slope_lambda: first.derivative * (kappa / critical.r) + 1.0,
             slope_alpha: first.value / critical.r,
             cubic,
         }
     }
+}
+/// f'''(0)
+fn third_derivative_at_0(tip: &TipFunction) -> f64 {
+    let TipFunction::Gaussians(sum) = tip else { return 0.0 };
+    if tip.is_even() {
+        return 0.0;
+    }
+    let term = |g: &Gaussian| {
+        let z = g.center / g.width;
+        g.amplitude * (z * z - 3.0) * z * (-0.5 * z * z).exp() / g.width.powi(3)
+    };
+    sum.terms().iter().map(term).sum()
 }

@@ -19,8 +19,8 @@ fn magnitude(plan: &Plan) -> f64 {
     let count = (reach / step).ceil() as usize;
     let layers = plan.footprint.layers().iter();
     let of = |layer: &stickslip_tip::Layer| {
-        // Of an even function both sides, its middle once.
-        let sides = (1..=count).map(|i| 2.0 * layer.along.value(step * i as f64).abs());
+        let height = |x: f64| layer.along.value(x).abs();
+        let sides = (1..=count).map(|i| step * i as f64).map(|x| height(x) + height(-x));
         let along = step * (layer.along.value(0.0).abs() + sides.sum::<f64>());
         along * layer.across.integral()
     };

@@ -7,8 +7,10 @@
 
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
-use stickslip_stability::{Raster, RasterCritical, RasterPath, StabilityError, critical};
-use stickslip_tip::{Footprint, Gaussian2d, TipFunction, Wider};
+use stickslip_stability::{
+    Raster, RasterCritical, RasterPath, StabilityError, critical, leading_roots,
+};
+use stickslip_tip::{Footprint, Gaussian, Gaussian2d, Model, TipFunction, Wider};
 
 fn gaussian(pitch: f64) -> Raster {
     let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
@@ -64,10 +66,7 @@ impl Slow {
     }
 
     fn raster(&self) -> Raster {
-        let terms: Vec<Gaussian2d> =
-            self.terms.iter().copied().filter(|g| g.amplitude.abs() > 0.0).collect();
-        let footprint = Footprint::gaussian_sum(&terms).unwrap();
-        Raster::new(&footprint, Wider::default(), (self.r, self.pitch), 1.0).unwrap()
+        Raster::new(&slow_footprint(self), Wider::default(), (self.r, self.pitch), 1.0).unwrap()
     }
 
     /// h(y) of a term; twins in y are given as two terms.
@@ -101,12 +100,10 @@ impl Slow {
         let own = Complex64::new(1.0, self.r * q) + ratio * self.transform(q);
         let far = self.terms.iter().map(|g| g.center_y + 9.0 * g.width_y).fold(0.0, f64::max);
         let lines = (far / self.pitch).ceil() as i32;
-        let at = |j: i32| -> f64 {
+        let at = |j: i32| -> Complex64 {
             let term = |g: &Gaussian2d| {
                 let along = (2.0 * PI).sqrt() * g.width * (-0.5 * (q * g.width).powi(2)).exp();
-                g.amplitude
-                    * along
-                    * (q * g.center).cos()
+                Complex64::from_polar(g.amplitude * along, -q * g.center)
                     * Self::across(g, self.pitch * f64::from(j))
             };
             self.terms.iter().map(term).sum()
@@ -114,15 +111,33 @@ impl Slow {
         (1..=lines).map(|j| ratio * q * q * at(j) / own).collect()
     }
 
+    /// The same of a way back: those of the mirror image, conjugate.
+    fn couplings_back(&self, alpha: f64, q: f64) -> Vec<Complex64> {
+        self.mirrored().couplings(alpha, q).iter().map(Complex64::conj).collect()
+    }
+
+    fn mirrored(&self) -> Self {
+        let term = |g: &Gaussian2d| Gaussian2d { center: -g.center, ..*g };
+        Self { terms: self.terms.iter().map(term).collect(), ..*self }
+    }
+
+    fn recurrence(&self, alpha: f64, q: f64, lines: usize) -> (f64, Vec<Complex64>) {
+        let forth = self.couplings(alpha, q);
+        match self.path {
+            RasterPath::OneWay => recurrence(&forth, &forth, lines),
+            RasterPath::Zigzag => recurrence(&forth, &self.couplings_back(alpha, q), lines),
+        }
+    }
+
     /// Log of how much ripples grow in a line after so many.
     fn grown(&self, alpha: f64, q: f64, lines: usize) -> f64 {
-        recurrence(&self.couplings(alpha, q), self.path, lines).0
+        self.recurrence(alpha, q, lines).0
     }
 
     /// The same, of the fastest wave, or of the two that are complex conjugate: from the last lines, which obey
     /// y_n = λ y_{n-k}, or y_n = (λ + λ*) y_{n-k} - |λ|² y_{n-2k}, k = 2 on a zigzag.
     fn fastest(&self, alpha: f64, q: f64, waves: usize) -> f64 {
-        let (_, last) = recurrence(&self.couplings(alpha, q), self.path, 30_000);
+        let (_, last) = self.recurrence(alpha, q, 30_000);
         let step = if self.path == RasterPath::Zigzag { 2 } else { 1 };
         let [now, before, earlier] = [0, 1, 2].map(|i: usize| last[last.len() - 1 - i * step]);
         let square = if waves == 1 {
@@ -137,14 +152,12 @@ impl Slow {
 
 /// Lines one after another, each line's number its answer to those before it, from a first one that is 1: log of how much
 /// they grow in a line on the second half of them, and the last lines, up to a common factor.
-fn recurrence(couplings: &[Complex64], path: RasterPath, lines: usize) -> (f64, Vec<Complex64>) {
-    let conjugate: Vec<Complex64> = couplings.iter().map(|c| c.conj()).collect();
+fn recurrence(couplings: &[Complex64], back: &[Complex64], lines: usize) -> (f64, Vec<Complex64>) {
     let most = couplings.len();
     let mut tracks = vec![Complex64::new(1.0, 0.0)];
     let (mut log, mut middle) = (0.0, 0.0);
     for n in 1..=lines {
-        let is_back = path == RasterPath::Zigzag && n % 2 == 1;
-        let these = if is_back { &conjugate } else { couplings };
+        let these = if n % 2 == 1 { back } else { couplings };
         let next = tracks.iter().rev().zip(these).map(|(a, c)| a * c).sum();
         tracks.push(next);
         if tracks.len() > most + 20 {
@@ -203,7 +216,13 @@ fn is_the_threshold(slow: &Slow, found: &RasterCritical) {
 fn slow_footprint(slow: &Slow) -> Footprint {
     let terms: Vec<Gaussian2d> =
         slow.terms.iter().copied().filter(|g| g.amplitude.abs() > 0.0).collect();
-    Footprint::gaussian_sum(&terms).unwrap()
+    if let Ok(even) = Footprint::gaussian_sum(&terms) {
+        return even;
+    }
+    let along =
+        |g: &Gaussian2d| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width };
+    let along = TipFunction::asymmetric_sum(terms.iter().map(along).collect()).unwrap();
+    Footprint::separable(along, terms[0].width_y).unwrap()
 }
 
 /// The values that the issue on wide pitches gives (found by counting zeros of the determinant).
@@ -240,6 +259,83 @@ fn no_threshold_is_above_the_first() {
             is_the_threshold(&slow, &slow.raster().critical(path).unwrap());
         }
     }
+}
+
+/// Either half one way, and both on a zigzag, whose ways are not mirror images: the halves alone have other thresholds.
+#[test]
+fn thresholds_of_a_tip_with_two_sides_are_the_first_too() {
+    let slope = |c: f64| c * (-0.5 * c * c).exp();
+    for (ahead, r, pitch) in [(-0.4, 1.0, 0.7), (-0.8, 0.6, 1.1), (0.3, 1.5, 0.4), (-0.4, 1.0, 3.0)]
+    {
+        let lobe = |amplitude, center| Gaussian2d {
+            amplitude,
+            center,
+            width: 1.0,
+            center_y: 0.0,
+            width_y: 0.9,
+        };
+        let behind = ahead * slope(2.0) / slope(1.5);
+        let terms = vec![lobe(1.0, 0.0), lobe(ahead, 2.0), lobe(behind, -1.5)];
+        let of = |path| Slow { terms: terms.clone(), r, pitch, path };
+        let [forth, back, zigzag] =
+            [of(RasterPath::OneWay), of(RasterPath::OneWay).mirrored(), of(RasterPath::Zigzag)];
+        let found = [&forth, &back, &zigzag].map(|slow| {
+            let found = slow.raster().critical(slow.path).unwrap();
+            is_the_threshold(slow, &found);
+            found.alpha
+        });
+        // From the other end it is the same zigzag.
+        let turned = zigzag.mirrored().raster().critical(RasterPath::Zigzag).unwrap().alpha;
+        assert!((turned / found[2] - 1.0).abs() < 1e-9, "{turned} {found:?}");
+        println!("{ahead} {r} {pitch}: {found:?}");
+        assert!((found[0] / found[1] - 1.0).abs() > 0.05, "{found:?}");
+    }
+}
+
+/// One side alone: the root of (30) with the transform by Simpson's rule over x > 0, and the growth exponents there.
+#[test]
+fn the_threshold_of_a_line_is_that_of_the_side_ahead() {
+    let slope = |c: f64| c * (-0.5 * c * c).exp();
+    let lobe = |amplitude, center| Gaussian2d {
+        amplitude,
+        center,
+        width: 1.0,
+        center_y: 0.0,
+        width_y: 1.0,
+    };
+    let terms = vec![lobe(1.0, 0.0), lobe(-0.4, 2.0), lobe(-0.4 * slope(2.0) / slope(1.5), -1.5)];
+    let slow = Slow { terms, r: 0.8, pitch: 1.0, path: RasterPath::OneWay };
+    let found = [slow.mirrored(), slow].map(|slow| {
+        let tip = slow_footprint(&slow).path().clone();
+        let at = critical(&Wider::default(), &tip, slow.r).unwrap();
+        let q = at.omega / slow.r;
+        let left = Complex64::new(1.0, slow.r * q) + at.alpha / slow.r * slow.transform(q);
+        assert!(left.norm() < 1e-9, "{left}");
+        let model = Model::new(tip, at.alpha, slow.r).unwrap();
+        let root = leading_roots(&model, 2).unwrap().roots[0];
+        assert!((root - Complex64::new(0.0, at.omega)).norm() < 1e-10, "{root} {at:?}");
+        at.alpha
+    });
+    println!("{found:?}");
+    assert!((found[0] / found[1] - 1.0).abs() > 0.1, "{found:?}");
+}
+
+/// What is not derived for sides that differ is refused.
+#[test]
+fn a_zigzag_of_two_sides_under_a_depth_limit_is_refused() {
+    let lobes = [
+        (1.0, 0.0),
+        (-0.4, 2.0),
+        (-0.4 * 2.0 * (-2.0_f64).exp() / (1.5 * (-1.125_f64).exp()), -1.5),
+    ];
+    let term = |(amplitude, center)| Gaussian { amplitude, center, width: 1.0 };
+    let tip = TipFunction::asymmetric_sum(lobes.map(term).to_vec()).unwrap();
+    let footprint = Footprint::separable(tip, 1.0).unwrap();
+    let limited = Wider { depth_limit: Some(5.0), ..Wider::default() };
+    let raster = Raster::new(&footprint, limited, (1.0, 0.5), 1.0).unwrap();
+    assert!(raster.critical(RasterPath::OneWay).is_ok());
+    assert!(matches!(raster.critical(RasterPath::Zigzag), Err(StabilityError::EvenOnly(_))));
+    assert!(matches!(raster.with_stiffness_across(1.0), Err(StabilityError::EvenOnly(_))));
 }
 
 /// Footprints that are no product, some of them raised beside the path, so that lines push each other both ways.
@@ -313,7 +409,9 @@ fn a_zigzag_under_the_wider_law_has_its_threshold_where_ripples_neither_grow_nor
                 [RasterPath::Zigzag, RasterPath::OneWay].map(|path| raster.critical(path).unwrap());
             assert!(found.alpha > one_way.alpha * (1.0 - 1e-10), "{law:?} {found:?}");
             let grown = |alpha: f64, q: f64, lines: usize| {
-                recurrence(&raster.answers(alpha, q), RasterPath::Zigzag, lines)
+                let forth = raster.answers(alpha, q);
+                let back: Vec<Complex64> = forth.iter().map(Complex64::conj).collect();
+                recurrence(&forth, &back, lines)
             };
             assert!(grown(found.alpha, found.q, 30_000).0.abs() < 1e-9, "{law:?} {found:?}");
             let above = 1.0 + found.certificate.margin;

@@ -214,9 +214,19 @@ impl Footprint {
     /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of `f_yy(x,0)` over x > 0.
     /// The real part of the right side minus μ is harmonic for Re μ > 0, hence largest on the imaginary axis,
     /// where Re S is half the Fourier transform of the even `f_yy`. So no μ with Re μ ≥ 0 exists if k'/k is above
-    /// (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], the maximum over all q including infinity. `depth` is α/r.
+    /// (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], the maximum over all q including infinity. `depth` is α/r. A footprint that is not even
+    /// in x has no bound unless `f_yy` ≤ 0 ahead of the tip.
     #[must_use]
     pub fn transverse_stiffness_needed(&self, depth: f64) -> f64 {
+        if !self.is_even() {
+            let reach =
+                self.layers.iter().filter_map(|layer| layer.along.reach()).fold(0.0, f64::max);
+            let ahead = (0..=WAVE_NUMBERS).map(|i| reach * f64::from(i) / f64::from(WAVE_NUMBERS));
+            let ahead = ahead.map(|x| self.curvature_across(x));
+            let (least, most) =
+                ahead.fold((0.0, 0.0), |(low, high): (f64, f64), c| (low.min(c), high.max(c)));
+            return if most <= -1e-12 * least { 0.0 } else { f64::INFINITY };
+        }
         let gaussians = self.curvature_across_path();
         let transform = |q: f64| -> f64 {
             let layer = |layer: &Layer| layer.across.curvature_at_0() * layer.along.fourier(q);

@@ -44,6 +44,9 @@ pub enum PlanarError {
     /// The footprint is f(x) alone, which does not determine the force across.
     #[error("two coordinates need a footprint f(x,y): give its width across the scan")]
     NoFootprint,
+    /// The sides of the footprint differ along x.
+    #[error("two coordinates need a footprint with two equal sides: give one side of it")]
+    TwoSides,
     /// The footprint is not a sum of few products of a function of x and one of y.
     #[error(transparent)]
     Products(#[from] ProductsError),
@@ -161,6 +164,9 @@ impl PlanarScenario {
         }
         let along = &self.along;
         along.validate()?;
+        if !along.model.tip().is_even() {
+            return Err(PlanarError::TwoSides);
+        }
         self.products()?;
         if self.profile_across.is_some() {
             along.validate_rounding(along.start_position.abs().max(along.farthest()))?;
@@ -168,7 +174,6 @@ impl PlanarScenario {
         let wider = along.model.wider();
         let unavailable = [
             (!wider.spring, "a tip without a spring"),
-            (!along.model.tip().is_even(), "a tip with two different sides"),
             (along.memory == MemoryChoice::Direct, "the memory direct"),
             (along.memory == MemoryChoice::Fft, "the memory fft"),
         ];

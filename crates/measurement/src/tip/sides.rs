@@ -9,6 +9,7 @@ use super::{MeasuredTip, Request, TipError, tip};
 use crate::Profile;
 use crate::least_squares::{Residuals, differences, minimum};
 use crate::projection::project;
+use stickslip_tip::Gaussian;
 
 /// The footprints of either direction, with the same σ.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +29,15 @@ const HIGH: f64 = 0.5;
 /// Fewest rows for a fit of the apex, and the step of its parameters.
 const FEWEST: usize = 8;
 const STEP: f64 = 1e-6;
+/// Of the footprint of both halves: width of its Gaussians over the narrowest of the halves, and over their spacing; the
+/// distance at which a Gaussian has ended, in widths; the largest number of Gaussians on either side; weight of the rows
+/// that hold the apex; steps of Newton's method.
+const NARROWED: f64 = 0.5;
+const WIDTH_PER_SPACING: f64 = 1.2;
+const WIDTHS: f64 = 5.0;
+const MOST_POINTS: f64 = 300.0;
+const APEX: f64 = 1e3;
+const NEWTON: usize = 4;
 
 /// Fits both halves of a profile, each as an even footprint about the apex.
 ///
@@ -67,6 +77,49 @@ impl Sides {
         2.0 * (forward - backward) / (forward + backward)
     }
 
+    /// One smooth function with f(0) = 1 and f'(0) = 0 that has the forward half at x > 0 and the backward half at x < 0, x in
+    /// σ: Gaussians on a lattice, half as wide as the narrowest of both halves. `None` if it cannot be determined.
+    ///
+    /// The halves meet with different curvatures, which no smooth function has. For Gaussian sides whose widths differ by a
+    /// factor of 1.6 the thresholds of its halves are those of the sides to 5e-4.
+    #[must_use]
+    pub fn footprint(&self) -> Option<Vec<Gaussian>> {
+        let halves = [&self.forward.gaussians, &self.backward.gaussians];
+        let all = || halves.into_iter().flatten();
+        let narrowest = all().map(|g| g.width).fold(f64::INFINITY, f64::min);
+        let width = NARROWED * narrowest;
+        let reach = all().map(|g| g.center.abs() + WIDTHS * g.width).fold(0.0, f64::max);
+        let spacing = width / WIDTH_PER_SPACING;
+        let count = (reach / spacing).ceil();
+        if count > MOST_POINTS {
+            return None;
+        }
+        let term = |i: i32| Gaussian { amplitude: 1.0, center: f64::from(i) * spacing, width };
+        let count = count as i32;
+        let mut terms: Vec<Gaussian> = (-count..=count).map(term).collect();
+        let rows: Vec<f64> =
+            (-4 * count..=4 * count).map(|i| 0.25 * f64::from(i) * spacing).collect();
+        let wanted = rows.iter().map(|x| value(halves[usize::from(*x < 0.0)], *x));
+        // The last rows hold the apex in its place.
+        let wanted: Vec<f64> = wanted.chain([APEX * value(halves[0], 0.0), 0.0]).collect();
+        let column = |g: &Gaussian| {
+            let each = rows.iter().map(|x| bell(g, *x));
+            each.chain([APEX * bell(g, 0.0), APEX * slope(g, 0.0)]).collect()
+        };
+        let columns: Vec<Vec<f64>> = terms.iter().map(column).collect();
+        let fitted = project(&columns, &wanted)?;
+        terms.iter_mut().zip(&fitted.coefficients).for_each(|(g, c)| g.amplitude = *c);
+        // What is left of f'(0), by a step of Newton's method or some.
+        for _ in 0..NEWTON {
+            let sum = |of: fn(&Gaussian, f64) -> f64| terms.iter().map(|g| of(g, 0.0)).sum::<f64>();
+            let away = -sum(slope) / sum(curvature);
+            terms.iter_mut().for_each(|g| g.center -= away);
+        }
+        let top = value(&terms, 0.0);
+        terms.iter_mut().for_each(|g| g.amplitude /= top);
+        Some(terms)
+    }
+
     /// Warnings about the result.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
@@ -86,6 +139,22 @@ impl Sides {
         }));
         remarks
     }
+}
+
+fn bell(g: &Gaussian, x: f64) -> f64 {
+    g.amplitude * (-0.5 * ((x - g.center) / g.width).powi(2)).exp()
+}
+
+fn slope(g: &Gaussian, x: f64) -> f64 {
+    -(x - g.center) / g.width.powi(2) * bell(g, x)
+}
+
+fn curvature(g: &Gaussian, x: f64) -> f64 {
+    (((x - g.center) / g.width).powi(2) - 1.0) * bell(g, x) / g.width.powi(2)
+}
+
+fn value(terms: &[Gaussian], x: f64) -> f64 {
+    terms.iter().map(|g| bell(g, x)).sum()
 }
 
 /// Heights above the line through both ends.

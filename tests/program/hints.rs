@@ -154,8 +154,7 @@ fn the_examples_of_help_run_as_printed() {
     ] {
         folder.prints(line);
     }
-    let back = "tip pit.csv --both-sides --resamples 20 --print sides.retrace.footprint";
-    folder.write("back.json", folder.prints(back));
+    folder.prints("tip pit.csv --both-sides --resamples 20 -o sides.json");
     let kept: Vec<_> = folder.names().into_iter().map(|name| (folder.read(&name), name)).collect();
     let mut tried = 0;
     let commands = hosted::commands().into_iter().map(|(name, _)| name);

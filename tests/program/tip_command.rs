@@ -70,6 +70,73 @@ fn both_sides_of_a_pit_are_footprints_of_their_own() {
     }
     let again = folder.prints_json("tip pit.csv --parameters tip.json");
     assert_eq!(again["sides"]["asymmetry"], tip["sides"]["asymmetry"]);
+    // The whole document is the tip of both.
+    for (side, retrace) in [("trace", ""), ("retrace", " --retrace")] {
+        let found = number(&tip["sides"][side]["critical_alpha"]["value"]);
+        let again = folder.prints_json(&format!("stability --tip-file tip.json --r 1{retrace}"));
+        let at = number(&again["critical"]["alpha"]);
+        assert!((at / found - 1.0).abs() < 1e-3, "{side}: {at} for {found}");
+    }
+    folder
+        .refuses("stability --tip-file even.json --r 1 --retrace", &["--retrace", "leave it out"]);
+    folder.refuses("stability --tip bessel --r 1 --retrace", &["--tip-file"]);
+}
+
+/// Judge: the grid, which takes f as it is. The threshold of a zigzag is between those of both sides alone.
+#[test]
+fn a_raster_has_either_side_on_its_way() {
+    let folder = Folder::new("tip_sides_raster");
+    folder.write("pit.csv", lopsided(40.0));
+    folder.prints("tip pit.csv --both-sides --resamples 0 -o tip.json");
+    let lines = "--tip-file tip.json --width-y 1 --r 1 --pitch 0.7";
+    for path in ["one-way", "zigzag", "one-way --retrace"] {
+        let line = format!(
+            "compare {lines} --alpha 0.6 --lines 3 --length 15 --path {path} --tolerance 1e-9 --grid-tolerance 1e-10"
+        );
+        let found = folder.prints_json(&line);
+        let off = found["max_difference"]["x0"].as_f64().unwrap();
+        eprintln!("{path}: {off:e}");
+        assert!(off < 1e-6, "{path}: {off}");
+    }
+    let alpha = |path: &str| {
+        let found = folder.prints_json(&format!("stability {lines} --path {path}"));
+        found["critical"]["alpha"].as_f64().unwrap()
+    };
+    let [trace, zigzag, retrace] = ["one-way", "zigzag", "one-way --retrace"].map(alpha);
+    eprintln!("{trace} {zigzag} {retrace}");
+    assert!((alpha("zigzag --retrace") / zigzag - 1.0).abs() < 1e-9);
+    assert!((trace / retrace - 1.0).abs() > 0.02, "{trace} {retrace}");
+    let swept = format!("boundary {} --pitch-range 0.7:1:2", lines.replace("--pitch 0.7", ""));
+    let swept = folder.prints_json(&swept);
+    for (name, one) in [("alpha", trace), ("alpha_zigzag", zigzag)] {
+        assert!((swept[name][0].as_f64().unwrap() / one - 1.0).abs() < 1e-9, "{swept}");
+    }
+    let saved =
+        format!("raster {lines} --alpha 0.6 --lines 3 --length 15 --path zigzag -o raster.json");
+    folder.prints(&saved);
+    folder.prints("surface raster.json --x 1,5,9 --y 0,0.7,1.4 -o surface.json");
+    folder.prints("run --tip-file tip.json --r 1 --alpha 1.8 --kick 0.1 --until 60 -o run.json");
+    folder.prints("verify run.json");
+    let two = ["--tip", "equal sides"];
+    folder.refuses(
+        &format!("raster {lines} --alpha 0.5 --lines 2 --length 9 --stiffness-across 1"),
+        &two,
+    );
+    folder.refuses(&format!("stability {lines} --stiffness-across 1"), &["--tip", "equal sides"]);
+    folder.refuses(
+        &format!("stability {lines} --path zigzag --depth-limit 5"),
+        &["--tip", "depth limit"],
+    );
+    folder.write("ripple.csv", "x,u\n0,0\n1,1\n2,0\n3,1\n4,0\n5,1\n6,0\n7,1\n8,0\n");
+    folder.refuses(
+        "fit --ripple ripple.csv --tip-file tip.json",
+        &["--tip", "sides.trace.footprint"],
+    );
+}
+
+#[test]
+fn one_half_has_no_two_sides() {
+    let folder = Folder::new("tip_one_half");
     let half: String =
         (0..80).map(|i| format!("{i},{}\n", (-0.002 * f64::from(i * i)).exp())).collect();
     folder.write("half.csv", half);

@@ -43,15 +43,20 @@ pub(crate) struct TipArguments {
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f` sampled on x ≥
     /// 0. In three dimensions each Gaussian also has a "width_y", and a "center_y" if that is not 0, or the CSV is
-    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y).
+    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y). Sides that
+    /// differ, as of `tip --both-sides`, need f'(0) = 0; x > 0 is ahead of a tip that moves to larger x.
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
+
+    /// Take f(-x) of the tip file, as for a tip that moves to smaller x; x then counts along its motion.
+    #[arg(long, requires = "tip_file")]
+    pub(crate) retrace: bool,
 }
 
 impl TipArguments {
     /// Whether any of these options was given.
     pub(crate) fn is_given(&self) -> bool {
-        let Self { tip, beta, width, tip_file } = self;
+        let Self { tip, beta, width, tip_file, retrace: _ } = self;
         tip.is_some() || beta.is_some() || width.is_some() || tip_file.is_some()
     }
 }

@@ -43,6 +43,10 @@ pub(crate) struct SweepArguments {
     #[arg(long, value_name = "FILE", help_heading = "Model")]
     pub(crate) tip_file: Option<PathBuf>,
 
+    /// Take f(-x) of the tip file, as for `stickslip run`.
+    #[arg(long, requires = "tip_file", help_heading = "Model")]
+    pub(crate) retrace: bool,
+
     #[command(flatten)]
     pub(crate) options: Options<Swept>,
 

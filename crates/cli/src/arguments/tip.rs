@@ -50,8 +50,10 @@ const EXAMPLES: &str = "Examples:
   An image, for f(x,y) of a raster:
     stickslip tip pit.gsf -o tip.json
     stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 --lines 64 --length 60 -o raster.json
-  A pit whose sides differ, and the footprint of the retrace as a tip file of its own:
-    stickslip tip pit.csv --both-sides --print sides.retrace.footprint > back.json
-    stickslip stability --tip-file back.json --r 1
+  A pit whose sides differ; αc of trace and retrace, and a zigzag with either side on its way:
+    stickslip tip pit.csv --both-sides -o sides.json
+    stickslip stability --tip-file sides.json --r 1
+    stickslip stability --tip-file sides.json --r 1 --retrace
+    stickslip raster --tip-file sides.json --width-y 1 --alpha 0.6 --r 1 --pitch 0.5 --lines 4 --length 20 --path zigzag -o raster.json
   What the noise leaves open of the onset at r = 0.5, for a script:
     stickslip tip pit.csv --r 0.5 --print critical_alpha.low --print critical_alpha.high";

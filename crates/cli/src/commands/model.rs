@@ -16,7 +16,7 @@ pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
 pub(crate) fn tip_and_draws(
     arguments: &TipArguments,
 ) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
-    let TipArguments { tip, beta, width, tip_file } = arguments;
+    let TipArguments { tip, beta, width, tip_file, retrace } = arguments;
     let unused = |option: String, with: &str| {
         Failure::input(option, format!("has no meaning with {with}: leave one of them out"))
     };
@@ -36,6 +36,11 @@ pub(crate) fn tip_and_draws(
             _ => None,
         };
         let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
+        if *retrace && tip.is_even() {
+            let message = "has no effect on a tip with two equal sides: leave it out";
+            return Err(Failure::input("--retrace", message));
+        }
+        let tip = if *retrace { tip.mirrored() } else { tip };
         if let Some((x, f)) = table {
             judge_table(path, (&x, &f), &tip)?;
         }
@@ -67,6 +72,11 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
     let tip = match file {
         TipFile::Table((x, f)) => TipFunction::table(&x, &f),
         TipFile::Table2d([x, y, f]) => Footprint::table(&x, &y, &f).map(TipFunction::of_footprint),
+        TipFile::Measured(measured) if measured.image.is_some() && measured.sides.is_some() => {
+            let why = "it has an f(x,y) with equal sides, and sides that differ of f(x): run `stickslip tip` without \
+                       --both-sides for the former; print sides.footprint for the latter, with --width-y";
+            return Err(why.into());
+        }
         TipFile::Measured(measured) if measured.image.is_some() => {
             let widths = measured.image.iter().flat_map(|image| &image.widths);
             let terms = measured.gaussians.iter().zip(widths).map(|(g, width_y)| Gaussian2d {
@@ -83,8 +93,9 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
             Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
         }
         TipFile::Measured(measured) => {
-            let gaussians = measured.gaussians.iter().map(Gaussian::from).collect();
-            TipFunction::gaussian_sum(gaussians)
+            let sides = measured.sides.as_ref().and_then(|sides| sides.footprint.as_ref());
+            let gaussians = sides.map_or(&measured.gaussians, |sides| &sides.gaussians);
+            TipFunction::asymmetric_sum(gaussians.iter().map(Gaussian::from).collect())
         }
         TipFile::Gaussians(entries) if entries.iter().any(is_2d) => {
             let terms: Option<Vec<Gaussian2d>> = entries.iter().map(gaussian_2d).collect();
@@ -92,7 +103,7 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
                 terms.ok_or("width_y is given for some Gaussians: give it for all of them")?;
             Footprint::gaussian_sum(&terms).map(TipFunction::of_footprint)
         }
-        TipFile::Gaussians(entries) => TipFunction::gaussian_sum(
+        TipFile::Gaussians(entries) => TipFunction::asymmetric_sum(
             entries
                 .iter()
                 .map(|g| Gaussian { amplitude: g.amplitude, center: g.center, width: g.width })

@@ -77,7 +77,7 @@ fn raster(arguments: &RasterSweepArguments) -> Result<(), Failure> {
 
 /// The footprints, widths times β.
 fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
-    let SweepArguments { tip: name, tip_file, beta, width, .. } = arguments;
+    let SweepArguments { tip: name, tip_file, retrace, beta, width, .. } = arguments;
     let count = |range: &Option<Range>| range.as_ref().map_or(1, Range::points);
     for (option, tips) in [("--beta", count(beta)), ("--width", count(width))] {
         if tips > MOST_TIPS {
@@ -94,7 +94,7 @@ fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
     let one = |(width, beta): (Option<f64>, Option<f64>)| {
         let tip_file = tip_file.clone();
         let width = width.map(Length::Bare);
-        tip(&TipArguments { tip: *name, beta, width, tip_file }).map(Tip)
+        tip(&TipArguments { tip: *name, beta, width, tip_file, retrace: *retrace }).map(Tip)
     };
     Ok(json!(both.map(one).collect::<Result<Vec<Tip>, Failure>>()?))
 }

@@ -355,6 +355,7 @@ impl Ask for Fit {
             }
             .into());
         }
+        self.tip.iter().try_for_each(|tip| tip.judge_even("a fit"))?;
         self.all_known()?;
         let footprints = if self.is_free(FreeName::Beta) { 0 } else { self.draws.len() };
         Ok(Self { footprints, ..self })

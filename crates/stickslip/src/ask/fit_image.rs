@@ -237,6 +237,7 @@ fn is_even(at: &[f64]) -> bool {
 
 impl Ask for FitImage {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
+        self.tip.iter().try_for_each(|tip| tip.judge_even("a fit"))?;
         self.heights()?;
         let sigma = self.request()?.sigma;
         if let Some([low, high]) = self.width_interval

@@ -101,9 +101,9 @@ pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) ->
             value: Some("zigzag".into()),
             why: error.to_string(),
         },
-        StabilityError::PapersLawOnly(_) | StabilityError::NoRipples => {
-            Refused::whole("tip", error)
-        }
+        StabilityError::PapersLawOnly(_)
+        | StabilityError::EvenOnly(_)
+        | StabilityError::NoRipples => Refused::whole("tip", error),
         error => Refused { why: error.to_string(), ..pitches() },
     }
 }

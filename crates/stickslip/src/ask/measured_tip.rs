@@ -9,6 +9,7 @@ use stickslip_measurement::{
     Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, Sides, TipError,
     sides, tip,
 };
+use stickslip_tip::Gaussian;
 use stickslip_units::Unit;
 
 /// A footprint from a measured profile. The document is also a tip file: `gaussians` is f with f(0) = 1, lengths in
@@ -268,8 +269,9 @@ impl Ask for MeasuredTip {
 fn symmetrised(asymmetry: f64) -> String {
     let wider = if asymmetry > 0.0 { "larger" } else { "smaller" };
     format!(
-        "the profile is wider at {wider} positions, beyond its noise: the even f is right for neither trace nor retrace; \
-         --both-sides fits each"
+        "the profile is wider at {wider} positions by {:.0} %, beyond its noise: the even f is right for neither trace nor \
+         retrace; --both-sides fits each",
+        100.0 * asymmetry.abs()
     )
 }
 
@@ -285,6 +287,11 @@ pub struct SidesDocument {
     pub retrace: SideDocument,
     /// Difference of the αc of trace and retrace, relative to their mean.
     pub asymmetry: f64,
+    /// f with the trace's side at x > 0 and the retrace's at x < 0, f(0) = 1. Printed alone, it is a tip file; a tip file
+    /// with this document means it, too. Null if the sides are too different in scale; missing in documents of older
+    /// versions.
+    #[serde(default)]
+    pub footprint: Option<GaussianSumDocument>,
 }
 
 /// A footprint in the form of a tip file.
@@ -316,7 +323,10 @@ pub struct SideDocument {
 impl From<&Sides> for SidesDocument {
     fn from(sides: &Sides) -> Self {
         let (trace, retrace) = ((&sides.forward).into(), (&sides.backward).into());
-        Self { apex: sides.apex, trace, retrace, asymmetry: sides.asymmetry() }
+        let gaussians = |terms: Vec<Gaussian>| terms.iter().map(GaussianDocument::from).collect();
+        let footprint = sides.footprint().map(gaussians);
+        let footprint = footprint.map(|gaussians| GaussianSumDocument { gaussians });
+        Self { apex: sides.apex, trace, retrace, asymmetry: sides.asymmetry(), footprint }
     }
 }
 

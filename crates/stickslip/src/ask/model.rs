@@ -141,7 +141,7 @@ pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
 }
 
 fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionError> {
-    TipFunction::gaussian_sum(gaussians.iter().map(Gaussian::from).collect())
+    TipFunction::asymmetric_sum(gaussians.iter().map(Gaussian::from).collect())
 }
 
 /// Extensions of the basic model. Without any, a question is about the basic model.

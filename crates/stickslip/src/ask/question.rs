@@ -89,6 +89,21 @@ impl Default for Tip {
     }
 }
 
+impl Tip {
+    /// # Errors
+    /// The sides of the footprint differ, which `what` does not cover.
+    pub(crate) fn judge_even(&self, what: &str) -> Result<(), Refused> {
+        if self.0.is_even() {
+            return Ok(());
+        }
+        let why = format!(
+            "{what} is available only for a tip with two equal sides: give one side, such as `stickslip tip PROFILE \
+             --both-sides --print sides.trace.footprint`"
+        );
+        Err(Refused::whole("tip", why))
+    }
+}
+
 impl Serialize for Tip {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         TipDocument::from(&self.0).serialize(serializer)

@@ -283,9 +283,9 @@ impl Raster {
             RasterError::Free { error: PlanarError::Kick(kick), .. } => {
                 Refused::number("kick_across", *kick, error)
             }
-            RasterError::Free { error: PlanarError::Products(_), .. } => {
-                Refused::whole("tip", error)
-            }
+            RasterError::Free {
+                error: PlanarError::Products(_) | PlanarError::TwoSides, ..
+            } => Refused::whole("tip", error),
             RasterError::Free { .. } => {
                 let stiffness = self.stiffness_across.unwrap_or_default();
                 Refused::number("stiffness_across", stiffness, error)

@@ -104,7 +104,7 @@ impl Ask for RasterBoundary {
 }
 
 /// The thresholds of one-way lines, of each kind by rising α, and the critical α of a zigzag; the latter is missing
-/// on a healing surface, and both are missing if nothing grows.
+/// on a healing surface and under a depth limit for a tip whose sides differ, and both are missing if nothing grows.
 fn thresholds(
     footprint: &Footprint,
     law: Wider,
@@ -115,9 +115,11 @@ fn thresholds(
     let one_way = raster.thresholds(RasterPath::OneWay)?;
     match raster.critical(RasterPath::Zigzag) {
         Ok(zigzag) => Ok((one_way, Some(zigzag.alpha))),
-        Err(StabilityError::HealingZigzag | StabilityError::NoCrossing { .. }) => {
-            Ok((one_way, None))
-        }
+        Err(
+            StabilityError::HealingZigzag
+            | StabilityError::EvenOnly(_)
+            | StabilityError::NoCrossing { .. },
+        ) => Ok((one_way, None)),
         Err(error) => Err(error),
     }
 }
@@ -144,7 +146,8 @@ pub struct RasterBoundaryFound {
     pub kappa: Vec<f64>,
     /// Angle between crests and scan axis, in degrees.
     pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null if nothing grows, and on a healing surface, where zigzags have no threshold.
+    /// Critical α of a zigzag; null if nothing grows, on a healing surface, where zigzags have no threshold, and under a
+    /// depth limit for a tip whose sides differ.
     pub alpha_zigzag: Vec<Option<f64>>,
     /// With a spring across the scan: the kind of wave that grows at `alpha`, and the threshold of each kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]

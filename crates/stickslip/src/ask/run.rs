@@ -535,6 +535,7 @@ impl Run {
             }
             PlanarError::InitialSurface(_) => Refused::whole("initial_surface", error).into(),
             PlanarError::NoFootprint => Refused::whole("width_y", error).into(),
+            PlanarError::TwoSides => Refused::whole("tip", error).into(),
             PlanarError::Products(_) => Refused::whole("tip", error).into(),
             error => Failure::Failed(error.to_string()),
         }

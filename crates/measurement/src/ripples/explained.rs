@@ -214,9 +214,9 @@ impl Residuals for Problem<'_> {
 struct Around<'a> {
     problem: &'a Problem<'a>,
     best: &'a Minimum,
-    /// Covariance of the parameters if all is linear, and χ² per degree of freedom, at least 1.
+    /// Covariance of the parameters if all is linear. It is not multiplied by χ²: where that is larger than by chance there are no
+    /// intervals, and with it 99 % of the intervals of settled ripples held the truth.
     covariance: DMatrix<f64>,
-    excess: f64,
     /// Half of a 95 % interval, in standard deviations.
     quantile: f64,
 }
@@ -227,8 +227,7 @@ impl<'a> Around<'a> {
         let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
         let jacobian = DMatrix::from_columns(&columns);
         let covariance = jacobian.tr_mul(&jacobian).try_inverse()?;
-        let excess = (best.sum / FREEDOM).max(1.0);
-        Some(Self { problem, best, covariance, excess, quantile: quantile(BLOCK_FREEDOM) })
+        Some(Self { problem, best, covariance, quantile: quantile(BLOCK_FREEDOM) })
     }
 
     /// The quantity with this logarithm, and its interval.
@@ -265,9 +264,9 @@ impl<'a> Around<'a> {
                 return None;
             }
             let more = squares(&found.residuals[..UNKNOWNS]) - self.best.sum;
-            Some((more.max(0.0) / self.excess).sqrt())
+            Some(more.max(0.0).sqrt())
         };
-        let guess = self.quantile * (self.excess * variance).sqrt();
+        let guess = self.quantile * deviation;
         let end = |side: f64| {
             let (end, points) = crossing(root, self.quantile, (side * guess, FARTHEST));
             // Failed searches exclude nothing.

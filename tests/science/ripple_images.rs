@@ -282,9 +282,9 @@ impl Counts {
         );
     }
 
-    /// Whether 92 to 99 % of the intervals of α and r contain them.
+    /// Whether 92 to 98 % of the intervals of α and r contain them.
     fn is_95_percent(&self) -> bool {
-        (0.92..=0.99).contains(&(0.5 * f64::from(self.alpha + self.r) / f64::from(self.settled)))
+        (0.92..=0.98).contains(&(0.5 * f64::from(self.alpha + self.r) / f64::from(self.settled)))
     }
 }
 

@@ -24,6 +24,9 @@ const BLOCKS: usize = 4;
 /// Ratio of the scatter of blocks to that of noise above which it is not chance: χ² of 32 degrees of freedom exceeds it with a
 /// probability of 0.0006.
 const BEYOND_NOISE: f64 = 2.0;
+/// Mean ratio of the variances by blocks and by independent pixels below which their difference is chance: three standard deviations
+/// of χ² of 120 degrees of freedom.
+const SCATTER: f64 = 1.4;
 /// Parts of a wavelength in the mean profile.
 const PARTS: usize = 48;
 /// Largest number of rows and columns of the periodogram, to which the image is averaged.
@@ -232,9 +235,12 @@ impl Rows {
         let white = &inverse * (residual * residual);
         let blocks = normal.scatter();
         let scattered = &inverse * blocks * &inverse;
-        // Correlations between the numbers as for independent pixels; variances by the larger of both.
+        // Correlations between the numbers as for independent pixels; variances by the larger of both, unless the scatter is as for
+        // independent pixels within chance.
+        let ratios: Vec<f64> = (0..UNKNOWNS).map(|i| scattered[(i, i)] / white[(i, i)]).collect();
+        let is_white = ratios.iter().sum::<f64>() < SCATTER * UNKNOWNS as f64;
         let factor: Vec<f64> =
-            (0..UNKNOWNS).map(|i| (scattered[(i, i)] / white[(i, i)]).max(1.0).sqrt()).collect();
+            ratios.iter().map(|v| if is_white { 1.0 } else { v.max(1.0).sqrt() }).collect();
         let covariance =
             DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| white[(i, j)] * factor[i] * factor[j]);
         let strength =

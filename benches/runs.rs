@@ -1,8 +1,10 @@
-//! Whole runs of the regimes, over the tolerance, for each memory.
+//! Whole runs of the regimes, over the tolerance, for each memory; a tip held on its line beside one that is free to move
+//! across it.
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
-use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, run};
+use stickslip_tip::planar::{self, PlanarScenario};
+use stickslip_tip::{Footprint, MemoryChoice, Model, Scenario, TipFunction, run};
 
 /// (name, β, α, r, kick, until)
 const CASES: [(&str, f64, f64, f64, f64, f64); 5] = [
@@ -39,5 +41,27 @@ fn whole_runs(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, whole_runs);
+/// α = 1.2 at κ_y = 1 and 1e-7, where 8 layers do: times per series, whose ratio is the cost of a step across.
+fn across(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("runs/across");
+    let tip = TipFunction::triple_gaussian(1.0, 1.0).expect("a valid tip");
+    let footprint = Footprint::separable(tip, 1.0).expect("a valid footprint");
+    let model = Model::new(TipFunction::of_footprint(footprint), 1.2, 1.0).expect("a valid model");
+    let held = Scenario { kick: 0.05, tolerance: 1e-7, ..Scenario::new(model, 1000.0) };
+    let free = PlanarScenario { kick_across: 0.01, ..PlanarScenario::new(held.clone(), 1.0) };
+    let work = run(&held).expect("a run that ends").work;
+    group.throughput(Throughput::Elements(work.series));
+    group.bench_function("held", |bencher| {
+        bencher.iter(|| run(black_box(&held)).expect("a run that ends"));
+    });
+    let found = planar::run(&free).expect("a run that ends");
+    assert_eq!(found.layers.most, 8);
+    group.throughput(Throughput::Elements(found.work.series));
+    group.bench_function("free", |bencher| {
+        bencher.iter(|| planar::run(black_box(&free)).expect("a run that ends"));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, whole_runs, across);
 criterion_main!(benches);

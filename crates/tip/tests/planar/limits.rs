@@ -128,6 +128,18 @@ fn work_is_what_it_was() {
     }
 }
 
+/// The run by which a step across is compared with one of a tip held on its line (`benches/runs.rs`).
+#[test]
+fn eight_layers_are_1_6_times_the_series_of_a_tip_on_its_line() {
+    let mut scenario = line((tip(1.0, 1.0), plain()), 1.2, 1.0, [0.05, 0.01], 500.0);
+    scenario.along.tolerance = 1e-7;
+    let free = run(&scenario).unwrap();
+    let held = stickslip_tip::run(&scenario.along).unwrap();
+    assert_eq!((free.layers.most, free.layers.changes), (8, 0));
+    assert_eq!([free.work.steps, free.work.series], [1233, 1073]);
+    assert_eq!([held.work.steps, held.work.series], [1402, 670]);
+}
+
 /// Snaking and stick-slip for 20,000 units of time: what is kept is the same as after 100.
 #[test]
 fn memory_is_flat() {

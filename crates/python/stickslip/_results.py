@@ -55,7 +55,12 @@ class Result:
 
     def save(self, path):
         """Writes the document to a .json file, as the program does."""
-        with open(os.fspath(path), "w", encoding="utf-8") as file:
+        path = os.fspath(path)
+        ending = os.path.splitext(path)[1].lower()
+        if ending in (".csv", ".npz", ".jsonl", ".gsf"):
+            remedy = f"give output={path!r} to the function that computes it"
+            raise ValueError(f"save writes JSON: name the file .json, or {remedy}")
+        with open(path, "w", encoding="utf-8") as file:
             file.write(self.to_json() + "\n")
 
     def columns(self):

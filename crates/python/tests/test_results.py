@@ -209,3 +209,13 @@ def test_quantities_are_numbers_of_the_model():
     pint = pytest.importorskip("pint")
     second = pint.UnitRegistry().second
     assert stickslip.cycle(alpha=1.3, r=0.8, healing_time=800 * second / 1000, **SCALES).parameters["healing_time"] == 50
+
+
+def test_a_document_is_not_saved_under_the_name_of_a_table(tmp_path):
+    result = stickslip.stability(r=1)
+    for name in ("x.csv", "x.npz", "x.jsonl", "X.CSV"):
+        with pytest.raises(ValueError, match="save writes JSON"):
+            result.save(tmp_path / name)
+        assert not (tmp_path / name).exists()
+    result.save(tmp_path / "x.json")
+    assert stickslip.load(tmp_path / "x.json").to_json() == result.to_json()

@@ -7,7 +7,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum FigureError {
     /// The file name has no extension of a known format.
-    #[error("the extension gives the format: it must be .svg, .png or .pdf")]
+    #[error(
+        "the extension gives the format: .svg, .png or .pdf; `stickslip plot` of a run or a raster also writes animations, .gif, .webp or .apng"
+    )]
     Extension,
     /// The program was built without this feature.
     #[error("this build cannot write {0}: name the figure .svg, or build with --features {1}")]

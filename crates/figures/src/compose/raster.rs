@@ -278,7 +278,7 @@ fn lags(document: &RasterDocument, x: Vec<f64>) -> Result<PanelDocument, FigureE
     } else {
         "line"
     };
-    let mut panel = PanelDocument::new("lag behind the support", ("support at x (σ)", y_label));
+    let mut panel = PanelDocument::new("", ("support at x (σ)", y_label));
     let r = plan.law.model.r();
     let row = |line: &stickslip_raster::Line| -> Vec<f64> {
         let track = line.track();

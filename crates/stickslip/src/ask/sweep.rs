@@ -66,7 +66,7 @@ pub struct Sweep {
     #[schemars(extend("x-option" = option("", "Extended model", 13)))]
     #[serde(default)]
     pub no_spring: bool,
-    /// Make each point a run to this time, in Γ/k, as of `stickslip run`, instead of the motion that the tip settles
+    /// Make each point a run to this time, in Γ/k, as of "stickslip run", instead of the motion that the tip settles
     /// into.
     #[schemars(extend("x-option" = option("T", "Runs", 40)))]
     #[serde(default)]

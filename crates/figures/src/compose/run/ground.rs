@@ -77,7 +77,9 @@ impl Ground<'_> {
             .map(|(x, u)| of(x, u))
             .collect();
         let name = format!("u(x, t = {}), lowest to highest", time(self.end));
-        if spacing < wavelength / 6.0 && !columns.is_empty() {
+        // At the usual spacing the surface is resolved, however fast the tip jitters.
+        let is_resolved = spacing < (wavelength / 6.0).max(1.1 * SPACING);
+        if is_resolved && !columns.is_empty() {
             let mut x: Vec<f64> = columns.iter().map(|c| c.0).collect();
             let last = x.len() - 1;
             (x[0], x[last]) = (behind_x[0], behind_x[behind_x.len() - 1]);
@@ -157,4 +159,28 @@ fn height(u: f64) -> String {
 fn points((low, high): (f64, f64)) -> Vec<f64> {
     let count = ((high - low) / SPACING).clamp(POINTS.0, POINTS.1).floor();
     (0..=count as usize).map(|i| low + (high - low) * i as f64 / count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_tip::{Model, Scenario, TipFunction, run};
+
+    /// The surface is smooth over the width of the tip, whatever the length of the last jitters.
+    #[test]
+    fn a_surface_behind_fast_jitter_is_drawn_all_along_the_path() {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let scenario = Scenario::new(Model::new(tip, 1.5, 1.0).unwrap(), 100.0);
+        let found = run(&scenario).unwrap();
+        let trajectory = &found.trajectory;
+        let tip = trajectory.x0(100.0);
+        let surface = Surface::new(&scenario.model, &found.initial_surface, trajectory);
+        let ground = Ground { surface, start: trajectory.start(), end: 100.0, tip };
+        let range = (2.0, tip + MARGIN);
+        let panel = ground.envelope(range, 0.1, 200).unwrap();
+        let first =
+            |curve: &CurveDocument| curve.x.iter().fold(f64::INFINITY, |low, x| low.min(*x));
+        let lowest = panel.curves.iter().map(first).fold(f64::INFINITY, f64::min);
+        assert!(lowest <= range.0, "drawn from {lowest} on");
+    }
 }

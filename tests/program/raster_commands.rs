@@ -85,7 +85,7 @@ fn pixels(bytes: &[u8]) -> ([usize; 2], Vec<f32>) {
 fn a_large_image_is_written_row_by_row() {
     let folder = Folder::new("raster_large_image");
     folder.prints(&format!("{GAUSSIAN} --lines 3 --length 10 -o raster.json"));
-    folder.prints("run --tip gaussian --alpha 0.6 --r 1 --until 10 -o run.json");
+    folder.prints("run --tip gaussian --alpha 0.6 --r 1 --until 40 -o run.json");
     for (name, more) in [("raster", ""), ("run", "--far-behind")] {
         let surface = |points: usize, output: &str| {
             folder.prints(&format!(

@@ -9,7 +9,6 @@
 
 use crate::plan::Plan;
 use crate::trace::{PIECE, Trace};
-use num_complex::Complex64;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -29,7 +28,7 @@ impl Expanders {
     /// `None` for footprints of which transforms of whole lines cost less.
     pub(crate) fn new(plan: &Plan) -> Option<Arc<Self>> {
         let expander = |layer: &stickslip_tip::Layer| {
-            let transform = |k| Complex64::new(layer.along.fourier(k), 0.0);
+            let transform = |k| layer.along.transform(k);
             let bands = (layer.along.band(), plan.band());
             Some(Expander::new(bands, layer.along.reach()?, transform))
         };

@@ -235,6 +235,34 @@ fn a_table_in_nanometres_is_read_back_as_it_was() {
     folder.refuses("stability --r 1 --tip-file tip.csv", &["x_nm", "stickslip tip"]);
 }
 
+/// Judge: the surface of the same run without units, in the units given again.
+#[test]
+fn a_surface_is_in_the_units_of_its_document() {
+    let (folder, _) = furnished("physical_own");
+    let motions = [
+        ("run", "run --alpha 1.3 --r 0.8 --kick 0.3 --until 30"),
+        ("across", "run --alpha 1.3 --r 0.8 --kick 0.3 --until 10 --stiffness-across 0.5"),
+        ("raster", "raster --alpha 1.3 --r 0.8 --length 20 --pitch 1 --lines 3"),
+    ];
+    for (name, line) in motions {
+        folder.prints(&format!("{line} -o plain.json"));
+        folder.prints(&format!("{line} --units units.json -o own.json"));
+        folder.prints(&format!("{line} --sigma 20nm -o length.json"));
+        let image = "--range 0:10 --spacing 1 --y-range -1:1 --spacing-y 1";
+        let of = |options: &str| {
+            let table = table(&folder, &format!("surface {options} {image}"));
+            folder.prints(&format!("surface {options} {image} -o image.gsf"));
+            (table, folder.read("image.gsf"))
+        };
+        let (plain, own, length) = (of("plain.json"), of("own.json"), of("length.json"));
+        assert_ne!(own.0, plain.0, "{name}");
+        assert_eq!(own, of("plain.json --units units.json"), "{name}");
+        assert_eq!(length.0, table(&folder, &format!("surface plain.json --sigma 20nm {image}")));
+        // Without a scale of heights an image has no unit.
+        assert_eq!(length.1, plain.1, "{name}");
+    }
+}
+
 /// A measured tip brings its σ along, and a saved document is drawn in units.
 #[test]
 fn tips_tell_their_width_and_pictures_are_in_units() {

@@ -7,8 +7,8 @@ use crate::message::remark;
 use serde::Deserialize;
 use std::path::Path;
 use stickslip::{
-    DataFitted, EstimateDocument, Fit, FitDocument, FitImage, FitImageDocument, KnownScales,
-    MeasuredTipDocument, NumberFitted, UnitsDocument,
+    DataFitted, EstimateDocument, Fit, FitDocument, FitImage, FitImageDocument, InUnits,
+    KnownScales, MeasuredTipDocument, NumberFitted, UnitsDocument,
 };
 use stickslip_units::Unit;
 
@@ -25,6 +25,29 @@ pub(crate) fn scales(
     let (scales, origin) = with_origin(arguments, tip_file, r)?;
     origin.into_iter().for_each(remark);
     Ok(scales)
+}
+
+/// The scales of what is made from a document: those of the options, or else its own; `None` for an image in metres of a
+/// document that lacks one of its scales.
+pub(crate) fn scales_of(
+    arguments: &InUnitsArguments,
+    document: Option<&InUnits>,
+    r: f64,
+    is_image_in_metres: bool,
+) -> Result<Option<KnownScales>, Failure> {
+    let typed = scales(arguments, None, Some(r))?;
+    let Some(own) = document.map(|physical| physical.scales).filter(|_| typed.is_none()) else {
+        return Ok(typed);
+    };
+    let own = sound(own, "the document")?;
+    if is_image_in_metres && own.length.zip(own.height).is_none() {
+        remark(
+            "stickslip: the image is in σ and kσ²/a: the document does not have both in m. For metres give --sigma, \
+             --stiffness and --slope-force",
+        );
+        return Ok(None);
+    }
+    Ok(Some(own))
 }
 
 /// The scales, and a remark on the origin of σ if it is that of a measured tip.
@@ -182,12 +205,17 @@ pub(crate) fn of_document(path: &Path) -> Result<KnownScales, Failure> {
                       unit, and any that was written with --units or --sigma";
         return Err(Failure::input(named(), advice));
     };
+    sound(scales, &named())
+}
+
+/// The scales, if they are above 0.
+fn sound(scales: KnownScales, named: &str) -> Result<KnownScales, Failure> {
     let KnownScales { length, time, height, force } = scales;
     let is_scale = |scale: f64| scale.is_finite() && scale > 0.0;
     if [length, time, height, force].into_iter().flatten().all(is_scale) {
         return Ok(scales);
     }
-    Err(Failure::input(named(), "damaged: scales must be above 0"))
+    Err(Failure::input(named, "damaged: scales must be above 0"))
 }
 
 impl Scaled {

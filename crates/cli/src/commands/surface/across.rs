@@ -3,7 +3,7 @@
 use super::places::{MOST_PIXELS, Places};
 use super::write::{self, SurfaceFormat};
 use crate::arguments::SurfaceArguments;
-use crate::commands::in_units::{in_metres, scales};
+use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
 use stickslip::{
     AcrossParameters, Document, Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceFound,
@@ -33,9 +33,14 @@ pub(super) fn surface(
     let steps = trajectory.steps().iter().map(|step| step.along).collect();
     let along = Trajectory::under(*scenario.along.model.wider(), scenario.along.support(), steps);
     let places = Places::asked(arguments, &along, MOST_PIXELS)?;
-    let scales = scales(&arguments.in_units, None, Some(scenario.along.model.r()))?;
-    let in_metres =
-        (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;
+    let is_gsf = format == SurfaceFormat::Gsf;
+    let scales = scales_of(
+        &arguments.in_units,
+        document.physical.as_ref(),
+        scenario.along.model.r(),
+        is_gsf,
+    )?;
+    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let job = format.job(arguments)?;
     let surface = SurfaceAcross::new(&scenario, &trajectory);
     let surface = surface.map_err(|error| Failure::Run(error.to_string()))?;

@@ -9,7 +9,7 @@ mod write;
 pub(crate) use places::evenly;
 
 use crate::arguments::SurfaceArguments;
-use crate::commands::in_units::{in_metres, scales};
+use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::{RunOrRaster, read_scanned};
@@ -47,9 +47,9 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory, format.most_pixels())?;
-    let scales = scales(&arguments.in_units, None, Some(model.r()))?;
-    let in_metres =
-        (format == SurfaceFormat::Gsf).then(|| in_metres(scales.as_ref())).transpose()?;
+    let is_gsf = format == SurfaceFormat::Gsf;
+    let scales = scales_of(&arguments.in_units, document.physical.as_ref(), model.r(), is_gsf)?;
+    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let images = Images::asked(arguments, &model, &places)?;
     let surface = Surface::new(&model, &initial, &trajectory);
     if let (Some(images), Some(unit), true) = (&images, in_metres, places.is_large(&places.y)) {

@@ -3,7 +3,7 @@
 use super::places::{OR_GSF, Places, evenly};
 use super::write::{SurfaceFormat, large};
 use crate::arguments::{Format, SurfaceArguments};
-use crate::commands::in_units::{in_metres, scales};
+use crate::commands::in_units::{in_metres, scales_of};
 use crate::commands::job::Job;
 use crate::commands::raster::field;
 use crate::failure::Failure;
@@ -39,7 +39,9 @@ pub(super) fn surface(
         }
     };
     judge_size(&places, &y, format.most_pixels())?;
-    let scales = scales(&arguments.in_units, None, Some(plan.law.model.r()))?;
+    let is_gsf = format == SurfaceFormat::Gsf;
+    let scales =
+        scales_of(&arguments.in_units, raster.physical.as_ref(), plan.law.model.r(), is_gsf)?;
     if places.is_large(&y) {
         let model = &plan.law.model;
         let title = format!("u(x,y) of a raster, alpha {}, r {}", model.alpha(), model.r());
@@ -48,9 +50,9 @@ pub(super) fn surface(
         let unit = in_metres(scales.as_ref())?;
         return large(arguments, (&places, &y), &title, unit, rows);
     }
-    let (is_gsf, written) = match format {
-        SurfaceFormat::Document(format) => (false, format),
-        SurfaceFormat::Gsf => (true, Format::Json),
+    let written = match format {
+        SurfaceFormat::Document(format) => format,
+        SurfaceFormat::Gsf => Format::Json,
     };
     let (output, plot) = (&arguments.output, arguments.plot.as_deref());
     let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;

@@ -17,7 +17,7 @@ pub(crate) struct Frame<'a> {
     pub(crate) x: &'a Axis,
     pub(crate) y: &'a Axis,
     pub(crate) at: Rect,
-    /// Whether lines have a light edge, which keeps them visible on any colour.
+    /// Whether lines and marks have a light edge, which keeps them visible on any colour.
     pub(crate) haloed: bool,
 }
 
@@ -58,6 +58,9 @@ impl Frame<'_> {
                     curve.x.iter().zip(&curve.y).filter_map(|(x, y)| self.place((*x, (*y)?)));
                 let inside = places.filter(|p| self.is_near(*p));
                 let path: String = inside.map(|place| shape(place, of, radius)).collect();
+                if self.haloed {
+                    svg.path(&path, Paint::stroke("#ffffff", 4.6));
+                }
                 svg.path(&path, marked(pen.colour, filled));
             }
         }

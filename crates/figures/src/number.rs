@@ -23,6 +23,12 @@ pub(crate) fn short(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.replace('-', "−") }
 }
 
+/// A value with its error, which has two digits, such as 1.88 ± 0.02.
+pub(crate) fn plus_minus(value: f64, error: f64) -> String {
+    let places = (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize;
+    format!("{value:.places$} ± {error:.places$}").replace('-', "−")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

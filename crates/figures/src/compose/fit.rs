@@ -1,6 +1,7 @@
 //! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
 use super::drawn::{Drawn, View};
+use super::labels::OF_DATA;
 use super::measured_tip::with_error;
 use crate::error::FigureError;
 use stickslip::{
@@ -84,9 +85,10 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     };
     let x = match unit {
         Some(unit) if !is_series => format!("{x} ({unit})"),
-        _ => x.into(),
+        _ => format!("{x} {OF_DATA}"),
     };
-    let mut above = PanelDocument::new(&data.source, (&x, y));
+    let y = format!("{y} {OF_DATA}");
+    let mut above = PanelDocument::new(&data.source, (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
     let mut measured = CurveDocument::new(style, "as measured", &data.x, &data.y);
     measured.colour = Some(ColourName::Grey);

@@ -1,6 +1,7 @@
 //! Figure of a fit to an image of ripples: the image with its crests, and the mean ripple beside that of the model.
 
 use super::drawn::{Drawn, View};
+use super::labels::OF_DATA;
 use super::measured_tip::with_error;
 use super::raster::crest_lines;
 use crate::error::FigureError;
@@ -12,7 +13,9 @@ use stickslip::{
 impl Drawn for FitImageDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let unit = self.parameters.unit.as_deref();
-        let in_unit = |name: &str| unit.map_or(name.into(), |unit| format!("{name} ({unit})"));
+        let in_unit = |name: &str| {
+            unit.map_or_else(|| format!("{name} {OF_DATA}"), |unit| format!("{name} ({unit})"))
+        };
         let title =
             format!("Ripples: α = {}, r = {}", with_error(&self.alpha), with_error(&self.r));
         let tip = TipDocument::from(&self.parameters.tip.clone().unwrap_or_default().0);
@@ -37,7 +40,7 @@ impl Drawn for FitImageDocument {
             x: image.x.clone(),
             y: image.y.clone(),
             z: image.rows.clone(),
-            z_label: "height".into(),
+            z_label: format!("height {OF_DATA}"),
             colours: ColoursName::Cividis,
             z_range: None,
         });
@@ -51,7 +54,7 @@ impl Drawn for FitImageDocument {
 /// The mean ripple with its error, and that of the model.
 fn ripple(document: &FitImageDocument, x_label: &str) -> PanelDocument {
     let profile = &document.profile;
-    let mut panel = PanelDocument::new("mean ripple", (x_label, "height"));
+    let mut panel = PanelDocument::new("mean ripple", (x_label, &format!("height {OF_DATA}")));
     let (x, height) = (&profile.distance, &profile.height);
     let rows = || height.iter().zip(&profile.error);
     let high: Vec<f64> = rows().map(|(height, error)| height + 1.96 * error).collect();

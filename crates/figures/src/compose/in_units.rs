@@ -3,7 +3,7 @@
 use super::View;
 #[cfg(feature = "animation")]
 use super::labels::L;
-use super::labels::{LAG, LAG_OF_STEADY_SUPPORT, SPRING, SPRING_FORCE};
+use super::labels::{EXTENSION, LAG, LAG_OF_STEADY_SUPPORT, SPRING, SPRING_FORCE};
 use super::quantity::settle;
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
@@ -77,10 +77,14 @@ pub(super) fn in_units(mut figure: FigureDocument, scales: &KnownScales) -> Figu
 fn convert(panel: &mut PanelDocument, scales: &KnownScales) {
     let (x, y) = (Axis::of(&panel.x_label, scales), Axis::of(&panel.y_label, scales));
     let PanelDocument { curves, map, cells, notes, shades, .. } = panel;
-    for CurveDocument { x: abscissas, y: ordinates, low, .. } in curves {
+    let is_force = panel.y_label == LAG.1 && scales.force.is_some();
+    for CurveDocument { x: abscissas, y: ordinates, low, name, .. } in curves {
         x.all(abscissas);
         y.some(ordinates);
         low.iter_mut().for_each(|low| y.some(low));
+        if let Some(name) = name.as_mut().filter(|_| is_force) {
+            *name = name.replace(EXTENSION[0], EXTENSION[1]);
+        }
     }
     if let Some(map) = map {
         let z = Axis::of(&map.z_label, scales);

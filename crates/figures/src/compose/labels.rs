@@ -15,6 +15,10 @@ pub(super) const LAG_OF_STEADY_SUPPORT: &str = "rt − x₀ (σ)";
 pub(super) const SPRING: &str = "lag (σ)";
 /// The label of all three where the scale of forces is known.
 pub(super) const SPRING_FORCE: &str = "lateral force (kσ)";
+/// The name of a curve of the extension, and its name beside this label.
+pub(super) const EXTENSION: [&str; 2] = ["R(t) − x₀(t)", "lateral force"];
+/// Added to labels of measured numbers, whose unit may be any.
+pub(super) const OF_DATA: &str = "(unit of the data)";
 /// Labels of the position of a tip without a spring.
 pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
 /// Label of the position of the support.

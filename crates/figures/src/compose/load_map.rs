@@ -1,6 +1,7 @@
 //! Figure of a map of loads: the wavelength of ripples over load and velocity, the critical load, and the measured point.
 
 use super::drawn::{Drawn, View};
+use super::sweep::Phase;
 use super::tip::tip_name;
 use crate::error::FigureError;
 use crate::number::short;
@@ -9,12 +10,12 @@ use stickslip::{
     LoadPoint, MapDocument, PanelDocument, RegimeName, StyleName,
 };
 
-/// Regimes without ripples, with their colours; the last is that of failed points.
+/// Regimes without ripples, with their colours in sweeps; the last is that of failed points.
 const OTHERS: [(&str, Option<RegimeName>, ColourName); 4] = [
-    ("steady", Some(RegimeName::Steady), ColourName::Silver),
-    ("trapped", Some(RegimeName::Trapped), ColourName::Grey),
-    ("not settled", Some(RegimeName::Transient), ColourName::Orange),
-    ("unknown", None, ColourName::Black),
+    ("steady", Some(RegimeName::Steady), Phase::Steady.colour()),
+    ("trapped", Some(RegimeName::Trapped), Phase::Trapped.colour()),
+    ("not settled", Some(RegimeName::Transient), Phase::Unsettled.colour()),
+    ("unknown", None, ColourName::Grey),
 ];
 
 /// Percentage of the distances of ripples that have colours of their own: towards trapping they have no bound.
@@ -89,8 +90,8 @@ impl Drawn for LoadMapDocument {
         let (v, f) = (self.lever.velocity, self.lever.load);
         let [left, right] = parameters.r_range;
         if (left..=right).contains(&v) && (bottom..=top).contains(&f) {
-            let mut lever = CurveDocument::new(StyleName::OpenSquares, "lever", &[v], &[f]);
-            lever.colour = Some(ColourName::Vermillion);
+            let mut lever = CurveDocument::new(StyleName::Dots, "lever", &[v], &[f]);
+            lever.colour = Some(ColourName::Black);
             panel.curves.push(lever);
         }
         let mut figure = FigureDocument::new("load-map", &title, vec![]);

@@ -1,8 +1,9 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
 use super::drawn::{Drawn, View};
+use super::labels::OF_DATA;
 use crate::error::FigureError;
-use crate::number::short;
+use crate::number::{plus_minus, short};
 use stickslip::{
     ColourName, CurveDocument, EstimateDocument, FigureDocument, GaussianDocument,
     MeasuredTipDocument, ModelParameters, PanelDocument, StyleName, TipDocument,
@@ -30,12 +31,12 @@ impl Drawn for MeasuredTipDocument {
         let alpha = self.critical_alpha.value;
         let model = ModelParameters::papers(tip, alpha, None, self.parameters.r);
         let mut figure = FigureDocument::new("tip", &title, vec![model]);
-        let x_label = unit.map_or("x".into(), |unit| format!("x ({unit})"));
+        let x_label = unit.map_or_else(|| format!("x {OF_DATA}"), |unit| format!("x ({unit})"));
         let at = |i: usize| first + (last - first) * i as f64 / POINTS as f64;
         let along: Vec<f64> = (0..=POINTS).map(at).collect();
         let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
-        let mut data = PanelDocument::new("", (&x_label, "height"));
+        let mut data = PanelDocument::new("", (&x_label, &format!("height {OF_DATA}")));
         let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
         measured.colour = Some(ColourName::Grey);
         data.curves = vec![
@@ -80,6 +81,5 @@ pub(super) fn with_error(estimate: &EstimateDocument) -> String {
     if half <= 0.0 {
         return short(estimate.value);
     }
-    let places = (1.0 - half.log10().floor()).clamp(0.0, 12.0) as usize;
-    format!("{:.places$} ± {half:.places$}", estimate.value)
+    plus_minus(estimate.value, half)
 }

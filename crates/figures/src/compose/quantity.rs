@@ -1,7 +1,7 @@
 //! Numbers with a dimension within texts. A text names them in the model's units; where the scales of an experiment are
 //! known, it gets them in the units of the axes.
 
-use crate::number::seven_digits;
+use crate::number::{plus_minus, seven_digits};
 use stickslip::{Dimension, FigureDocument, KnownScales, to_its_digits};
 
 /// Marks around a number within a text, and between its parts: characters for private use.
@@ -72,6 +72,7 @@ fn one(number: &str, scales: Option<&KnownScales>) -> String {
     };
     let rounded = |value: f64| format!("{value:.4e}").parse().unwrap_or(value);
     let digits = match error {
+        Some(error) if plain.contains('±') => plus_minus(value * factor, error * factor),
         Some(error) => to_its_digits(value * factor, error * factor),
         None => seven_digits(rounded(value * factor)),
     };
@@ -97,6 +98,9 @@ mod tests {
         let said = written(&text, Some(&scales)).replace('\u{a0}', " ");
         let period = to_its_digits(3.5, 0.001);
         assert_eq!(said, format!("T = {period} s, b = 3 kσ²/a, d = 24 nm"));
+        let length = Quantity { value: 4.46, error: Some(0.71), unit: "σ" }.said("4.46 ± 0.71 σ");
+        assert_eq!(written(&length, None), "4.46 ± 0.71 σ");
+        assert_eq!(written(&length, Some(&scales)).replace('\u{a0}', " "), "134 ± 21 nm");
         for odd in ["\u{e000}", "a\u{e002}", "\u{e000}\u{e001}\u{e002}", "\u{e000}x"] {
             assert!(written(odd, Some(&scales)).chars().count() <= odd.chars().count());
         }

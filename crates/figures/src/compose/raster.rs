@@ -47,7 +47,8 @@ impl Drawn for RasterDocument {
         surface.map = Some(MapDocument { z_range, ..heights(map) });
         let lags = lags(self, x)?;
         figure.panels = vec![surface, lags];
-        figure.columns = 2;
+        // Beside its passes the strip of one line would be far smaller than they.
+        figure.columns = if parameters.path == PathName::Repeat { 1 } else { 2 };
         Ok(figure)
     }
 

@@ -6,7 +6,7 @@ mod ground;
 use super::carving::Carving;
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
-use super::labels::{FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
+use super::labels::{EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
 use super::quantity::Quantity as Said;
 use super::tip::run_title;
 use crate::error::FigureError;
@@ -49,7 +49,7 @@ impl Drawn for RunDocument {
         let first = |step: &Step, t: f64| step.followed(support, t);
         let (labels, name) = match support {
             Support::Moving(_) => (L, "l(t)"),
-            Support::Path(_) => (LAG, "R(t) − x₀(t)"),
+            Support::Path(_) => (LAG, EXTENSION[0]),
             Support::None => (POSITION, "x₀(t)"),
         };
         let shown = Shown::of(self, part, &first);
@@ -196,10 +196,10 @@ fn across(run: &RunDocument) -> Vec<PanelDocument> {
 /// l and the velocity at the samples.
 fn sampled(run: &RunDocument) -> Vec<PanelDocument> {
     let samples = &run.samples;
-    let curve = |name, y| CurveDocument::new(StyleName::Line, name, &samples.t, y);
+    let curve = |name: &str, y| CurveDocument::new(StyleName::Line, name, &samples.t, y);
     let first = match (&samples.l, &samples.lag) {
         (Some(l), _) => (L, curve("l(t), samples", l)),
-        (None, Some(lag)) => (LAG, curve("R(t) − x₀(t), samples", lag)),
+        (None, Some(lag)) => (LAG, curve(&format!("{}, samples", EXTENSION[0]), lag)),
         (None, None) => (POSITION, curve("x₀(t), samples", &samples.x0)),
     };
     let velocity = curve("ẋ₀(t), samples", &samples.velocity);

@@ -9,6 +9,7 @@ use super::tip::tip_name;
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{FigureDocument, ModelParameters, SweepDocument, SweepParameters, Tip};
+pub(super) use varied::Phase;
 use varied::varied;
 
 /// Rejects a grid that no picture can show, before its points are computed.

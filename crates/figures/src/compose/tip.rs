@@ -55,7 +55,7 @@ pub(crate) fn raster_title(parameters: &Raster) -> String {
 
 fn path_name(parameters: &Raster) -> String {
     let pitch = parameters.pitch.map_or(String::new(), |pitch| {
-        format!(", pitch {}", Quantity::new(pitch, "σ").said(&short(pitch)))
+        format!(", pitch {}", Quantity::new(pitch, "σ").said(&format!("{} σ", short(pitch))))
     });
     let path = match parameters.path {
         PathName::OneWay => "one-way",

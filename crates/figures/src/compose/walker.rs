@@ -1,7 +1,10 @@
 //! Figure of a walker: its path with the circular orbits of theory, its speed, and its distance from the origin.
 
 use super::drawn::{Drawn, View};
+use super::labels::NATURAL;
+use super::quantity::Quantity;
 use crate::error::FigureError;
+
 use crate::number::short;
 use std::f64::consts::TAU;
 use stickslip::{CurveDocument, FigureDocument, PanelDocument, StyleName, WalkerDocument};
@@ -23,6 +26,7 @@ impl Drawn for WalkerDocument {
         let farthest = samples.x0.iter().zip(y0).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
         path.curves = orbits(self, farthest);
         path.curves.push(CurveDocument::new(StyleName::Line, "path", &samples.x0, y0));
+        path.natural = NATURAL;
         if self.orbits.is_some() {
             let range = Some([-1.1 * farthest, 1.1 * farthest]);
             (path.x_range, path.y_range) = (range, range);
@@ -75,11 +79,15 @@ fn orbits(walker: &WalkerDocument, farthest: f64) -> Vec<CurveDocument> {
 
 fn title(walker: &WalkerDocument) -> String {
     let asked = &walker.parameters;
-    let number = |name: &str, value: f64| format!(", {name} = {}", short(value));
+    let number = |name: &str, value: f64, unit: &'static str| {
+        let plain = format!("{}\u{a0}{unit}", short(value));
+        format!(", {name} = {}", Quantity::new(value, unit).said(&plain))
+    };
     let mut title = format!("Walker, α = {}", short(asked.alpha));
-    title += &number("T", asked.healing_time);
-    for (name, value) in [("M", asked.inertia), ("Ω", asked.rotation), ("K", asked.trap)] {
-        title += &value.map_or(String::new(), |value| number(name, value));
+    title += &number("T", asked.healing_time, "Γ/k");
+    let others = [("M", asked.inertia, "Γ²/k"), ("Ω", asked.rotation, "Γ"), ("K", asked.trap, "k")];
+    for (name, value, unit) in others {
+        title += &value.map_or(String::new(), |value| number(name, value, unit));
     }
     title
 }

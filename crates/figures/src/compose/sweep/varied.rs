@@ -51,7 +51,7 @@ fn all(parameters: &SweepParameters) -> Vec<Varied<'_>> {
 
 /// Regimes of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Phase {
+pub(in crate::compose) enum Phase {
     Steady,
     OneSlip,
     TwoSlips,
@@ -94,7 +94,7 @@ impl Phase {
         }
     }
 
-    pub(super) fn colour(self) -> ColourName {
+    pub(in crate::compose) const fn colour(self) -> ColourName {
         match self {
             Self::Steady => ColourName::Silver,
             Self::OneSlip => ColourName::Blue,

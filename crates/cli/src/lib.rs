@@ -47,7 +47,10 @@ pub fn main() -> ExitCode {
     };
     let cli = match Cli::try_parse_from(&line.words) {
         Ok(cli) => cli,
-        Err(error) => return answered(&error),
+        Err(mut error) => {
+            drop_far_suggestion(&mut error);
+            return answered(&error);
+        }
     };
     if cli.quiet {
         message::be_quiet();
@@ -95,6 +98,19 @@ fn done(command: &Command) -> Result<(), Failure> {
         Command::Figures(arguments) => commands::figures::figures(arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
         Command::Completions(arguments) => commands::completions::completions(arguments),
+    }
+}
+
+/// Removes a similar option from the message unless it is as similar as the fields that are suggested.
+fn drop_far_suggestion(error: &mut clap::Error) {
+    use clap::error::{ContextKind, ContextValue};
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => text.trim_start_matches('-'),
+        _ => "",
+    };
+    let (typed, similar) = (text(ContextKind::InvalidArg), text(ContextKind::SuggestedArg));
+    if strsim::jaro_winkler(typed, similar) < commands::fields::ALIKE {
+        error.remove(ContextKind::SuggestedArg);
     }
 }
 

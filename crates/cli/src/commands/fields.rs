@@ -133,7 +133,7 @@ fn gather(root: &Value, part: &Value, before: &str, depth: usize, all: &mut Vec<
 }
 
 /// Smallest similarity of Jaro and Winkler at which a name is suggested.
-const ALIKE: f64 = 0.85;
+pub(crate) const ALIKE: f64 = 0.85;
 /// Largest number of suggestions.
 const MOST_MEANT: usize = 3;
 

@@ -23,7 +23,7 @@ pub(crate) mod tip;
 pub(crate) mod units;
 pub(crate) mod verify;
 
-mod fields;
+pub(crate) mod fields;
 mod figure;
 mod finished;
 mod fit_image;

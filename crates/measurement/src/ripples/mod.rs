@@ -103,8 +103,8 @@ pub enum RippleError {
     Nothing,
     /// Amplitude or phase of the wave change across the image.
     #[error(
-        "the ripples are not uniform: give a part of the image where they have settled, away from the first lines and from the edge \
-         where the lines begin"
+        "the ripples are not uniform: crop the image (in Gwyddion; in Python by .isel) to a part where they have settled, away from \
+         the first lines and from the edge where the lines begin"
     )]
     NotUniform,
     /// The model has no settled pattern like that.
@@ -155,7 +155,8 @@ impl Ripples {
         if self.modulation > Self::MOST_MODULATION {
             remarks.push(format!(
                 "the ripples differ by {:.0} % between the parts of the image: they have not settled, and α and r get no intervals; \
-                 give a part away from the first lines and from the edge where the lines begin",
+                 crop the image (in Gwyddion; in Python by .isel) to a part away from the first lines and from the edge where the \
+                 lines begin",
                 100.0 * self.modulation
             ));
         }

@@ -241,7 +241,7 @@ fn a_surface_is_in_the_units_of_its_document() {
     let (folder, _) = furnished("physical_own");
     let motions = [
         ("run", "run --alpha 1.3 --r 0.8 --kick 0.3 --until 30"),
-        ("across", "run --alpha 1.3 --r 0.8 --kick 0.3 --until 10 --stiffness-across 0.5"),
+        ("across", "run --alpha 1.3 --r 0.8 --kick 0.3 --until 25 --stiffness-across 0.5"),
         ("raster", "raster --alpha 1.3 --r 0.8 --length 20 --pitch 1 --lines 3"),
     ];
     for (name, line) in motions {

@@ -134,21 +134,16 @@ fn holds(estimate: &EstimateDocument, truth: f64) -> bool {
     estimate.low.is_some_and(|low| low <= truth) && estimate.high.is_some_and(|high| truth <= high)
 }
 
-/// Wavelength in σ and angle in degrees of the strongest wave near one, by a search on the windowed transform of clean heights.
+/// Wavelength in σ and angle in degrees of the strongest wave near one, by a search on the transform of clean heights. All pixels have
+/// one weight, as in the fit: with a window, which prefers the middle, the wavelength of ripples that still change a little is another.
 fn strongest((x, y, u): (&[f64], &[f64], &[Vec<f64>]), mut at: [f64; 2]) -> [f64; 2] {
-    let window = |at: &[f64], v: f64| {
-        let part = (v - at[0]) / (at[at.len() - 1] - at[0]);
-        (0.5 * TAU * part).sin().powi(2)
-    };
-    let total: f64 = x.iter().map(|v| window(x, *v)).sum();
     let power = |q: f64, kappa: f64| {
         let (mut re, mut im) = (0.0, 0.0);
-        for (row, y_at) in u.iter().zip(y) {
-            let mean = row.iter().zip(x).map(|(u, v)| u * window(x, *v)).sum::<f64>() / total;
-            for (u, x_at) in row.iter().zip(x) {
-                let weight = window(x, *x_at) * window(y, *y_at) * (u - mean);
-                let (sin, cos) = (q * x_at + kappa * y_at).sin_cos();
-                (re, im) = (re + weight * cos, im + weight * sin);
+        for (row, y) in u.iter().zip(y) {
+            let mean = row.iter().sum::<f64>() / row.len() as f64;
+            for (u, x) in row.iter().zip(x) {
+                let (sin, cos) = (q * x + kappa * y).sin_cos();
+                (re, im) = (re + (u - mean) * cos, im + (u - mean) * sin);
             }
         }
         re * re + im * im
@@ -339,11 +334,16 @@ fn intervals_of_images_hold_the_truth_as_often_as_they_say() {
     counts.print();
     assert!(counts.settled > 110, "{} settled", counts.settled);
     assert_eq!(counts.within_1_percent, counts.settled);
+    assert!(
+        f64::from(counts.wavelength) > 0.92 * f64::from(counts.settled),
+        "wavelength in {}",
+        counts.wavelength
+    );
     assert!(counts.is_95_percent(), "α in {}, r in {}", counts.alpha, counts.r);
 }
 
-/// 288 images of 36 rasters, and 40 of 4 by the grid. Of the first, the ripples of 204 have settled somewhere; the intervals contain α in 195
-/// and r in 194 of these.
+/// 288 images of 36 rasters. The ripples of 256 have settled somewhere, 30 are not explained and 2 refused; of the 256 the intervals contain
+/// α in 246, r in 241, the wavelength in 255 and the angle in all.
 #[test]
 #[ignore = "minutes"]
 fn study_of_200_images() {
@@ -365,6 +365,18 @@ fn study_of_200_images() {
         }
         counts.print();
     }
+    assert!(counts.settled >= 200, "{} settled", counts.settled);
+    assert_eq!(counts.within_1_percent, counts.settled);
+    assert!(counts.is_95_percent(), "α in {}, r in {}", counts.alpha, counts.r);
+}
+
+/// 40 images of 4 rasters by the grid. The ripples of 33 have settled, 7 are not explained; of the 33 the intervals contain α in 32, r in 32
+/// and the wavelength in all.
+#[test]
+#[ignore = "minutes"]
+fn study_of_images_by_the_grid() {
+    let mut counts = Counts::default();
+    let mut random = ChaCha8Rng::seed_from_u64(2027);
     for (above, r) in [(1.1, 0.9), (1.12, 1.0), (1.15, 0.8), (1.17, 0.95)] {
         let case = Case { above, r, pitch: 1.0, size: [100.0, 100.0] };
         let (x, y, rows) = gridded(case, 96);
@@ -374,7 +386,6 @@ fn study_of_200_images() {
         }
         counts.print();
     }
-    assert!(counts.settled >= 200);
     assert_eq!(counts.within_1_percent, counts.settled);
     assert!(counts.is_95_percent(), "α in {}, r in {}", counts.alpha, counts.r);
 }

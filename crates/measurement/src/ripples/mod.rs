@@ -125,7 +125,7 @@ pub enum RippleError {
 impl Ripples {
     /// Least probability of χ² at which the model is said to explain the ripples.
     pub const LEAST_MISFIT: f64 = 0.005;
-    /// Largest modulation of ripples that count as settled. In 288 images of rasters no value lies between 0.046 and 0.055; from 0.06
+    /// Largest modulation of ripples that count as settled. Of images of rasters few lie between 0.046 and 0.055; from 0.06
     /// to 0.1 r may be off by ten times its error.
     pub const MOST_MODULATION: f64 = 0.05;
 

@@ -356,6 +356,7 @@ def raster(
     sample_at: _Numbers | None = None,
     parameters: _Path | _Columns | None = None,
     pulse: str | _Pulse | Sequence[_Pulse] | None = None,
+    threads: _Number | None = None,
     output: _Path | None = None,
     units: _Path | _Columns | None = None,
     sigma: str | None = None,

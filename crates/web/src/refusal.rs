@@ -34,7 +34,7 @@ pub(crate) enum Refusal {
     Stability(#[from] StabilityError),
     #[error(transparent)]
     Cycle(#[from] CycleError),
-    #[error(transparent)]
+    #[error("{}", .0.described(|parameter| parameter.replace('_', " ")))]
     Question(#[from] stickslip::Failure),
     #[error(transparent)]
     Raster(#[from] RasterError),

@@ -112,13 +112,20 @@ impl Output {
         self,
         write: impl Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        self.write_through(&write)
+    }
+
+    fn write_through(
+        self,
+        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         let (target, done) = match &self.place {
-            Place::Stdout => ("standard output".into(), through(io::stdout().lock(), &write)),
-            Place::Special(file) => (self.path.display().to_string(), through(file, &write)),
-            Place::File(target) => (self.path.display().to_string(), target.replace(&write)),
+            Place::Stdout => ("standard output".into(), through(io::stdout().lock(), write)),
+            Place::Special(file) => (self.path.display().to_string(), through(file, write)),
+            Place::File(target) => (self.path.display().to_string(), target.replace(write)),
         };
         let Err(error) = done else { return Ok(()) };
-        match self.file().and_then(|path| kept_elsewhere(path, &write)) {
+        match self.file().and_then(|path| kept_elsewhere(path, write)) {
             Some(kept) => {
                 Err(Failure::Elsewhere { target, error, kept: kept.display().to_string() })
             }

@@ -63,7 +63,12 @@ pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable
 ///
 /// # Errors
 /// As [`read`]; or the stream fails.
-pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result<D, Unusable> {
+pub fn read_from<D: DeserializeOwned>(mut source: impl Read, wanted: &str) -> Result<D, Unusable> {
+    read_through(&mut source, wanted)
+}
+
+/// Reads a document from a stream of any type: the code that reads documents, which is long, exists once.
+fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Result<D, Unusable> {
     let (kind, whole) = identified(source, wanted)?;
     kind.judge(wanted)?;
     serde_json::from_reader(whole).map_err(|error| match error.classify() {
@@ -79,11 +84,15 @@ pub fn read_from<D: DeserializeOwned>(source: impl Read, wanted: &str) -> Result
 ///
 /// # Errors
 /// As [`kind_of`].
-pub fn identified<R: Read>(source: R, wanted: &str) -> Result<(Kind, impl Read), Unusable> {
+pub fn identified<'a>(
+    source: impl Read + 'a,
+    wanted: &str,
+) -> Result<(Kind, BufReader<Box<dyn Read + 'a>>), Unusable> {
     let mut source = BufReader::with_capacity(BLOCK, source);
     let mut seen = vec![];
     let kind = kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?;
-    Ok((kind, BufReader::with_capacity(BLOCK, Cursor::new(seen).chain(source))))
+    let whole: Box<dyn Read + 'a> = Box::new(Cursor::new(seen).chain(source));
+    Ok((kind, BufReader::with_capacity(BLOCK, whole)))
 }
 
 const BLOCK: usize = 1 << 16;

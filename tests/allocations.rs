@@ -71,6 +71,8 @@ fn full(index: usize) -> SweepPoint {
         amplitude_u_error: number(12),
         mean_l: number(13),
         deviation_l: number(14),
+        slip_distance: number(16),
+        slip_distance_error: number(17),
         slips: Some(3),
         multiplier: number(15),
         error: Some("α is none".into()),
@@ -89,7 +91,7 @@ fn packed_points_are_unpacked_as_they_were() {
     };
     let optional = each.keys().filter(|name| !["index", "r"].contains(&name.as_str()));
     let mut points: Vec<SweepPoint> = optional.map(without).collect();
-    assert_eq!(points.len(), 20);
+    assert_eq!(points.len(), 22);
     points.extend([full(2), SweepPoint::at(1, None, 1.0, None)]);
     for regime in ["steady", "stick-slip", "trapped", "drifting", "snaking", "transient"] {
         let regime = serde_json::from_value(regime.into()).unwrap();
@@ -125,6 +127,8 @@ fn a_point_of_a_map_takes_at_most_140_bytes() {
         width: None,
         mean_l: None,
         deviation_l: None,
+        slip_distance: None,
+        slip_distance_error: None,
         ..full(index)
     };
     let (parameters, mut rows) = (parameters(COUNT), 0);

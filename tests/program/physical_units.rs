@@ -307,3 +307,47 @@ fn tips_tell_their_width_and_pictures_are_in_units() {
     let (part, plain) = (points("part.svg") as f64, points("plain.svg") as f64);
     assert!((part / plain - 1.0).abs() < 0.05, "{part} {plain}");
 }
+
+/// r and α are velocities of the support, r kσ/Γ, and indentation rates, α k²σ²/(aΓ), as `units` computes them.
+#[test]
+fn axes_of_r_and_alpha_are_velocities_and_indentation_rates_in_units() {
+    let (folder, _) = furnished("physical_axes");
+    let at = |r: f64, alpha: f64| {
+        let lever = "--damping 3.2mNs/m --stiffness 0.2N/m --tip-width 20nm --slope-force 5nN";
+        let found = folder.prints_json(&format!("units {lever} --r {r} --alpha {alpha}"));
+        ["velocity", "indentation_rate"].map(|name| 1e9 * found["physical"][name].as_f64().unwrap())
+    };
+    folder.prints("boundary --r-range 0.4:2:40 -o boundary.json");
+    let drawn = |options: &str| {
+        folder.prints(&format!("plot boundary.json {options} -o drawn.svg"));
+        String::from_utf8(folder.read("drawn.svg")).unwrap()
+    };
+    let text = drawn("--units units.json");
+    for label in ["(nm/s)", "velocity of the support", "indentation rate"] {
+        assert!(text.contains(label), "{label}");
+    }
+    let ([v1, n1], [v2, n2]) = (at(0.5, 0.3), at(1.5, 2.0));
+    // The points of the longest curve, in the unit of the picture.
+    let boundary = |text: &str| -> Vec<f64> {
+        let curves = text.split("<path d=\"M").filter(|path| path.contains("stroke=\"#0072B2\""));
+        let longest = curves.max_by_key(|path| path.find('"')).unwrap().split('"').next().unwrap();
+        let numbers = longest.split([' ', 'C', 'L', 'M']).filter(|n| !n.is_empty());
+        numbers.map(|number| number.parse().unwrap()).collect()
+    };
+    // From side to side and from top to bottom: margins depend on the lengths of numbers.
+    let within = |numbers: &[f64], first: usize| -> Vec<f64> {
+        let of_axis = || numbers.iter().skip(first).step_by(2).copied();
+        let (least, most) =
+            (of_axis().fold(f64::MAX, f64::min), of_axis().fold(f64::MIN, f64::max));
+        of_axis().map(|x| (x - least) / (most - least)).collect()
+    };
+    let options = format!("--units units.json --x-range {v1}:{v2} --y-range {n1}:{n2}");
+    let same = boundary(&drawn(&options));
+    let plain = boundary(&drawn("--x-range 0.5:1.5 --y-range 0.3:2"));
+    assert!(plain.len() > 20 && same.len() == plain.len(), "{same:?} {plain:?}");
+    for (a, b) in
+        [0, 1].iter().flat_map(|axis| within(&same, *axis).into_iter().zip(within(&plain, *axis)))
+    {
+        assert!((a - b).abs() < 1e-3, "{same:?} {plain:?}");
+    }
+}

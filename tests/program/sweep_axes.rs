@@ -43,6 +43,58 @@ fn a_point_that_is_a_run_is_what_run_says_to_the_last_bit() {
     assert_eq!([0, 1, 2, 3].map(seeds).map(|seed| seed as u8), [1, 2, 3, 1], "seeds vary fastest");
 }
 
+/// Positions of the tip at slips at r = 1, from samples alone: between minima of the lag half a deviation below its mean, the
+/// largest half a deviation above, on the parabola through three samples.
+fn slips_of_samples(samples: &Value) -> Vec<f64> {
+    let column = |name: &str| -> Vec<f64> {
+        samples[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let (t, l, x0) = (column("t"), column("l"), column("x0"));
+    let late = l.len() / 2;
+    let (mean, deviation) = definitions(&l[late..]);
+    let is_minimum = |i: &usize| l[i - 1] > l[*i] && l[*i] <= l[i + 1];
+    let low = (late + 1..l.len() - 1).filter(|i| is_minimum(i) && l[*i] < mean - 0.5 * deviation);
+    let low: Vec<usize> = low.collect();
+    let highest =
+        |pair: &[usize]| (pair[0]..pair[1]).max_by(|a, b| l[*a].total_cmp(&l[*b])).unwrap();
+    let highest = low.windows(2).map(highest);
+    // The lag is at rest there, so the tip moves at the velocity of the support.
+    let between = |i: usize| {
+        let curvature = l[i - 1] - 2.0 * l[i] + l[i + 1];
+        (t[i + 1] - t[i]) / 2.0 * (l[i - 1] - l[i + 1]) / curvature
+    };
+    highest.filter(|i| l[*i] > mean + 0.5 * deviation).map(|i| x0[i] + between(i)).collect()
+}
+
+#[test]
+fn slips_on_noise_are_as_far_apart_as_in_the_samples_of_a_run() {
+    let folder = Folder::new("sweep_slips");
+    let law = "--alpha 1.4 --r 1 --until 300 --noise 0.02";
+    let found = points(&folder.prints_json(&format!("sweep {law} --seed 1:3:3")));
+    for (point, seed) in found.iter().zip(1..) {
+        let line = format!("run {law} --seed {seed} --sample-every 0.02 --history none");
+        let slips = slips_of_samples(&folder.prints_json(&line)["samples"]);
+        let distances: Vec<f64> = slips.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let (mean, deviation) = definitions(&distances);
+        assert!(slips.len() > 10, "{} slips", slips.len());
+        let [distance, error] =
+            ["slip_distance", "slip_distance_error"].map(|name| point[name].as_f64().unwrap());
+        println!("{distance} ± {error}, by samples {mean}");
+        assert!((distance / mean - 1.0).abs() < 3e-5, "{distance} {mean}");
+        let expected = deviation / (distances.len() as f64).sqrt();
+        assert!((error / expected - 1.0).abs() < 1e-2, "{error} {expected}");
+    }
+    // Of a motion that repeats itself it is the wavelength, or that over the number of slips.
+    let settled = "sweep --alpha 1.2,1.3 --r 1 --kick 0.05 --until 900";
+    for point in points(&folder.prints_json(settled)) {
+        let number = |name: &str| point[name].as_f64().unwrap();
+        let apart = number("wavelength") / number("slips");
+        assert!((number("slip_distance") / apart - 1.0).abs() < 2e-3, "{point}");
+    }
+    let steady = &points(&folder.prints_json("sweep --alpha 0.9,1 --r 1 --until 100"))[0];
+    assert!(steady.get("slip_distance").is_none(), "{steady}");
+}
+
 /// Runs that share vector lanes: bytes depend neither on threads nor on parts, and regimes and numbers are those of `run`
 /// within its tolerance.
 #[test]
@@ -123,7 +175,7 @@ fn an_ensemble_has_the_statistics_of_its_points_however_they_are_shared_out() {
     assert_eq!(first["regimes"]["transient"], 8);
     assert!(first["period"].is_null());
     assert_eq!((&first["first"], &ensembles[1]["first"]), (&0.into(), &8.into()));
-    for name in ["mean_l", "deviation_l"] {
+    for name in ["mean_l", "deviation_l", "slip_distance"] {
         let mut numbers: Vec<f64> = points[..8].iter().filter_map(|p| p[name].as_f64()).collect();
         numbers.sort_by(f64::total_cmp);
         let (mean, deviation) = definitions(&numbers);

@@ -3,7 +3,7 @@
 use super::View;
 #[cfg(feature = "animation")]
 use super::labels::L;
-use super::labels::{EXTENSION, LAG, LAG_OF_STEADY_SUPPORT, SPRING, SPRING_FORCE};
+use super::labels::{ALPHA, EXTENSION, LAG, LAG_OF_STEADY_SUPPORT, N, R, SPRING, SPRING_FORCE, V0};
 use super::quantity::settle;
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
@@ -18,10 +18,16 @@ struct Axis {
 
 impl Axis {
     fn of(label: &str, scales: &KnownScales) -> Self {
+        let dimensionless = label;
         // The extension of the spring in σ is its force in kσ, which is what an instrument measures.
         let is_extension = [LAG.1, LAG_OF_STEADY_SUPPORT, SPRING].contains(&label);
-        let label = if is_extension && scales.force.is_some() { SPRING_FORCE } else { label };
-        scaled(label, scales).unwrap_or_else(|| Self { factor: 1.0, label: label.into() })
+        let label = match label {
+            R => V0,
+            ALPHA => N,
+            _ if is_extension && scales.force.is_some() => SPRING_FORCE,
+            _ => label,
+        };
+        scaled(label, scales).unwrap_or_else(|| Self { factor: 1.0, label: dimensionless.into() })
     }
 
     fn one(&self, value: &mut f64) {

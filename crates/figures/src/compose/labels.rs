@@ -4,6 +4,9 @@
 pub(super) const R: &str = "r = Γv₀/(kσ)";
 /// α, (13).
 pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
+/// Labels of the quantities that r and α are in proportion to, where their scales are known.
+pub(super) const V0: &str = "velocity of the support v₀ (kσ/Γ)";
+pub(super) const N: &str = "indentation rate N (k²σ²/(aΓ))";
 /// Labels of l against time.
 pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
 /// Labels of the tip's velocity against time.

@@ -167,7 +167,11 @@ impl Tabular for SweepDocument {
             ("source", Column::Words(words(|p| p.source.map(|source| source.to_string())), None)),
         ];
         let of_runs = self.parameters.run.iter().flat_map(|_| {
-            [("mean_l", number(|p| p.mean_l)), ("deviation_l", number(|p| p.deviation_l))]
+            [
+                ("mean_l", number(|p| p.mean_l)),
+                ("deviation_l", number(|p| p.deviation_l)),
+                ("slip_distance", number(|p| p.slip_distance)),
+            ]
         });
         widths.into_iter().chain(place).chain(axes).chain(found).chain(of_runs).collect()
     }

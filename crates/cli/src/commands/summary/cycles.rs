@@ -114,7 +114,17 @@ impl Product for SweepDocument {
                 (failed.clone().count() > 0).then(|| format!("{} failed", failed.clone().count())),
             )
             .collect();
-        let summary = Summary::new(format!("{} points: {}", self.points.len(), found.join(", ")));
+        let apart = match ensembles[..] {
+            [EnsembleDocument { slip_distance: Some(found), .. }] => {
+                let said = found
+                    .error
+                    .map_or_else(|| digits(found.mean, 7), |e| to_its_digits(found.mean, e));
+                format!("; slips {said} σ apart")
+            }
+            _ => String::new(),
+        };
+        let (count, found) = (self.points.len(), found.join(", "));
+        let summary = Summary::new(format!("{count} points: {found}{apart}"));
         let summary = counts
             .iter()
             .fold(summary, |summary, (regime, count)| summary.row(regime, count.to_string()));
@@ -144,12 +154,15 @@ fn statistics(summary: Summary, ensembles: &[&EnsembleDocument]) -> Summary {
                 .maybe("amplitude of u", ensemble.amplitude_u.as_ref().map(|s| spread(s, "kσ²/a")))
                 .maybe("mean of l", ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
                 .maybe("deviation of l", ensemble.deviation_l.as_ref().map(|s| spread(s, "σ")))
+                .maybe("distance of slips", ensemble.slip_distance.as_ref().map(|s| spread(s, "σ")))
         });
     }
     let row = |summary: Summary, ensemble: &&EnsembleDocument| {
-        let points =
-            format!("l, points {} to {}", ensemble.first, ensemble.first + ensemble.count - 1);
-        summary.maybe(&points, ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+        let last = ensemble.first + ensemble.count - 1;
+        let points = |of: &str| format!("{of}, points {} to {last}", ensemble.first);
+        summary
+            .maybe(&points("l"), ensemble.mean_l.as_ref().map(|s| spread(s, "σ")))
+            .maybe(&points("slips"), ensemble.slip_distance.as_ref().map(|s| spread(s, "σ")))
     };
     let summary = ensembles.iter().take(LISTED).fold(summary, row);
     let more = ensembles.len().saturating_sub(LISTED);

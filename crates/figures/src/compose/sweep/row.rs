@@ -16,15 +16,16 @@ type Statistics = fn(&EnsembleDocument) -> &Option<StatisticsDocument>;
 
 /// Panels of dots, one for each quantity that any point has; the first one if none has any.
 pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocument> {
-    let measures: [(&str, Measure, Statistics); 4] = [
+    let measures: [(&str, Measure, Statistics); 5] = [
         ("amplitude of x₀ (σ)", |p| p.amplitude_x0, |e| &e.amplitude_x0),
         ("period (Γ/k)", |p| p.period, |e| &e.period),
         ("mean of l (σ)", |p| p.mean_l, |e| &e.mean_l),
         ("deviation of l (σ)", |p| p.deviation_l, |e| &e.deviation_l),
+        ("distance of slips (σ)", |p| p.slip_distance, |e| &e.slip_distance),
     ];
     // Of motions that need not have settled, where there are several.
     let ensemble = document.ensembles.as_deref().unwrap_or_default().first();
-    let measures = &measures[..if ensemble.is_some() { 4 } else { 2 }];
+    let measures = &measures[..if ensemble.is_some() { 5 } else { 2 }];
     let is_there = |(_, value, _): &&(&str, Measure, Statistics)| {
         document.points.iter().any(|p| value(&p).is_some())
     };

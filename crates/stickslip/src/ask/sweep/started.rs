@@ -4,8 +4,10 @@ use crate::{
     Ask, Context, Failure, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
     SweepRunParameters, Tip,
 };
-use stickslip_outcome::{Motion, Observer, judge};
+use std::collections::VecDeque;
+use stickslip_outcome::{Motion, Observer, Regime, judge};
 use stickslip_surface::{Surface, ripple_behind};
+use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::{Collected, Model, Scenario, Step, collect_each};
 
 /// The run of this model.
@@ -43,12 +45,18 @@ pub(super) fn scenario(
 
 /// Number of samples of l in the second half of a run.
 const SAMPLES: usize = 2001;
+/// Largest number of extrema of l kept, the last ones.
+const MOST_EXTREMA: usize = 8192;
+/// Least number of slips with a mean distance.
+const FEWEST_SLIPS: usize = 3;
 
 /// Statistics of l in the second half of a run, accumulated during the run.
 struct Swing {
     r: f64,
     times: Vec<f64>,
     l: Vec<f64>,
+    /// Extrema of l since the first of the times.
+    extrema: VecDeque<Extremum>,
 }
 
 impl Swing {
@@ -57,7 +65,26 @@ impl Swing {
         let middle = f64::midpoint(start, end);
         let time = |i: usize| middle + (end - middle) * (i as f64 / (SAMPLES - 1) as f64);
         let times = (0..SAMPLES).map(time).collect();
-        Self { r: scenario.model.r(), times, l: Vec::with_capacity(SAMPLES) }
+        Self {
+            r: scenario.model.r(),
+            times,
+            l: Vec::with_capacity(SAMPLES),
+            extrema: VecDeque::new(),
+        }
+    }
+
+    /// Adds the extrema within a step.
+    fn turn(&mut self, step: &Step) {
+        if step.t < self.times[0] {
+            return;
+        }
+        let mut extrema = Extrema::default();
+        if extrema.observe(step, self.r) {
+            self.extrema.extend(extrema.latest_first(self.r).into_iter().rev());
+        }
+        while self.extrema.len() > MOST_EXTREMA {
+            self.extrema.pop_front();
+        }
     }
 
     fn take(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
@@ -74,6 +101,29 @@ impl Swing {
         let there = |value: f64| Some(value).filter(|_| self.l.len() == SAMPLES);
         (there(mean), there((squares / count).sqrt()))
     }
+
+    /// Mean distance of the tip between slips, and its standard error; slips are falls of l by more than `least`.
+    fn slip_distance(&self, least: f64) -> Option<(f64, f64)> {
+        let slips: Vec<f64> = slips(&self.extrema, least).map(|e| self.r * e.t - e.l).collect();
+        let count = slips.len().checked_sub(1).filter(|_| slips.len() >= FEWEST_SLIPS)? as f64;
+        let mean = (slips.last()? - slips.first()?) / count;
+        let squares: f64 = slips.windows(2).map(|pair| (pair[1] - pair[0] - mean).powi(2)).sum();
+        Some((mean, (squares / (count - 1.0) / count).sqrt()))
+    }
+}
+
+/// The maxima from which l falls by more than `least` before it rises by more than that.
+fn slips(extrema: &VecDeque<Extremum>, least: f64) -> impl Iterator<Item = Extremum> {
+    let (mut top, mut bottom): (Option<Extremum>, f64) = (None, f64::INFINITY);
+    extrema.iter().filter_map(move |extremum| {
+        bottom = bottom.min(extremum.l);
+        if extremum.l > top.map_or(bottom + least, |top| top.l) {
+            top = Some(*extremum);
+        }
+        let fallen = top.filter(|top| top.l - extremum.l > least)?;
+        (top, bottom) = (None, extremum.l);
+        Some(fallen)
+    })
 }
 
 /// Observer and statistics of a run.
@@ -87,6 +137,7 @@ impl Extend<Step> for Followed {
         for step in steps {
             self.observer.observe(&step);
             self.swing.take(&step, |t| t < step.end());
+            self.swing.turn(&step);
         }
     }
 }
@@ -116,8 +167,11 @@ fn ended(point: SweepPoint, scenario: &Scenario, run: Collected<Followed>) -> Sw
     let Collected { initial_surface, steps: Followed { observer, mut swing }, .. } = run;
     observer.last().iter().for_each(|last| swing.take(last, |t| t <= last.end()));
     let (mean_l, deviation_l) = swing.found();
-    let point = SweepPoint { mean_l, deviation_l, ..point };
     let outcome = judge(scenario, &initial_surface, &observer);
+    let oscillates = matches!(outcome.regime, Regime::StickSlip | Regime::Transient);
+    let distance = deviation_l.filter(|_| oscillates).and_then(|least| swing.slip_distance(least));
+    let (slip_distance, slip_distance_error) = distance.unzip();
+    let point = SweepPoint { mean_l, deviation_l, slip_distance, slip_distance_error, ..point };
     let ripple = outcome.oscillation.as_ref().zip(observer.tail()).map(|(found, tail)| {
         let surface = Surface::new(&scenario.model, &initial_surface, &tail);
         OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))

@@ -27,6 +27,9 @@ pub struct EnsembleDocument {
     pub mean_l: Option<StatisticsDocument>,
     /// Statistics of the standard deviation of l over the same time, in σ.
     pub deviation_l: Option<StatisticsDocument>,
+    /// Statistics of the mean distance of the slips in each run, in σ, whether its motion repeats itself or not.
+    #[serde(default)]
+    pub slip_distance: Option<StatisticsDocument>,
 }
 
 /// Number of points in each regime.
@@ -92,6 +95,7 @@ impl EnsembleDocument {
             amplitude_u: numbers(|point| point.amplitude_u),
             mean_l: numbers(|point| point.mean_l),
             deviation_l: numbers(|point| point.deviation_l),
+            slip_distance: numbers(|point| point.slip_distance),
         }
     }
 }

@@ -81,6 +81,13 @@ pub struct SweepPoint {
     /// Standard deviation of l at these times, σ, a measure of oscillation in stick-slip or by noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviation_l: Option<f64>,
+    /// Mean distance that the tip moves from one slip to the next, σ, in the second half of a requested run, periodic or
+    /// not. A slip is a fall of l by more than `deviation_l`. Null of steady and trapped tips, and with fewer than three slips.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip_distance: Option<f64>,
+    /// Standard error of `slip_distance`, σ, from the scatter of the distances.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip_distance_error: Option<f64>,
     /// Number of maxima of l in one period.
     pub slips: Option<usize>,
     /// Largest modulus of the Floquet multipliers except that of a shift in time; for cycles only. The error is at
@@ -113,6 +120,8 @@ impl SweepPoint {
             amplitude_u_error: None,
             mean_l: None,
             deviation_l: None,
+            slip_distance: None,
+            slip_distance_error: None,
             slips: None,
             multiplier: None,
             error: None,

@@ -120,7 +120,7 @@ impl<'de> Visitor<'de> for Points {
 }
 
 /// Number of fields of a point that are a number or nothing.
-const NUMBERS: usize = 15;
+const NUMBERS: usize = 17;
 
 /// These fields, in the order in which they are packed.
 fn numbers(point: &mut SweepPoint) -> [&mut Option<f64>; NUMBERS] {
@@ -139,6 +139,8 @@ fn numbers(point: &mut SweepPoint) -> [&mut Option<f64>; NUMBERS] {
         &mut point.amplitude_u_error,
         &mut point.mean_l,
         &mut point.deviation_l,
+        &mut point.slip_distance,
+        &mut point.slip_distance_error,
         &mut point.multiplier,
     ]
 }
@@ -154,7 +156,7 @@ const REGIMES: [RegimeName; 6] = [
 const SOURCES: [SourceName; 3] = [SourceName::Stability, SourceName::Cycle, SourceName::Run];
 
 /// Bytes of a point besides its numbers and its error.
-const SHORT: usize = 24;
+const SHORT: usize = 26;
 
 /// Appends a point: its index and r, which of the other fields it has, and these.
 fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
@@ -162,7 +164,7 @@ fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
     let (at, error) = (std::mem::take(&mut point.at), point.error.take());
     let numbers = numbers(&mut point).map(|value| *value);
     let has = numbers.iter().enumerate();
-    let has = has.fold(0_u16, |has, (i, value)| has | (u16::from(value.is_some()) << i));
+    let has = has.fold(0_u32, |has, (i, value)| has | (u32::from(value.is_some()) << i));
     let place = |found: Option<usize>| found.map_or(0, |place| place as u8 + 1);
     let regime = place(REGIMES.iter().position(|known| Some(*known) == regime));
     let source = place(SOURCES.iter().position(|known| Some(*known) == source));
@@ -181,7 +183,7 @@ fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
 fn unpack(bytes: &mut &[u8]) -> SweepPoint {
     let index = index(bytes);
     let r = f64::from_le_bytes(take(bytes));
-    let has = u16::from_le_bytes(take(bytes));
+    let has = u32::from_le_bytes(take(bytes));
     let [kind, axes] = take(bytes);
     let [slips, error] =
         [6, 7].map(|bit| (kind >> bit & 1 == 1).then(|| u32::from_le_bytes(take(bytes)) as usize));

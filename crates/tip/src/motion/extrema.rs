@@ -91,6 +91,11 @@ impl Extrema {
     }
 }
 
+/// Calls `found` with each extremum of l within a step, in order of time.
+pub fn extrema_within(step: &Step, r: f64, mut found: impl FnMut(Extremum)) {
+    turns(step, r, |turn| found(turn.extremum(r)));
+}
+
 /// The last extrema of a trajectory, latest first.
 pub fn latest_extrema(trajectory: &Trajectory) -> Vec<Extremum> {
     let mut extrema = Extrema::default();

@@ -4,5 +4,5 @@
 mod extrema;
 mod oscillation;
 
-pub use extrema::{Extrema, Extremum, latest_extrema};
+pub use extrema::{Extrema, Extremum, extrema_within, latest_extrema};
 pub use oscillation::Oscillation;

@@ -116,10 +116,7 @@ impl Product for SweepDocument {
             .collect();
         let apart = match ensembles[..] {
             [EnsembleDocument { slip_distance: Some(found), .. }] => {
-                let said = found
-                    .error
-                    .map_or_else(|| digits(found.mean, 7), |e| to_its_digits(found.mean, e));
-                format!("; slips {said} σ apart")
+                format!("; slips {} σ apart", mean(found))
             }
             _ => String::new(),
         };
@@ -169,11 +166,12 @@ fn statistics(summary: Summary, ensembles: &[&EnsembleDocument]) -> Summary {
     summary.maybe("more ensembles", (more > 0).then(|| more.to_string()))
 }
 
+fn mean(of: &StatisticsDocument) -> String {
+    of.error.map_or_else(|| digits(of.mean, 7), |error| to_its_digits(of.mean, error))
+}
+
 fn spread(of: &StatisticsDocument, unit: &str) -> String {
-    let mean = match of.error {
-        Some(error) => to_its_digits(of.mean, error),
-        None => digits(of.mean, 7),
-    };
+    let mean = mean(of);
     let deviation = of.deviation.map_or(String::new(), |d| format!("spread {}, ", digits(d, 3)));
     let [least, largest] = [of.least, of.largest].map(|value| digits(value, 5));
     format!("mean of {}: {mean}, {deviation}{least} to {largest} {unit}", of.count)

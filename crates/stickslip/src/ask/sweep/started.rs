@@ -7,7 +7,7 @@ use crate::{
 use std::collections::VecDeque;
 use stickslip_outcome::{Motion, Observer, Regime, judge};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::motion::{Extrema, Extremum};
+use stickslip_tip::motion::{Extremum, extrema_within};
 use stickslip_tip::{Collected, Model, Scenario, Step, collect_each};
 
 /// The run of this model.
@@ -78,10 +78,7 @@ impl Swing {
         if step.t < self.times[0] {
             return;
         }
-        let mut extrema = Extrema::default();
-        if extrema.observe(step, self.r) {
-            self.extrema.extend(extrema.latest_first(self.r).into_iter().rev());
-        }
+        extrema_within(step, self.r, |extremum| self.extrema.push_back(extremum));
         while self.extrema.len() > MOST_EXTREMA {
             self.extrema.pop_front();
         }

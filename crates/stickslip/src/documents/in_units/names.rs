@@ -7,9 +7,10 @@ pub(super) const DIMENSIONLESS: [&str; 7] =
     ["parameters", "history", "work", "software", "verification", "physical", "floquet"];
 
 /// The dimension of the number, or of the numbers, called `name` in the part called `part` (empty for a column of a
-/// table); `None` if it has none.
+/// table); `None` if it has none. An error has that of its quantity.
 pub fn dimension(part: &str, name: &str) -> Option<Dimension> {
-    of_part(part, name).or_else(|| of_name(name))
+    let quantity = name.strip_suffix("_error");
+    of_part(part, name).or_else(|| of_name(name)).or_else(|| quantity.and_then(of_name))
 }
 
 /// The dimension of a number whose name alone is ambiguous.
@@ -29,50 +30,21 @@ fn of_part(part: &str, name: &str) -> Option<Dimension> {
 
 fn of_name(name: &str) -> Option<Dimension> {
     Some(match name {
-        "x"
-        | "x0"
-        | "y"
-        | "y0"
-        | "amplitude_y0"
-        | "amplitude_y0_error"
-        | "kick_across"
-        | "l"
-        | "lag"
-        | "wavelength"
-        | "wavelength_error"
-        | "wavelength_x"
-        | "amplitude_x0"
-        | "amplitude_x0_error"
-        | "deviation"
-        | "mean_l"
-        | "deviation_l"
-        | "slip_distance"
-        | "slip_distance_error"
-        | "memory_length"
-        | "pitch"
-        | "width"
-        | "start_position"
-        | "kick"
-        | "noise_spacing"
-        | "residue_re"
-        | "residue_im"
-        | "grid"
-        | "closed"
-        | "grid_x0"
-        | "closed_x0"
-        | "grid_y0"
-        | "closed_y0"
-        | "radius"
-        | "center_x"
-        | "center_y" => Dimension::LENGTH,
-        "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "amplitude_u_error"
-        | "least_depth_limit" | "depth_limit" | "noise" | "grid_u" | "closed_u" => {
-            Dimension::HEIGHT
+        "x" | "x0" | "y" | "y0" | "amplitude_y0" | "kick_across" | "l" | "lag" | "wavelength"
+        | "wavelength_x" | "amplitude_x0" | "deviation" | "mean_l" | "deviation_l"
+        | "slip_distance" | "memory_length" | "pitch" | "width" | "start_position" | "kick"
+        | "noise_spacing" | "residue_re" | "residue_im" | "grid" | "closed" | "grid_x0"
+        | "closed_x0" | "grid_y0" | "closed_y0" | "radius" | "center_x" | "center_y" => {
+            Dimension::LENGTH
         }
-        "t" | "period" | "period_error" | "period_slope" | "origin" | "valid_from"
-        | "healing_time" => Dimension::TIME,
-        "velocity" | "velocity_y" | "velocity_error" | "speed" | "free_speed" | "residual"
-        | "start_velocity" => Dimension::VELOCITY,
+        "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "least_depth_limit"
+        | "depth_limit" | "noise" | "grid_u" | "closed_u" => Dimension::HEIGHT,
+        "t" | "period" | "period_slope" | "origin" | "valid_from" | "healing_time" => {
+            Dimension::TIME
+        }
+        "velocity" | "velocity_y" | "speed" | "free_speed" | "residual" | "start_velocity" => {
+            Dimension::VELOCITY
+        }
         "omega" | "omega_slope" | "growth_slope" | "re" | "im" | "re_min" | "re_max" | "im_max"
         | "largest_error" | "lambda_re" | "lambda_im" => Dimension::RATE,
         "Omega" | "q" | "kappa" | "rate" | "attracting" | "creep_rates" => Dimension::WAVE_NUMBER,

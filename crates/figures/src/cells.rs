@@ -1,40 +1,35 @@
 //! Categories over a grid as coloured cells; equal neighbours of a column are merged.
 
 use crate::curve::Frame;
+use crate::drawing::{Drawing, Paint, Path, Rect, Step};
 use crate::style::colour;
-use crate::svg::{Paint, Svg, number};
-use std::fmt::Write;
 use stickslip::CellsDocument;
 
 /// Draws the cells, a path for each category. Each extends half-way to its neighbours, and those at the ends
 /// symmetrically unless the axes cut them.
-pub(crate) fn draw(cells: &CellsDocument, frame: Frame, svg: &mut Svg) {
+pub(crate) fn draw(cells: &CellsDocument, frame: Frame, drawing: &mut Drawing) {
     let (x, y) = (edges(&cells.x), edges(&cells.y));
     for (kind, name) in cells.colours.iter().enumerate() {
-        let mut path = String::new();
+        let mut path = Path::default();
         for i in 0..cells.x.len() {
             let here = |row: &Vec<Option<usize>>| row.get(i).copied().flatten() == Some(kind);
             let mut from = 0;
             for piece in cells.kinds.chunk_by(|a, b| here(a) == here(b)) {
                 let to = from + piece.len();
                 if here(&piece[0]) {
-                    push(frame, (x[i], x[i + 1]), (y[from], y[to]), &mut path);
+                    path.0.extend(cell(frame, (x[i], x[i + 1]), (y[from], y[to])));
                 }
                 from = to;
             }
         }
-        svg.path(&path, Paint { crisp: true, ..Paint::fill(colour(*name)) });
+        drawing.path(path, Paint { crisp: true, ..Paint::fill(colour(*name)) });
     }
 }
 
-fn push(frame: Frame, x: (f64, f64), y: (f64, f64), path: &mut String) {
-    let (Some((left, bottom)), Some((right, top))) =
-        (frame.place((x.0, y.0)), frame.place((x.1, y.1)))
-    else {
-        return;
-    };
-    let [left, right, top, bottom] = [left, right, top, bottom].map(number);
-    let _ = write!(path, "M{left} {bottom}H{right}V{top}H{left}Z");
+fn cell(frame: Frame, x: (f64, f64), y: (f64, f64)) -> Option<Step> {
+    let (left, bottom) = frame.place((x.0, y.0))?;
+    let (right, top) = frame.place((x.1, y.1))?;
+    Some(Step::Rect(Rect { left, top, right, bottom }))
 }
 
 /// The values in ascending order, with the index of each.

@@ -1,9 +1,10 @@
 //! Colour scales for heights, suitable for colour-blind readers and for print.
 
+use crate::style::Colour;
 use stickslip::ColoursName;
 
 /// The colour at a position on the scale, 0 to 1.
-pub(crate) fn at(colours: ColoursName, part: f64) -> [u8; 3] {
+pub(crate) fn at(colours: ColoursName, part: f64) -> Colour {
     let part = part.clamp(0.0, 1.0);
     let of = |gradient: colorous::Gradient, part| {
         let colour = gradient.eval_continuous(part);
@@ -18,7 +19,7 @@ pub(crate) fn at(colours: ColoursName, part: f64) -> [u8; 3] {
 }
 
 /// The colour in SVG notation.
-pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
+pub(crate) fn hex([r, g, b]: Colour) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 

@@ -1,10 +1,9 @@
 //! Conversion of curves from data to paths and marks within the axes.
 
 use crate::axis::{Axis, drawable};
-use crate::style::{BAND_OPACITY, Mark, Pen, SHADE_OPACITY, Shape, colour};
-use crate::svg::{Paint, Rect, Svg, number, polyline};
+use crate::drawing::{Drawing, Paint, Path, Rect, Step, polygon, polyline};
+use crate::style::{BAND_OPACITY, Colour, Mark, PAPER, Pen, SHADE_OPACITY, Shape, colour};
 use crate::thin::{Point, thin};
-use std::fmt::Write;
 use stickslip::{ColourName, CurveDocument, StyleName};
 
 /// Approximate largest number of points of all lines in a panel, so that a file with three panels stays below 300 kB
@@ -29,13 +28,13 @@ impl Frame<'_> {
     }
 
     /// Draws one of `of` curves.
-    pub(crate) fn draw(&self, curve: &CurveDocument, of: usize, svg: &mut Svg) {
+    pub(crate) fn draw(&self, curve: &CurveDocument, of: usize, drawing: &mut Drawing) {
         let pen = Pen::of(curve.style, curve.colour);
         match pen.mark {
-            Mark::Band => self.band(curve, pen, svg),
+            Mark::Band => self.band(curve, pen, drawing),
             Mark::Line { width, dashes } => {
                 if curve.style == StyleName::Boundary {
-                    self.shade_above(curve, svg);
+                    self.shade_above(curve, drawing);
                 }
                 let columns = (self.at.width() as usize).min(POINTS / (2 * of.max(1))).max(2);
                 let across = (self.at.left, self.at.right);
@@ -43,25 +42,25 @@ impl Frame<'_> {
                     let stretch = thin(stretch, across, columns);
                     if let [(x, y)] = stretch[..] {
                         // A line of a single point would not show.
-                        svg.path(&shape((x, y), Shape::Disc, 3.0), Paint::fill(pen.colour));
+                        drawing.path(shape((x, y), Shape::Disc, 3.0), Paint::fill(pen.colour));
                         continue;
                     }
                     let path = if curve.smooth { smooth(&stretch) } else { polyline(&stretch) };
                     if self.haloed {
-                        svg.path(&path, Paint::stroke("#ffffff", width + 3.0));
+                        drawing.path(path.clone(), Paint::stroke(PAPER, width + 3.0));
                     }
-                    svg.path(&path, Paint { dashes, ..Paint::stroke(pen.colour, width) });
+                    drawing.path(path, Paint { dashes, ..Paint::stroke(pen.colour, width) });
                 }
             }
             Mark::Point { shape: of, radius, filled } => {
                 let places =
                     curve.x.iter().zip(&curve.y).filter_map(|(x, y)| self.place((*x, (*y)?)));
                 let inside = places.filter(|p| self.is_near(*p));
-                let path: String = inside.map(|place| shape(place, of, radius)).collect();
+                let path = Path(inside.flat_map(|place| shape(place, of, radius).0).collect());
                 if self.haloed {
-                    svg.path(&path, Paint::stroke("#ffffff", 4.6));
+                    drawing.path(path.clone(), Paint::stroke(PAPER, 4.6));
                 }
-                svg.path(&path, marked(pen.colour, filled));
+                drawing.path(path, marked(pen.colour, filled));
             }
         }
     }
@@ -98,7 +97,7 @@ impl Frame<'_> {
     }
 
     /// Draws the area between a curve and the top of the axes.
-    fn shade_above(&self, curve: &CurveDocument, svg: &mut Svg) {
+    fn shade_above(&self, curve: &CurveDocument, drawing: &mut Drawing) {
         let across = (self.at.left, self.at.right);
         for stretch in self.stretches(&curve.x, &curve.y) {
             let mut area = thin(stretch, across, self.at.width() as usize);
@@ -108,21 +107,21 @@ impl Frame<'_> {
             area.extend([(last.0, self.at.top), (first.0, self.at.top)]);
             let ground = colour(ColourName::Vermillion);
             let paint = Paint { fill_opacity: Some(SHADE_OPACITY), ..Paint::fill(ground) };
-            svg.path(&(polyline(&area) + "Z"), paint);
+            drawing.path(polygon(&area), paint);
         }
     }
 
     /// Draws the area between two curves, with its edges.
-    fn band(&self, curve: &CurveDocument, pen: Pen, svg: &mut Svg) {
+    fn band(&self, curve: &CurveDocument, pen: Pen, drawing: &mut Drawing) {
         let none = vec![];
         let low = curve.low.as_ref().unwrap_or(&none);
         let (above, below) = (self.stretches(&curve.x, &curve.y), self.stretches(&curve.x, low));
         for (above, below) in above.iter().zip(&below) {
             let area: Vec<Point> = above.iter().chain(below.iter().rev()).copied().collect();
             let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(pen.colour) };
-            svg.path(&(polyline(&area) + "Z"), paint);
+            drawing.path(polygon(&area), paint);
             for edge in [above, below] {
-                svg.path(&polyline(edge), Paint::stroke(pen.colour, 1.2));
+                drawing.path(polyline(edge), Paint::stroke(pen.colour, 1.2));
             }
         }
     }
@@ -134,7 +133,7 @@ pub(crate) fn is_empty(curve: &CurveDocument) -> bool {
 }
 
 /// Paint of a mark: filled, or an outline with a translucent white interior.
-pub(crate) fn marked(colour: &str, filled: bool) -> Paint<'_> {
+pub(crate) fn marked(colour: Colour, filled: bool) -> Paint {
     if filled {
         return Paint::fill(colour);
     }
@@ -142,18 +141,14 @@ pub(crate) fn marked(colour: &str, filled: bool) -> Paint<'_> {
 }
 
 /// The outline of a mark.
-pub(crate) fn shape((x, y): Point, of: Shape, radius: f64) -> String {
+pub(crate) fn shape((x, y): Point, of: Shape, radius: f64) -> Path {
     let corners = |corners: &[Point]| {
         let places: Vec<Point> =
             corners.iter().map(|c| (x + radius * c.0, y + radius * c.1)).collect();
-        polyline(&places) + "Z"
+        polygon(&places)
     };
     match of {
-        Shape::Disc => {
-            let (r, across) = (number(radius), number(2.0 * radius));
-            let (left, y) = (number(x - radius), number(y));
-            format!("M{left} {y}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 -{across} 0Z")
-        }
+        Shape::Disc => Path(vec![Step::Disc((x, y), radius)]),
         Shape::Triangle => corners(&[(0.0, -1.0), (0.866, 0.5), (-0.866, 0.5)]),
         Shape::Down => corners(&[(0.0, 1.0), (-0.7, -0.5), (0.7, -0.5)]),
         Shape::Square => corners(&[(-0.8, -0.8), (0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)]),
@@ -162,7 +157,7 @@ pub(crate) fn shape((x, y): Point, of: Shape, radius: f64) -> String {
 }
 
 /// A centripetal Catmull-Rom spline through the points, as Bézier arcs: no kinks, no loops.
-fn smooth(points: &[Point]) -> String {
+fn smooth(points: &[Point]) -> Path {
     let mut distinct = points.to_vec();
     distinct.dedup_by(|a, b| (a.0 - b.0).hypot(a.1 - b.1) < 1e-3);
     if distinct.len() < 3 {
@@ -172,10 +167,7 @@ fn smooth(points: &[Point]) -> String {
     let mut path = polyline(&distinct[..1]);
     for i in 0..distinct.len() as isize - 1 {
         let [before, from, to, after] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-        let (a, b) = (handle(before, from, to), handle(after, to, from));
-        let n = number;
-        let _ =
-            write!(path, "C{} {} {} {} {} {}", n(a.0), n(a.1), n(b.0), n(b.1), n(to.0), n(to.1));
+        path.0.push(Step::Curve(handle(before, from, to), handle(after, to, from), to));
     }
     path
 }
@@ -206,9 +198,10 @@ mod tests {
     fn drawn(curve: &CurveDocument) -> String {
         let (x, y) = (axis(0.0, 10.0), axis(0.0, 1.0));
         let at = Rect { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
-        let mut svg = Svg::default();
-        Frame { x: &x, y: &y, at, haloed: false }.draw(curve, 1, &mut svg);
-        svg.finish((100.0, 100.0), ("100".into(), "100".into()))
+        let mut drawing = Drawing::default();
+        Frame { x: &x, y: &y, at, haloed: false }.draw(curve, 1, &mut drawing);
+        let size = ("100".into(), "100".into());
+        crate::svg::document(&drawing, (100.0, 100.0), &size).unwrap()
     }
 
     #[test]
@@ -231,9 +224,11 @@ mod tests {
     #[test]
     fn a_smooth_line_passes_its_points_and_keeps_to_a_straight_one() {
         let path = smooth(&[(0.0, 0.0), (10.0, 10.0), (30.0, 30.0), (40.0, 40.0)]);
-        assert!(path.starts_with("M0 0C3.33 3.33 ") && path.ends_with(" 40 40"), "{path}");
-        let numbers: Vec<f64> =
-            path.split(['M', 'C', ' ']).filter_map(|number| number.parse().ok()).collect();
-        assert!(numbers.chunks(2).all(|p| (p[0] - p[1]).abs() < 1e-9), "{path}");
+        assert!(path.0.len() == 4 && path.0[0] == Step::Move((0.0, 0.0)), "{path:?}");
+        for (step, end) in path.0[1..].iter().zip([10.0, 30.0, 40.0]) {
+            let Step::Curve(a, b, to) = *step else { panic!("{path:?}") };
+            assert!([a, b, to].iter().all(|p| (p.0 - p.1).abs() < 1e-9), "{path:?}");
+            assert_eq!(to, (end, end));
+        }
     }
 }

@@ -44,9 +44,6 @@ pub enum FigureError {
     /// The document contains invalid data.
     #[error("the document is damaged: {0}")]
     Damaged(String),
-    /// The SVG cannot be read.
-    #[error("the SVG is unreadable: {0}")]
-    Svg(String),
     /// The picture is too large, in pixels.
     #[error("{0} by {1} pixels are too many: choose a smaller width or fewer pixels per inch")]
     Pixels(u64, u64),

@@ -1,8 +1,8 @@
 //! The legend: samples and names in rows above the axes.
 
 use crate::curve::{is_empty, marked, shape};
-use crate::style::{BAND_OPACITY, LEGEND_SIZE, Mark, Pen, Shape, colour};
-use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::drawing::{Anchor, Drawing, Paint, Rect, Text};
+use crate::style::{BAND_OPACITY, Colour, LEGEND_SIZE, Mark, Pen, Shape, colour};
 use crate::text::width;
 use stickslip::PanelDocument;
 
@@ -23,7 +23,7 @@ struct Entry<'a> {
 #[derive(Debug, Clone, Copy)]
 enum Sample {
     Curve(Pen),
-    Cell(&'static str),
+    Cell(Colour),
 }
 
 /// Entries of a legend with their positions, in units from the upper left corner.
@@ -53,13 +53,14 @@ impl<'a> Legend<'a> {
         ROW * self.rows as f64
     }
 
-    pub(crate) fn draw(&self, left: f64, top: f64, svg: &mut Svg) {
+    pub(crate) fn draw(&self, left: f64, top: f64, drawing: &mut Drawing) {
         let top = top - 0.15 * ROW;
         for (x, y, entry) in &self.entries {
-            entry.sample.draw((left + x, top + y), svg);
+            entry.sample.draw((left + x, top + y), drawing);
             let x = left + x + entry.sample.length() + GAP;
-            let (y, label, size) = (top + y + 0.35 * LEGEND_SIZE, entry.name, LEGEND_SIZE);
-            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
+            let (y, size) = (top + y + 0.35 * LEGEND_SIZE, LEGEND_SIZE);
+            let label = entry.name.to_owned();
+            drawing.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
         }
     }
 }
@@ -90,24 +91,25 @@ impl Sample {
         }
     }
 
-    fn draw(self, (x, y): (f64, f64), svg: &mut Svg) {
+    fn draw(self, (x, y): (f64, f64), drawing: &mut Drawing) {
         let (left, right) = (x, x + self.length());
         match self {
             Self::Cell(colour) => {
-                svg.rect(Rect { left, right, top: y - 8.0, bottom: y + 8.0 }, Paint::fill(colour));
+                drawing
+                    .rect(Rect { left, right, top: y - 8.0, bottom: y + 8.0 }, Paint::fill(colour));
             }
             Self::Curve(Pen { colour, mark: Mark::Line { width, dashes } }) => {
                 let paint = Paint { dashes, ..Paint::stroke(colour, width + 0.4) };
-                svg.segment((left, y), (right, y), paint);
+                drawing.segment((left, y), (right, y), paint);
             }
             Self::Curve(Pen { colour, mark: Mark::Band }) => {
                 let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(colour) };
-                svg.rect(Rect { left, right, top: y - 6.0, bottom: y + 6.0 }, paint);
+                drawing.rect(Rect { left, right, top: y - 6.0, bottom: y + 6.0 }, paint);
             }
             Self::Curve(Pen { colour, mark: Mark::Point { shape: of, radius, filled } }) => {
                 let radius = if of == Shape::Disc { radius.max(3.0) } else { radius };
                 let path = shape((0.5 * (left + right), y), of, radius);
-                svg.path(&path, marked(colour, filled));
+                drawing.path(path, marked(colour, filled));
             }
         }
     }

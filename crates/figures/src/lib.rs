@@ -6,8 +6,8 @@
 //!
 //! `animate` returns an animation of a run or a raster, made of a `Scene`: axes that stay, and their content at any time.
 //!
-//! Features: `png` rasterises by resvg, `pdf` writes vector graphics with texts as outlines, `animation` writes GIF, WebP
-//! and APNG. All contain the font DejaVu Sans; an SVG file only names it, and the viewer supplies it.
+//! Features: `png` paints pixels, `pdf` writes vector graphics, `animation` writes GIF, WebP and APNG. All have texts as outlines
+//! of the font DejaVu Sans; an SVG file only names it, and the viewer supplies it.
 
 #[cfg(feature = "animation")]
 mod animation;
@@ -16,10 +16,13 @@ mod cells;
 mod colours;
 mod compose;
 mod curve;
+mod drawing;
 mod encode;
 mod error;
 mod format;
 mod legend;
+#[cfg(any(feature = "png", feature = "pdf"))]
+mod letters;
 mod map;
 mod number;
 mod panel;
@@ -39,8 +42,6 @@ mod tests;
 mod text;
 mod thin;
 mod ticks;
-#[cfg(any(feature = "png", feature = "pdf"))]
-mod vector;
 
 #[cfg(feature = "animation")]
 pub use animation::{Film, animate};

@@ -1,11 +1,10 @@
 //! Height maps: one colour for each height, and a colour bar.
 
 use crate::axis::{Axis, Fit, extremes};
-use crate::colours::{at, hex};
-use crate::error::FigureError;
-use crate::picture::data_url;
+use crate::colours::at;
+use crate::drawing::{Anchor, Drawing, Paint, Rect, Text, polygon};
+use crate::picture::Picture;
 use crate::style::{INK, LABEL_SIZE, TICK_SIZE};
-use crate::svg::{Anchor, Paint, Rect, Svg, Text, polyline};
 use crate::text::width;
 use stickslip::{ColoursName, MapDocument, ScaleName};
 
@@ -62,58 +61,57 @@ impl<'a> Map<'a> {
     }
 
     /// Draws the image, stretched over the axes.
-    pub(crate) fn draw(&self, axes: Rect, svg: &mut Svg) -> Result<(), FigureError> {
+    pub(crate) fn draw(&self, axes: Rect, drawing: &mut Drawing) {
         let ((from, to), (first, last)) = (self.columns, self.rows);
         let rows: Vec<&[f64]> =
             self.document.z[first..last].iter().map(|row| &row[from..to]).collect();
         let part = |z: f64| self.scale.part(z).unwrap_or(0.0);
-        svg.image(axes, &data_url(&rows, |z| at(self.document.colours, part(z)))?);
-        Ok(())
+        drawing.image(axes, Picture::of(&rows, |z| at(self.document.colours, part(z))));
     }
 
     /// Draws a triangle at each end of the bar beyond which there are values.
-    fn draw_ends(&self, bar: Rect, svg: &mut Svg) {
+    fn draw_ends(&self, bar: Rect, drawing: &mut Drawing) {
         let middle = 0.5 * (bar.left + bar.right);
         let (below, above) = self.clipped;
         let ends = [(below, bar.bottom, BEYOND, 0.0), (above, bar.top, -BEYOND, 1.0)];
         for (_, y, height, part) in ends.into_iter().filter(|end| end.0) {
             let corners = [(bar.left, y), (middle, y + height), (bar.right, y)];
-            let colour = hex(at(self.document.colours, part));
-            let paint = Paint { fill: Some(&colour), ..Paint::stroke(INK, 1.0) };
-            svg.path(&(polyline(&corners) + "Z"), paint);
+            let fill = Some(at(self.document.colours, part));
+            drawing.path(polygon(&corners), Paint { fill, ..Paint::stroke(INK, 1.0) });
         }
     }
 
     /// Draws the bar and its numbers, to the right of the axes.
-    pub(crate) fn draw_bar(&self, axes: Rect, svg: &mut Svg) {
+    pub(crate) fn draw_bar(&self, axes: Rect, drawing: &mut Drawing) {
         let left = axes.right + BAR_GAP;
         let bar = Rect { left, right: left + BAR, ..axes };
         let step = bar.height() / BAR_STEPS as f64;
         for i in 0..BAR_STEPS {
-            let colour = hex(at(self.document.colours, (i as f64 + 0.5) / BAR_STEPS as f64));
+            let colour = at(self.document.colours, (i as f64 + 0.5) / BAR_STEPS as f64);
             let bottom = bar.bottom - step * i as f64;
             // The next one covers what is more: no seam is left.
             let top = (bottom - step - 0.5).max(bar.top);
-            svg.rect(Rect { top, bottom, ..bar }, Paint::fill(&colour));
+            drawing.rect(Rect { top, bottom, ..bar }, Paint::fill(colour));
         }
-        svg.rect(bar, Paint::stroke(INK, 1.0));
-        self.draw_ends(bar, svg);
+        drawing.rect(bar, Paint::stroke(INK, 1.0));
+        self.draw_ends(bar, drawing);
         let mut free = f64::INFINITY;
         for (value, label) in self.scale.labelled() {
             let y = bar.bottom - bar.height() * self.scale.part(value).unwrap_or(0.0);
-            svg.segment((bar.right, y), (bar.right + 5.0, y), Paint::stroke(INK, 1.0));
+            drawing.segment((bar.right, y), (bar.right + 5.0, y), Paint::stroke(INK, 1.0));
             // A number that would run into the one below is left out.
             if y > free {
                 continue;
             }
             free = y - 1.2 * TICK_SIZE;
             let (x, y, size) = (bar.right + 9.0, y + 0.35 * TICK_SIZE, TICK_SIZE);
-            svg.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
+            let label = label.to_owned();
+            drawing.text(Text { x, y, label, size, anchor: Anchor::Start, upright: false });
         }
         let x = axes.right + self.margin_right() - 0.4 * LABEL_SIZE;
         let y = 0.5 * (axes.top + axes.bottom);
-        let (label, size, anchor) = (self.document.z_label.as_str(), LABEL_SIZE, Anchor::Middle);
-        svg.text(Text { x, y, label, size, anchor, upright: true });
+        let (label, size, anchor) = (self.document.z_label.clone(), LABEL_SIZE, Anchor::Middle);
+        drawing.text(Text { x, y, label, size, anchor, upright: true });
     }
 }
 

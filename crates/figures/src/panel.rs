@@ -3,11 +3,10 @@
 use crate::axis::{Axis, Fit};
 use crate::cells;
 use crate::curve::{Frame, shape};
-use crate::error::FigureError;
+use crate::drawing::{Anchor, Drawing, Paint, Rect, Text};
 use crate::legend::Legend;
 use crate::map::Map;
-use crate::style::{GRID, INK, LABEL_SIZE, Pen, SHADE_OPACITY, Shape, TICK_SIZE, colour};
-use crate::svg::{Anchor, Paint, Rect, Svg, Text};
+use crate::style::{GRID, INK, LABEL_SIZE, PAPER, Pen, SHADE_OPACITY, Shape, TICK_SIZE, colour};
 use crate::text::{width, wrapped};
 use stickslip::{ArrowName, ColourName, PanelDocument};
 
@@ -86,45 +85,44 @@ impl<'a> Panel<'a> {
         space: Rect,
         (left, right): (f64, f64),
         at: Rect,
-        svg: &mut Svg,
-    ) -> Result<(), FigureError> {
+        drawing: &mut Drawing,
+    ) {
         let legend = Legend::of(self.document, right - left);
         let heading = self.heading(right - left);
         let legend_top = at.top - legend.height();
         let heading_top = legend_top - HEADING_LINE * heading.len() as f64;
         let frame = self.frame(at);
         if let Some(map) = &self.map {
-            map.draw(at, svg)?;
+            map.draw(at, drawing);
         }
-        self.ground(frame, svg);
-        svg.open_clip(at);
+        self.ground(frame, drawing);
+        drawing.clip(at);
         if let Some(cells) = &self.document.cells {
-            cells::draw(cells, frame, svg);
+            cells::draw(cells, frame, drawing);
         }
         let is_line = |style| Pen::of(style, None).is_line();
         let lines = self.document.curves.iter().filter(|c| is_line(c.style)).count();
         for curve in &self.document.curves {
-            frame.draw(curve, lines, svg);
+            frame.draw(curve, lines, drawing);
         }
-        svg.close();
-        self.notes(frame, svg);
-        svg.rect(at, Paint::stroke(INK, 1.2));
-        self.ticks(frame, svg);
-        self.labels(space, at, svg);
-        for (i, label) in heading.iter().enumerate() {
+        drawing.unclip();
+        self.notes(frame, drawing);
+        drawing.rect(at, Paint::stroke(INK, 1.2));
+        self.ticks(frame, drawing);
+        self.labels(space, at, drawing);
+        for (i, label) in heading.into_iter().enumerate() {
             let (x, size, anchor) = (left, LABEL_SIZE, Anchor::Start);
             let y = heading_top + HEADING_LINE * i as f64 + 0.65 * size;
-            svg.text(Text { x, y, label, size, anchor, upright: false });
+            drawing.text(Text { x, y, label, size, anchor, upright: false });
         }
-        legend.draw(left, legend_top, svg);
+        legend.draw(left, legend_top, drawing);
         if let Some(map) = &self.map {
-            map.draw_bar(at, svg);
+            map.draw_bar(at, drawing);
         }
-        Ok(())
     }
 
     /// Draws shaded intervals and grid lines.
-    fn ground(&self, frame: Frame, svg: &mut Svg) {
+    fn ground(&self, frame: Frame, drawing: &mut Drawing) {
         let at = frame.at;
         for [from, to] in &self.document.shades {
             let place = |x: f64| {
@@ -133,7 +131,7 @@ impl<'a> Panel<'a> {
             };
             let ground = Paint::fill(colour(ColourName::Vermillion));
             let (left, right) = (place(*from), place(*to));
-            svg.rect(
+            drawing.rect(
                 Rect { left, right, ..at },
                 Paint { fill_opacity: Some(SHADE_OPACITY), ..ground },
             );
@@ -143,10 +141,10 @@ impl<'a> Panel<'a> {
         }
         let grid = Paint::stroke(GRID, 1.0);
         for (x, _) in self.x.labelled().filter_map(|(x, l)| Some((self.x_of(x, at)?, l))) {
-            svg.segment((x, at.top), (x, at.bottom), grid);
+            drawing.segment((x, at.top), (x, at.bottom), grid);
         }
         for (y, _) in self.y.labelled().filter_map(|(y, l)| Some((self.y_of(y, at)?, l))) {
-            svg.segment((at.left, y), (at.right, y), grid);
+            drawing.segment((at.left, y), (at.right, y), grid);
         }
     }
 
@@ -159,40 +157,40 @@ impl<'a> Panel<'a> {
     }
 
     /// Draws the ticks outwards, minor ones shorter, and their labels.
-    fn ticks(&self, frame: Frame, svg: &mut Svg) {
+    fn ticks(&self, frame: Frame, drawing: &mut Drawing) {
         let (at, ink, size) = (frame.at, Paint::stroke(INK, 1.0), TICK_SIZE);
         let length = |label: &Option<String>| if label.is_some() { 5.0 } else { 3.0 };
         let mut free = f64::NEG_INFINITY;
         for tick in &self.x.ticks {
             let Some(x) = self.x_of(tick.value, at) else { continue };
-            svg.segment((x, at.bottom), (x, at.bottom + length(&tick.label)), ink);
+            drawing.segment((x, at.bottom), (x, at.bottom + length(&tick.label)), ink);
             // A number that would run into the one before is left out.
             let half = tick.label.as_ref().map_or(0.0, |label| 0.5 * width(label, size));
-            if let Some(label) = tick.label.as_ref().filter(|_| x - half >= free) {
+            if let Some(label) = tick.label.clone().filter(|_| x - half >= free) {
                 free = x + half + 0.3 * size;
                 let y = at.bottom + 8.0 + 0.9 * size;
-                svg.text(Text { x, y, label, size, anchor: Anchor::Middle, upright: false });
+                drawing.text(Text { x, y, label, size, anchor: Anchor::Middle, upright: false });
             }
         }
         for tick in &self.y.ticks {
             let Some(y) = self.y_of(tick.value, at) else { continue };
-            svg.segment((at.left - length(&tick.label), y), (at.left, y), ink);
-            if let Some(label) = &tick.label {
+            drawing.segment((at.left - length(&tick.label), y), (at.left, y), ink);
+            if let Some(label) = tick.label.clone() {
                 let (x, y) = (at.left - 8.0, y + 0.36 * size);
-                svg.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
+                drawing.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
             }
         }
     }
 
     /// Draws the labels of the axes.
-    fn labels(&self, space: Rect, at: Rect, svg: &mut Svg) {
+    fn labels(&self, space: Rect, at: Rect, drawing: &mut Drawing) {
         let (size, middle) = (LABEL_SIZE, Anchor::Middle);
         let (across, upward) = (0.5 * (at.left + at.right), 0.5 * (at.top + at.bottom));
-        let (x, y, label) = (across, at.bottom + 46.0, self.document.x_label.as_str());
-        svg.text(Text { x, y, label, size, anchor: middle, upright: false });
+        let (x, y, label) = (across, at.bottom + 46.0, self.document.x_label.clone());
+        drawing.text(Text { x, y, label, size, anchor: middle, upright: false });
         // At the margin, hence at the same place in panels below each other.
-        let (x, y, label) = (space.left + 1.2 * size, upward, self.document.y_label.as_str());
-        svg.text(Text { x, y, label, size, anchor: middle, upright: true });
+        let (x, y, label) = (space.left + 1.2 * size, upward, self.document.y_label.clone());
+        drawing.text(Text { x, y, label, size, anchor: middle, upright: true });
     }
 
     /// The heading, broken into lines as wide as the axes.
@@ -200,7 +198,7 @@ impl<'a> Panel<'a> {
         wrapped(&self.document.heading, LABEL_SIZE, width)
     }
 
-    fn notes(&self, frame: Frame, svg: &mut Svg) {
+    fn notes(&self, frame: Frame, drawing: &mut Drawing) {
         let size = LABEL_SIZE;
         for note in &self.document.notes {
             let Some((x, y)) = frame.place((note.x, note.y)) else { continue };
@@ -210,18 +208,21 @@ impl<'a> Panel<'a> {
             let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };
             let shown = if from < to { wanted.clamp(from, to) } else { x };
             if note.arrow.is_some() || self.document.cells.is_some() {
-                let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") };
+                let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill(PAPER) };
                 let (left, right) = (shown - half, shown + half);
-                svg.rect(Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size }, ground);
+                drawing.rect(
+                    Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size },
+                    ground,
+                );
             }
-            let (label, anchor, upright) = (note.text.as_str(), Anchor::Middle, false);
-            svg.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
+            let (label, anchor, upright) = (note.text.clone(), Anchor::Middle, false);
+            drawing.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });
             let (edge, of) = match note.arrow {
                 Some(ArrowName::Down) => (frame.at.bottom - 9.0, Shape::Down),
                 Some(ArrowName::Up) => (frame.at.top + 9.0, Shape::Triangle),
                 None => continue,
             };
-            svg.path(&shape((x, edge), of, 7.0), Paint::fill(INK));
+            drawing.path(shape((x, edge), of, 7.0), Paint::fill(INK));
         }
     }
 }

@@ -1,22 +1,31 @@
-//! PNG images of height maps within an SVG.
+//! Images of height maps, and PNG files.
 
 use crate::error::FigureError;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use crate::style::Colour;
 
 /// Largest number of columns and rows; more are averaged.
 const MOST: (usize, usize) = (1700, 840);
 
-/// A PNG image of rows in upward order, coloured by `colour`, as a data URL.
-pub(crate) fn data_url(
-    rows: &[&[f64]],
-    colour: impl Fn(f64) -> [u8; 3],
-) -> Result<String, FigureError> {
-    let rows = averaged(rows);
-    let (width, height) = (rows.first().map_or(0, Vec::len), rows.len());
-    let pixels: Vec<u8> = rows.iter().rev().flatten().flat_map(|z| colour(*z)).collect();
-    let file = png_file((width, height), png::ColorType::Rgb, &pixels, None)?;
-    Ok(format!("data:image/png;base64,{}", STANDARD.encode(file)))
+/// An image.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Picture {
+    /// Numbers of columns and rows.
+    pub(crate) size: (usize, usize),
+    /// Red, green and blue of each pixel, row by row from the top.
+    pub(crate) pixels: Vec<u8>,
+}
+
+impl Picture {
+    /// An image of rows in upward order, coloured by `colour`.
+    pub(crate) fn of(rows: &[&[f64]], colour: impl Fn(f64) -> Colour) -> Self {
+        let rows = averaged(rows);
+        let size = (rows.first().map_or(0, Vec::len), rows.len());
+        Self { size, pixels: rows.iter().rev().flatten().flat_map(|z| colour(*z)).collect() }
+    }
+
+    pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
+        png_file(self.size, png::ColorType::Rgb, &self.pixels, None)
+    }
 }
 
 /// A PNG file with these numbers of columns and rows, and its resolution in pixels per inch. Fast compression: the
@@ -74,8 +83,9 @@ mod tests {
     }
 
     #[test]
-    fn a_map_is_a_png_in_a_url() {
-        let url = data_url(&[&[0.0, 1.0]], |_| [1, 2, 3]).unwrap();
-        assert!(url.starts_with("data:image/png;base64,iVBORw0KGgo"));
+    fn rows_of_a_map_ascend_and_those_of_its_picture_descend() {
+        let picture = Picture::of(&[&[0.0, 1.0], &[2.0, 3.0]], |z| [z as u8; 3]);
+        assert_eq!((picture.size, &picture.pixels[..4]), ((2, 2), &[2, 2, 2, 3][..]));
+        assert!(picture.png().unwrap().starts_with(b"\x89PNG"));
     }
 }

@@ -1,12 +1,10 @@
-//! The canvas: panels in rows under a title, as one SVG document.
+//! The canvas: panels in rows under a title, as one drawing.
 
 #[cfg(feature = "animation")]
 use crate::curve::Frame;
-use crate::error::FigureError;
+use crate::drawing::{Anchor, Drawing, Rect, Text};
 use crate::panel::{MARGIN_BOTTOM, MARGIN_TOP, Panel};
-use crate::size::Size;
 use crate::style::TITLE_SIZE;
-use crate::svg::{Anchor, Paint, Rect, Svg, Text, number};
 use crate::text::wrapped;
 use stickslip::{FigureDocument, PanelDocument};
 
@@ -31,24 +29,6 @@ struct Placed<'a> {
     panel: Panel<'a>,
     columns: (usize, usize),
     height: f64,
-}
-
-/// Draws a figure: without background and size for a viewer that has its own, else on a background and in units.
-pub(crate) fn sheet(
-    figure: &FigureDocument,
-    size: &Size,
-    with_ground: bool,
-) -> Result<String, FigureError> {
-    let sheet = Sheet::of(figure, size.units());
-    let (width, height) = sheet.size;
-    let mut svg = Svg::default();
-    if with_ground {
-        let ground = Rect { left: 0.0, top: 0.0, right: width, bottom: height };
-        svg.rect(ground, Paint::fill("#ffffff"));
-    }
-    sheet.draw(&mut svg)?;
-    let written = if with_ground { size.written(height) } else { (number(width), number(height)) };
-    Ok(svg.finish(sheet.size, written))
 }
 
 /// A figure with the places of its panels.
@@ -103,13 +83,13 @@ impl<'a> Sheet<'a> {
         Self { size: (width, top), title, panels }
     }
 
-    pub(crate) fn draw(&self, svg: &mut Svg) -> Result<(), FigureError> {
+    pub(crate) fn draw(&self, drawing: &mut Drawing) {
         for (i, line) in self.title.iter().enumerate() {
             let (x, y) = (0.5 * self.size.0, 8.0 + TITLE_LINE * (i as f64 + 0.75));
-            let (label, size, anchor) = (line.as_str(), TITLE_SIZE, Anchor::Middle);
-            svg.text(Text { x, y, label, size, anchor, upright: false });
+            let (label, size, anchor) = (line.clone(), TITLE_SIZE, Anchor::Middle);
+            drawing.text(Text { x, y, label, size, anchor, upright: false });
         }
-        self.panels.iter().try_for_each(|p| p.panel.draw(p.space, p.between, p.axes, svg))
+        self.panels.iter().for_each(|p| p.panel.draw(p.space, p.between, p.axes, drawing));
     }
 
     /// The axes of each panel.

@@ -10,25 +10,29 @@ pub(crate) const LABEL_SIZE: f64 = 16.0;
 pub(crate) const LEGEND_SIZE: f64 = 14.0;
 pub(crate) const TITLE_SIZE: f64 = 18.0;
 
-pub(crate) const INK: &str = "#000000";
-pub(crate) const GRID: &str = "#E8E8E8";
+/// Red, green and blue.
+pub(crate) type Colour = [u8; 3];
+
+pub(crate) const INK: Colour = [0; 3];
+pub(crate) const PAPER: Colour = [0xff; 3];
+pub(crate) const GRID: Colour = [0xe8; 3];
 
 /// Opacity of a filled area.
 pub(crate) const SHADE_OPACITY: f64 = 0.16;
 pub(crate) const BAND_OPACITY: f64 = 0.30;
 
 /// The colours of Okabe and Ito, which colour-blind readers can distinguish, and greys.
-pub(crate) fn colour(name: ColourName) -> &'static str {
+pub(crate) fn colour(name: ColourName) -> Colour {
     match name {
-        ColourName::Blue => "#0072B2",
-        ColourName::Vermillion => "#D55E00",
-        ColourName::Green => "#009E73",
-        ColourName::Purple => "#CC79A7",
-        ColourName::Orange => "#E69F00",
-        ColourName::Sky => "#56B4E9",
+        ColourName::Blue => [0x00, 0x72, 0xb2],
+        ColourName::Vermillion => [0xd5, 0x5e, 0x00],
+        ColourName::Green => [0x00, 0x9e, 0x73],
+        ColourName::Purple => [0xcc, 0x79, 0xa7],
+        ColourName::Orange => [0xe6, 0x9f, 0x00],
+        ColourName::Sky => [0x56, 0xb4, 0xe9],
         ColourName::Black => INK,
-        ColourName::Grey => "#7F7F7F",
-        ColourName::Silver => "#D9D9D9",
+        ColourName::Grey => [0x7f, 0x7f, 0x7f],
+        ColourName::Silver => [0xd9, 0xd9, 0xd9],
     }
 }
 
@@ -46,8 +50,8 @@ pub(crate) enum Shape {
 /// How points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Mark {
-    /// Width, and the dashes in SVG notation; empty for a solid line.
-    Line { width: f64, dashes: &'static str },
+    /// Width, and the lengths of dashes and gaps; none for a solid line.
+    Line { width: f64, dashes: &'static [f64] },
     /// An area between two curves.
     Band,
     /// Filled, or an outline.
@@ -57,7 +61,7 @@ pub(crate) enum Mark {
 /// A colour and a mark.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pen {
-    pub(crate) colour: &'static str,
+    pub(crate) colour: Colour,
     pub(crate) mark: Mark,
 }
 
@@ -67,10 +71,10 @@ impl Pen {
         let line = |width, dashes| Mark::Line { width, dashes };
         let point = |shape, radius, filled| Mark::Point { shape, radius, filled };
         let (own, mark) = match style {
-            StyleName::Line | StyleName::Boundary => (Blue, line(1.6, "")),
-            StyleName::Thin => (Black, line(1.0, "")),
-            StyleName::Dashed => (Vermillion, line(1.8, "9 5")),
-            StyleName::Dotted => (Black, line(1.4, "2 4")),
+            StyleName::Line | StyleName::Boundary => (Blue, line(1.6, &[])),
+            StyleName::Thin => (Black, line(1.0, &[])),
+            StyleName::Dashed => (Vermillion, line(1.8, &[9.0, 5.0])),
+            StyleName::Dotted => (Black, line(1.4, &[2.0, 4.0])),
             StyleName::Band => (Blue, Mark::Band),
             StyleName::Dots => (Blue, point(Shape::Disc, 5.0, true)),
             StyleName::SmallDots => (Blue, point(Shape::Disc, 3.0, true)),

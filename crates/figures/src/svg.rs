@@ -1,153 +1,179 @@
-//! SVG, element by element.
+//! A drawing as SVG, element by element. Texts stay texts; the viewer supplies the font.
 
+use crate::colours::hex;
+use crate::drawing::{Anchor, Drawing, Element, Paint, Path, Rect, Step, Text};
+use crate::error::FigureError;
 use crate::style::INK;
-use crate::text::{Level, SMALL, spans};
+use crate::text::Level;
+use crate::text::{SMALL, offset, spans};
+use crate::thin::Point;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
-/// Horizontal alignment of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Anchor {
-    Start,
-    Middle,
-    End,
-}
-
-/// A rectangle, in units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rect {
-    pub(crate) left: f64,
-    pub(crate) top: f64,
-    pub(crate) right: f64,
-    pub(crate) bottom: f64,
-}
-
-impl Rect {
-    pub(crate) fn width(&self) -> f64 {
-        self.right - self.left
+/// The document; `width` and `height` are in units, `size` is written as its size for the viewer.
+///
+/// # Errors
+///
+/// An image cannot be compressed.
+pub(crate) fn document(
+    drawing: &Drawing,
+    (width, height): (f64, f64),
+    size: &(String, String),
+) -> Result<String, FigureError> {
+    let mut svg = Svg { text: String::new(), clips: 0 };
+    let _ = writeln!(
+        svg.text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" \
+         font-family=\"DejaVu Sans, Verdana, Arial, Helvetica, sans-serif\" fill=\"{}\">",
+        number(width),
+        number(height),
+        size.0,
+        size.1,
+        hex(INK),
+    );
+    for element in &drawing.elements {
+        svg.element(element)?;
+        svg.text.push('\n');
     }
-
-    pub(crate) fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
-}
-
-/// A text with its attributes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Text<'a> {
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) label: &'a str,
-    pub(crate) size: f64,
-    pub(crate) anchor: Anchor,
-    /// Whether the text runs upwards, rotated about its position.
-    pub(crate) upright: bool,
-}
-
-/// How a path is filled and drawn.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Paint<'a> {
-    pub(crate) fill: Option<&'a str>,
-    pub(crate) fill_opacity: Option<f64>,
-    pub(crate) stroke: Option<&'a str>,
-    pub(crate) width: f64,
-    pub(crate) dashes: &'a str,
-    /// Whether edges are aligned with pixels, so that adjacent areas have no gap.
-    pub(crate) crisp: bool,
-}
-
-impl<'a> Paint<'a> {
-    pub(crate) fn stroke(colour: &'a str, width: f64) -> Self {
-        Self { stroke: Some(colour), width, ..Self::default() }
-    }
-
-    pub(crate) fn fill(colour: &'a str) -> Self {
-        Self { fill: Some(colour), ..Self::default() }
-    }
-}
-
-/// The elements of a document.
-#[derive(Debug, Default)]
-pub(crate) struct Svg {
-    body: String,
-    clips: usize,
+    svg.text.push_str("</svg>\n");
+    Ok(svg.text)
 }
 
 /// A number with at most two decimals, a hundredth of a unit.
 pub(crate) fn number(value: f64) -> String {
-    let value = (value.clamp(-1e6, 1e6) * 100.0).round() / 100.0;
-    // No minus before 0.
-    format!("{}", value + 0.0)
+    let mut text = String::new();
+    push(value, &mut text);
+    text
 }
 
-/// The points of a path in SVG's short form.
-pub(crate) fn polyline(points: &[(f64, f64)]) -> String {
-    let mut path = String::with_capacity(12 * points.len());
-    for (i, (x, y)) in points.iter().enumerate() {
-        let _ = write!(path, "{}{} {}", if i == 0 { "M" } else { "L" }, number(*x), number(*y));
+/// Appends a number with at most two decimals. By integers: pages draw thousands of points while a slider moves.
+fn push(value: f64, text: &mut String) {
+    let hundredths = (value.clamp(-1e6, 1e6) * 100.0).round() as i64;
+    if hundredths < 0 {
+        text.push('-');
     }
-    path
+    let (whole, rest) = (hundredths.unsigned_abs() / 100, hundredths.unsigned_abs() % 100);
+    let _ = match (rest, rest % 10) {
+        (0, _) => write!(text, "{whole}"),
+        (_, 0) => write!(text, "{whole}.{}", rest / 10),
+        _ => write!(text, "{whole}.{rest:02}"),
+    };
+}
+
+struct Svg {
+    text: String,
+    clips: usize,
 }
 
 impl Svg {
-    /// The document; `width` and `height` are in units, `size` is written as its size for the viewer.
-    pub(crate) fn finish(self, (width, height): (f64, f64), size: (String, String)) -> String {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" \
-             font-family=\"DejaVu Sans, Verdana, Arial, Helvetica, sans-serif\" fill=\"{INK}\">\n{}</svg>\n",
-            number(width),
-            number(height),
-            size.0,
-            size.1,
-            self.body
-        )
+    fn element(&mut self, element: &Element) -> Result<(), FigureError> {
+        match element {
+            Element::Path(path, paint) => {
+                self.text.push_str("<path d=\"");
+                self.path(path);
+                self.text.push('"');
+                self.paint(paint);
+            }
+            Element::Rect(at, paint) => {
+                self.text.push_str("<rect");
+                self.place(*at);
+                self.paint(paint);
+            }
+            Element::Image(at, picture) => {
+                let url = STANDARD.encode(picture.png()?);
+                self.text.push_str("<image");
+                self.place(*at);
+                let _ = write!(
+                    self.text,
+                    " preserveAspectRatio=\"none\" href=\"data:image/png;base64,{url}\"/>"
+                );
+            }
+            Element::Text(text) => self.label(text),
+            Element::Clip(within) => {
+                self.clips += 1;
+                let _ = write!(self.text, "<clipPath id=\"clip{}\"><rect", self.clips);
+                self.place(*within);
+                let _ =
+                    write!(self.text, "/></clipPath><g clip-path=\"url(#clip{})\">", self.clips);
+            }
+            Element::Unclip => self.text.push_str("</g>"),
+        }
+        Ok(())
     }
 
-    /// Begins a group that is clipped to the rectangle.
-    pub(crate) fn open_clip(&mut self, within: Rect) {
-        self.clips += 1;
-        let id = format!("clip{}", self.clips);
-        let (x, y) = (number(within.left), number(within.top));
-        let (width, height) = (number(within.width()), number(within.height()));
-        self.line(&format!(
-            "<clipPath id=\"{id}\"><rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/></clipPath>\
-             <g clip-path=\"url(#{id})\">"
-        ));
-    }
-
-    pub(crate) fn close(&mut self) {
-        self.line("</g>");
-    }
-
-    pub(crate) fn path(&mut self, path: &str, paint: Paint) {
-        if !path.is_empty() {
-            self.line(&format!("<path d=\"{path}\"{}/>", attributes(paint)));
+    fn place(&mut self, at: Rect) {
+        let values =
+            [("x", at.left), ("y", at.top), ("width", at.width()), ("height", at.height())];
+        for (name, value) in values {
+            let _ = write!(self.text, " {name}=\"");
+            push(value, &mut self.text);
+            self.text.push('"');
         }
     }
 
-    pub(crate) fn rect(&mut self, at: Rect, paint: Paint) {
-        let (x, y) = (number(at.left), number(at.top));
-        let (width, height) = (number(at.width()), number(at.height()));
-        let paint = attributes(paint);
-        self.line(&format!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"{paint}/>"
-        ));
+    /// A letter and numbers with spaces between them.
+    fn step(&mut self, letter: char, points: &[Point]) {
+        self.text.push(letter);
+        for (i, (x, y)) in points.iter().enumerate() {
+            if i > 0 {
+                self.text.push(' ');
+            }
+            push(*x, &mut self.text);
+            self.text.push(' ');
+            push(*y, &mut self.text);
+        }
     }
 
-    pub(crate) fn segment(&mut self, from: (f64, f64), to: (f64, f64), paint: Paint) {
-        self.path(&polyline(&[from, to]), paint);
+    fn path(&mut self, path: &Path) {
+        for step in &path.0 {
+            match *step {
+                Step::Move(to) => self.step('M', &[to]),
+                Step::Line(to) => self.step('L', &[to]),
+                Step::Curve(from, toward, to) => self.step('C', &[from, toward, to]),
+                Step::Rect(Rect { left, top, right, bottom }) => {
+                    let [left, right, top, bottom] = [left, right, top, bottom].map(number);
+                    let _ = write!(self.text, "M{left} {bottom}H{right}V{top}H{left}Z");
+                }
+                Step::Disc((x, y), radius) => {
+                    let (r, across) = (number(radius), number(2.0 * radius));
+                    let (left, y) = (number(x - radius), number(y));
+                    let _ = write!(
+                        self.text,
+                        "M{left} {y}a{r} {r} 0 1 0 {across} 0a{r} {r} 0 1 0 -{across} 0Z"
+                    );
+                }
+                Step::Close => self.text.push('Z'),
+            }
+        }
     }
 
-    /// Draws an image, a data URL, stretched over the rectangle.
-    pub(crate) fn image(&mut self, at: Rect, url: &str) {
-        let (x, y) = (number(at.left), number(at.top));
-        let (width, height) = (number(at.width()), number(at.height()));
-        self.line(&format!(
-            "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
-             preserveAspectRatio=\"none\" href=\"{url}\"/>"
-        ));
+    /// The attributes of a shape, and the end of its element.
+    fn paint(&mut self, paint: &Paint) {
+        let text = &mut self.text;
+        let fill = paint.fill.map_or("none".into(), hex);
+        let _ = write!(text, " fill=\"{fill}\"");
+        if let Some(opacity) = paint.fill_opacity {
+            let _ = write!(text, " fill-opacity=\"{opacity}\"");
+        }
+        if let Some(stroke) = paint.stroke {
+            let (colour, width) = (hex(stroke), number(paint.width));
+            let _ = write!(
+                text,
+                " stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\""
+            );
+            if !paint.dashes.is_empty() {
+                let dashes: Vec<String> = paint.dashes.iter().copied().map(number).collect();
+                let _ = write!(text, " stroke-dasharray=\"{}\"", dashes.join(" "));
+            }
+        }
+        if paint.crisp {
+            text.push_str(" shape-rendering=\"crispEdges\"");
+        }
+        text.push_str("/>");
     }
 
-    pub(crate) fn text(&mut self, text: Text) {
+    fn label(&mut self, text: &Text) {
         let anchor = match text.anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
@@ -159,34 +185,12 @@ impl Svg {
         } else {
             String::new()
         };
-        let label = marked_up(text.label, text.size);
-        self.line(&format!(
+        let label = marked_up(&text.label, text.size);
+        let _ = write!(
+            self.text,
             "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}{turn}>{label}</text>"
-        ));
+        );
     }
-
-    fn line(&mut self, element: &str) {
-        self.body.push_str(element);
-        self.body.push('\n');
-    }
-}
-
-fn attributes(paint: Paint) -> String {
-    let mut text = format!(" fill=\"{}\"", paint.fill.unwrap_or("none"));
-    if let Some(opacity) = paint.fill_opacity {
-        let _ = write!(text, " fill-opacity=\"{opacity}\"");
-    }
-    if let Some(stroke) = paint.stroke {
-        let _ = write!(text, " stroke=\"{stroke}\" stroke-width=\"{}\"", number(paint.width));
-        text.push_str(" stroke-linejoin=\"round\"");
-        if !paint.dashes.is_empty() {
-            let _ = write!(text, " stroke-dasharray=\"{}\"", paint.dashes);
-        }
-    }
-    if paint.crisp {
-        text.push_str(" shape-rendering=\"crispEdges\"");
-    }
-    text
 }
 
 /// The spans of a label; subscripts and superscripts are smaller and shifted.
@@ -212,15 +216,6 @@ fn marked_up(label: &str, size: f64) -> String {
     text
 }
 
-/// Downward shift of a level from the base line.
-fn offset(level: Level, size: f64) -> f64 {
-    match level {
-        Level::Line => 0.0,
-        Level::Below => 0.22 * size,
-        Level::Above => -0.34 * size,
-    }
-}
-
 /// A text with XML's special characters escaped and invalid ones removed.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -243,10 +238,11 @@ mod tests {
 
     #[test]
     fn texts_are_escaped_and_their_subscripts_moved() {
-        let mut svg = Svg::default();
+        let mut drawing = Drawing::default();
+        let label = "a < \u{7}b & α_c = 1".to_owned();
         let (x, y, size, anchor, upright) = (1.0, 2.0, 10.0, Anchor::Middle, false);
-        svg.text(Text { x, y, label: "a < \u{7}b & α_c = 1", size, anchor, upright });
-        let document = svg.finish((10.0, 20.0), ("10".into(), "20".into()));
+        drawing.text(Text { x, y, label, size, anchor, upright });
+        let document = document(&drawing, (10.0, 20.0), &("10".into(), "20".into())).unwrap();
         let text = "a &lt; b &amp; α<tspan dy=\"2.2\" font-size=\"7.2\">c</tspan><tspan dy=\"-2.2\"> = 1</tspan>";
         assert!(document.contains(text), "{document}");
         assert!(document.contains("viewBox=\"0 0 10 20\""));
@@ -254,8 +250,15 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_never_minus_zero() {
-        for (value, text) in [(1.0, "1"), (-0.001, "0"), (12.3456, "12.35"), (f64::MAX, "1000000")]
-        {
+        let numbers = [
+            (1.0, "1"),
+            (-0.001, "0"),
+            (12.3456, "12.35"),
+            (-0.3, "-0.3"),
+            (7.05, "7.05"),
+            (f64::MAX, "1000000"),
+        ];
+        for (value, text) in numbers {
             assert_eq!(number(value), text);
         }
     }

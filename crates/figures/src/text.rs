@@ -21,6 +21,15 @@ pub(crate) struct Span {
 /// Size of subscripts and superscripts, relative to the text.
 pub(crate) const SMALL: f64 = 0.72;
 
+/// Downward shift of a level from the base line.
+pub(crate) fn offset(level: Level, size: f64) -> f64 {
+    match level {
+        Level::Line => 0.0,
+        Level::Below => 0.22 * size,
+        Level::Above => -0.34 * size,
+    }
+}
+
 /// The pieces of a label.
 pub(crate) fn spans(label: &str) -> Vec<Span> {
     let mut spans: Vec<Span> = vec![];

@@ -1,28 +1,26 @@
 //! The drawing of a scene: a background with everything that stays, and what moves on top of it.
 
 use super::film::Film;
-use crate::colours::hex;
-use crate::curve::Frame;
+use crate::curve::{Frame, shape};
+use crate::drawing::{Anchor, Drawing, Paint, Path, Rect, Step, Text, polygon, polyline};
 use crate::error::FigureError;
 use crate::map::Map;
-use crate::raster::{draw_images, without_alpha};
+use crate::raster::{Painter, blank, without_alpha};
 use crate::scene::{Moment, Scene};
 use crate::sheet::Sheet;
 use crate::size::Size;
-use crate::style::{INK, LABEL_SIZE};
-use crate::svg::{Anchor, Paint, Rect, Svg, Text, number, polyline};
+use crate::style::{Colour, INK, LABEL_SIZE, PAPER, Shape};
 use crate::text::width;
-use crate::vector::{options, tree_with};
-use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::Options;
+use crate::thin::Point;
 use stickslip::{FigureDocument, PanelDocument};
+use tiny_skia::Pixmap;
 
 /// Largest number of pixels of a frame.
 const MOST: f64 = 4e6;
 /// Colours of the polymer, the tip, and of spring and support.
-const GROUND: [u8; 3] = [0xF3, 0xE3, 0xC3];
-const TIP: &str = "#4D4D4D";
-const SPRING: &str = "#D55E00";
+const GROUND: Colour = [0xf3, 0xe3, 0xc3];
+const TIP: Colour = [0x4d; 3];
+const SPRING: Colour = [0xd5, 0x5e, 0x00];
 /// Distance of the spring from the upper edge of the axes, in units.
 const SPRING_DEPTH: f64 = 46.0;
 /// Half-width and height of the tip's cone.
@@ -37,8 +35,7 @@ const SUPPORT: (f64, f64) = (5.0, 15.0);
 pub(super) struct Stage<'a> {
     background: Pixmap,
     sheet: Sheet<'a>,
-    scale: Transform,
-    options: Options<'static>,
+    painter: Painter,
     /// Decimals of the time.
     decimals: usize,
 }
@@ -50,25 +47,16 @@ impl<'a> Stage<'a> {
         film: &Film,
     ) -> Result<Self, FigureError> {
         let size = Size::new(Some(film.width()), None)?;
-        let options = options();
         let sheet = Sheet::of(still, size.units());
-        let mut svg = Svg::default();
-        sheet.draw(&mut svg)?;
-        let (units, density) = (sheet.size, size.pixels().0);
-        let (width, height) = ((units.0 * density).round(), (units.1 * density).round());
-        if width * height > MOST {
-            return Err(FigureError::Pixels(width as u64, height as u64));
-        }
-        let too_many = || FigureError::Pixels(width as u64, height as u64);
-        let mut background = Pixmap::new(width as u32, height as u32).ok_or_else(too_many)?;
-        background.fill(Color::WHITE);
-        let scale = Transform::from_scale(density as f32, density as f32);
-        // Without its images, which every moment has anew.
-        let tree = tree_with(&finished(svg, units), &options)?;
-        resvg::render(&tree, scale, &mut background.as_mut());
+        let mut drawing = Drawing::default();
+        sheet.draw(&mut drawing);
+        let density = size.pixels().0;
+        let mut background = blank(sheet.size, density, MOST)?;
+        let painter = Painter::new(density);
+        painter.paint(&drawing, &mut background);
         let step = (film.times(times).get(2).map_or(times[1], |f| f.0) - times[0]).abs();
         let decimals = (-step.log10()).ceil().clamp(0.0, 12.0) as usize;
-        Ok(Self { background, sheet, scale, options, decimals })
+        Ok(Self { background, sheet, painter, decimals })
     }
 
     /// Width and height, in pixels.
@@ -79,14 +67,12 @@ impl<'a> Stage<'a> {
     /// Red, green and blue of every pixel at this time.
     pub(super) fn draw(&self, scene: &mut dyn Scene, t: f64) -> Result<Vec<u8>, FigureError> {
         let moment = scene.moment(t)?;
-        let mut svg = Svg::default();
+        let mut drawing = Drawing::default();
         for (i, (panel, frame)) in moment.panels.iter().zip(self.sheet.frames()).enumerate() {
-            self.panel(panel, frame, (i == 0).then_some(&moment), &mut svg)?;
+            self.panel(panel, frame, (i == 0).then_some(&moment), &mut drawing);
         }
-        let tree = tree_with(&finished(svg, self.sheet.size), &self.options)?;
         let mut picture = self.background.clone();
-        draw_images(tree.root(), self.scale, &mut picture);
-        resvg::render(&tree, self.scale, &mut picture.as_mut());
+        self.painter.paint(&drawing, &mut picture);
         Ok(without_alpha(picture))
     }
 
@@ -96,33 +82,32 @@ impl<'a> Stage<'a> {
         panel: &PanelDocument,
         frame: Frame,
         first: Option<&Moment>,
-        svg: &mut Svg,
-    ) -> Result<(), FigureError> {
+        drawing: &mut Drawing,
+    ) {
         let at = frame.at;
         if let Some(map) = &panel.map {
-            Map::new(map, panel.x_range, panel.y_range).draw(at, svg)?;
+            Map::new(map, panel.x_range, panel.y_range).draw(at, drawing);
         }
-        svg.open_clip(at);
+        drawing.clip(at);
         if first.is_some() && panel.map.is_none() {
-            self.ground(panel, frame, svg);
+            self.ground(panel, frame, drawing);
         }
-        panel.curves.iter().for_each(|curve| frame.draw(curve, panel.curves.len(), svg));
+        panel.curves.iter().for_each(|curve| frame.draw(curve, panel.curves.len(), drawing));
         if let Some(moment) = first {
             match panel.map {
-                Some(_) => seen_from_above(moment, frame, svg),
-                None => seen_from_the_side(moment, frame, svg),
+                Some(_) => seen_from_above(moment, frame, drawing),
+                None => seen_from_the_side(moment, frame, drawing),
             }
         }
-        svg.close();
-        svg.rect(at, Paint::stroke(INK, 1.2));
+        drawing.unclip();
+        drawing.rect(at, Paint::stroke(INK, 1.2));
         if let Some(moment) = first {
-            self.time(moment, at, svg);
+            self.time(moment, at, drawing);
         }
-        Ok(())
     }
 
     /// Fills the polymer below the surface.
-    fn ground(&self, panel: &PanelDocument, frame: Frame, svg: &mut Svg) {
+    fn ground(&self, panel: &PanelDocument, frame: Frame, drawing: &mut Drawing) {
         let Some(surface) = panel.curves.first() else { return };
         let points = surface.x.iter().zip(&surface.y);
         let mut area: Vec<(f64, f64)> =
@@ -131,11 +116,11 @@ impl<'a> Stage<'a> {
             return;
         };
         area.extend([(last.0, frame.at.bottom), (first.0, frame.at.bottom)]);
-        svg.path(&(polyline(&area) + "Z"), Paint::fill(&hex(GROUND)));
+        drawing.path(polygon(&area), Paint::fill(GROUND));
     }
 
     /// Writes the time at the upper right corner of the axes, on a light ground.
-    fn time(&self, moment: &Moment, at: Rect, svg: &mut Svg) {
+    fn time(&self, moment: &Moment, at: Rect, drawing: &mut Drawing) {
         let time = format!("t = {:.*} {}", self.decimals, moment.t, moment.unit).replace('-', "−");
         let label = match moment.note.as_str() {
             "" => time,
@@ -144,42 +129,36 @@ impl<'a> Stage<'a> {
         let (size, x, y) = (LABEL_SIZE, at.right - 10.0, at.top + 8.0 + 0.8 * LABEL_SIZE);
         let left = x - width(&label, size) - 4.0;
         let ground = Rect { left, right: x + 4.0, top: at.top + 4.0, bottom: y + 0.4 * size };
-        svg.rect(ground, Paint { fill_opacity: Some(0.8), ..Paint::fill("#ffffff") });
-        svg.text(Text { x, y, label: &label, size, anchor: Anchor::End, upright: false });
+        drawing.rect(ground, Paint { fill_opacity: Some(0.8), ..Paint::fill(PAPER) });
+        drawing.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
     }
 }
 
-fn finished(svg: Svg, (width, height): (f64, f64)) -> String {
-    svg.finish((width, height), (number(width), number(height)))
-}
-
 /// Tip, spring and support along the surface.
-fn seen_from_the_side(moment: &Moment, frame: Frame, svg: &mut Svg) {
+fn seen_from_the_side(moment: &Moment, frame: Frame, drawing: &mut Drawing) {
     let Some((x, y)) = frame.place(moment.tip) else { return };
     let level = frame.at.top + SPRING_DEPTH;
     let (half, height) = CONE;
     let shoulder = y - height;
     if let Some((end, _)) = moment.support.and_then(|at| frame.place((at, moment.tip.1))) {
-        svg.segment((x, shoulder + 1.0), (x, level), Paint::stroke(TIP, 3.0));
-        svg.path(&polyline(&spring((x, level), end)), Paint::stroke(SPRING, 1.8));
+        drawing.segment((x, shoulder + 1.0), (x, level), Paint::stroke(TIP, 3.0));
+        drawing.path(polyline(&spring((x, level), end)), Paint::stroke(SPRING, 1.8));
         let (left, right) = (end - SUPPORT.0, end + SUPPORT.0);
         let block = Rect { left, right, top: level - SUPPORT.1, bottom: level + SUPPORT.1 };
-        svg.rect(block, Paint::fill(TIP));
+        drawing.rect(block, Paint::fill(TIP));
     }
-    let n = number;
-    let cone = format!(
-        "M{} {s}L{} {}Q{} {} {} {}L{} {s}Z",
-        n(x - half),
-        n(x - 2.0),
-        n(y - 4.0),
-        n(x),
-        n(y + 3.0),
-        n(x + 2.0),
-        n(y - 4.0),
-        n(x + half),
-        s = n(shoulder),
-    );
-    svg.path(&cone, Paint::fill(TIP));
+    // The apex is a parabola between two points of the flanks, with its handle below the surface.
+    let (flanks, handle) = ([(x - 2.0, y - 4.0), (x + 2.0, y - 4.0)], (x, y + 3.0));
+    let toward =
+        |a: Point| (a.0 + (handle.0 - a.0) * 2.0 / 3.0, a.1 + (handle.1 - a.1) * 2.0 / 3.0);
+    let cone = vec![
+        Step::Move((x - half, shoulder)),
+        Step::Line(flanks[0]),
+        Step::Curve(toward(flanks[0]), toward(flanks[1]), flanks[1]),
+        Step::Line((x + half, shoulder)),
+        Step::Close,
+    ];
+    drawing.path(Path(cone), Paint::fill(TIP));
 }
 
 /// The zigzag of a spring.
@@ -196,15 +175,15 @@ fn spring((from, y): (f64, f64), to: f64) -> Vec<(f64, f64)> {
 }
 
 /// Tip and support over a map.
-fn seen_from_above(moment: &Moment, frame: Frame, svg: &mut Svg) {
+fn seen_from_above(moment: &Moment, frame: Frame, drawing: &mut Drawing) {
     let Some((x, y)) = frame.place(moment.tip) else { return };
     if let Some((end, _)) = moment.support.and_then(|at| frame.place((at, moment.tip.1))) {
-        svg.segment((x, y), (end, y), Paint::stroke("#ffffff", 4.5));
-        svg.segment((x, y), (end, y), Paint::stroke(SPRING, 2.2));
+        drawing.segment((x, y), (end, y), Paint::stroke(PAPER, 4.5));
+        drawing.segment((x, y), (end, y), Paint::stroke(SPRING, 2.2));
         let (left, right, top, bottom) = (end - 2.5, end + 2.5, y - 7.0, y + 7.0);
-        let block = Paint { stroke: Some("#ffffff"), width: 1.0, ..Paint::fill(TIP) };
-        svg.rect(Rect { left, right, top, bottom }, block);
+        let block = Paint { stroke: Some(PAPER), width: 1.0, ..Paint::fill(TIP) };
+        drawing.rect(Rect { left, right, top, bottom }, block);
     }
-    let disc = crate::curve::shape((x, y), crate::style::Shape::Disc, 5.0);
-    svg.path(&disc, Paint { stroke: Some("#ffffff"), width: 1.4, ..Paint::fill(TIP) });
+    let disc = shape((x, y), Shape::Disc, 5.0);
+    drawing.path(disc, Paint { stroke: Some(PAPER), width: 1.4, ..Paint::fill(TIP) });
 }

@@ -50,6 +50,16 @@ fn an_image_gives_back_alpha_and_r() {
     let table =
         String::from_utf8(folder.prints(&format!("{LINE} --width 30 --format csv"))).unwrap();
     assert!(table.starts_with("distance,height,error,model\n"), "{table}");
+    // The same image as its own retrace: no shift, no difference, and the same numbers.
+    folder
+        .prints(&format!("{LINE} --width 30nm --pitch 30nm --retrace-image scan.gsf -o both.json"));
+    let both = folder.json("both.json");
+    for name in ["alpha", "r"] {
+        let [one, two] = [&fit, &both].map(|fit| fit[name]["value"].as_f64().unwrap());
+        assert!((one / two - 1.0).abs() < 1e-6, "{one} {two}");
+    }
+    let number = |name: &str| both["retrace"][name].as_f64().unwrap();
+    assert!(number("shift").abs() < 1e-9 && number("agreement") > 0.99, "{}", both["retrace"]);
     // The fit is a set of scales.
     let found = folder.prints_json("stability --r 1 --tip gaussian --units fit.json");
     let length = found["physical"]["scales"]["length"].as_f64().unwrap();
@@ -79,6 +89,10 @@ fn what_an_image_lacks_is_named() {
         ("fit --image scan.gsf --width 30nm --pitch=-3nm", ["--pitch", "above 0"]),
         ("fit --image scan.gsf --width 30nm --r 1", ["--r 1", "no meaning with --image"]),
         ("fit --image bare.gsf --width 30nm", ["--width", "--unit"]),
+        (
+            "fit --image scan.gsf --width 30nm --retrace-image bare.gsf",
+            ["--retrace-image bare.gsf", "another unit"],
+        ),
         ("fit --image loop.csv --width 30nm", ["loop.csv", "convert"]),
         ("fit --ripple scan.gsf", ["scan.gsf", "fit --image"]),
         ("fit --ripple loop.csv --slow-scan up", ["--slow-scan up", "no meaning"]),

@@ -103,6 +103,15 @@ impl Image {
         &self.rows
     }
 
+    /// Whether the pixels of both lie at the same positions, within a thousandth of their distance.
+    pub(crate) fn is_alike(&self, other: &Self) -> bool {
+        let near = |a: &[f64], b: &[f64]| {
+            let close = 1e-3 * (a[1] - a[0]).abs();
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= close)
+        };
+        near(&self.x, &other.x) && near(&self.y, &other.y)
+    }
+
     /// These columns and rows.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ from ._results import Result
 Option = namedtuple("Option", "name is_positional value delimiter is_repeatable help")
 
 # What may be an image.
-IMAGES = {"measured", "image"}
+IMAGES = {"measured", "image", "retrace_image"}
 
 # A positional argument that may be left out.
 OPTIONAL = {"retrace"}

@@ -64,7 +64,7 @@ pub use ask::fit::{
     NumberHeld, ScanName,
 };
 pub use ask::fit_image::{
-    FitImage, FitImageDocument, FitImageFound, RippleProfileDocument, SlowScanName,
+    FitImage, FitImageDocument, FitImageFound, RetraceDocument, RippleProfileDocument, SlowScanName,
 };
 pub use ask::friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
 pub use ask::lines;

@@ -36,6 +36,10 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "FILE", help_heading = "Data", conflicts_with_all = OF_LINES)]
     pub(crate) image: Option<PathBuf>,
 
+    /// Heights of the same area on the way back, .gsf, which lie as those of --image do: fitted together with them.
+    #[arg(long, value_name = "FILE", help_heading = "Data", requires = "image")]
+    pub(crate) retrace_image: Option<PathBuf>,
+
     /// Distance of the lines that made the ripples of an image, such as 15nm; a bare number is in the unit of the image
     /// [default: the distance of its rows].
     #[arg(

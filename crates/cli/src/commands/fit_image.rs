@@ -13,10 +13,13 @@ use std::path::Path;
 use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
 
 const OPTION: &str = "--image";
+const RETRACE: &str = "--retrace-image";
 
 pub(super) fn fit_image(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
     let FitArguments { options, outlet, plot, .. } = arguments;
-    let files: [Named; 3] = [options.files()[0], options.files()[1], (OPTION, Some(path))];
+    let retrace = arguments.retrace_image.as_deref();
+    let [tip, parameters] = options.files();
+    let files: [Named; 4] = [tip, parameters, (OPTION, Some(path)), (RETRACE, retrace)];
     judge_places(outlet, plot.as_deref(), &files)?;
     let question = question(arguments, path)?;
     let refused = |failure| refusal(failure, &options.tip, &files);
@@ -30,6 +33,16 @@ fn question(arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> 
     let mut values = options.values()?;
     refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
     let (image, unit) = measured_image(OPTION, path, values.get("unit").and_then(Value::as_str))?;
+    let retrace_image = arguments.retrace_image.as_deref().map(|path| {
+        let (image, other) =
+            measured_image(RETRACE, path, values.get("unit").and_then(Value::as_str))?;
+        if other == unit {
+            return Ok(image);
+        }
+        let message = "its lengths have another unit than those of --image";
+        Err(Failure::input(format!("{RETRACE} {}", path.display()), message))
+    });
+    let retrace_image = retrace_image.transpose()?;
     if let Some(width) = arguments.options.tip.width {
         values.insert("width".into(), json!(in_unit("--width", width, unit.as_deref())?));
         values.remove("width_interval");
@@ -40,7 +53,7 @@ fn question(arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> 
         values.insert("pitch".into(), json!(in_unit("--pitch", pitch, unit.as_deref())?));
     }
     let question: FitImage = parameter::question(values)?;
-    Ok(FitImage { source: path.display().to_string(), unit, image, ..question })
+    Ok(FitImage { source: path.display().to_string(), unit, image, retrace_image, ..question })
 }
 
 /// The options without --width, which is σ of measured data, and no width of a footprint.

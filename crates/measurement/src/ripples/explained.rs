@@ -145,6 +145,7 @@ impl<'a> Problem<'a> {
             forward,
             upward,
             part: None,
+            retrace: None,
             misfit: self.misfit(best),
             modulation: self.wave.modulation,
             residual: self.wave.residual,

@@ -5,6 +5,7 @@
 //! harmonics tell how far α is above that. The gain of the heights and the phase of the wave are fitted along.
 
 mod explained;
+mod pair;
 mod part;
 mod travelling;
 mod wave;
@@ -12,6 +13,8 @@ mod wave;
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
 use explained::Problem;
+use pair::Pair;
+pub use pair::Retrace;
 use part::Part;
 use std::f64::consts::TAU;
 use stickslip_tip::Footprint;
@@ -32,6 +35,8 @@ pub struct RippleRequest {
     pub forward: Option<bool>,
     /// Whether the lines followed each other towards larger y; both are tried by default.
     pub upward: Option<bool>,
+    /// Heights on the way back, at the same positions.
+    pub retrace: Option<Image>,
 }
 
 /// Ripples of an image, and the numbers of the model. Lengths and heights in the units of the image.
@@ -74,6 +79,8 @@ pub struct Ripples {
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the rows, that the wave explains.
     pub explained: f64,
+    /// The retrace beside the trace.
+    pub retrace: Option<Retrace>,
 }
 
 /// The mean of all ripples over one wavelength, perpendicular to the crests; columns of equal length.
@@ -98,6 +105,9 @@ pub enum RippleError {
     /// The image is too small or damaged.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// The retrace is not one of this image.
+    #[error("{0}")]
+    Retrace(&'static str),
     /// No wave is stronger than the noise.
     #[error("no ripples stand out of the noise")]
     Nothing,
@@ -167,6 +177,15 @@ impl Ripples {
                 self.misfit
             ));
         }
+        if let Some(Retrace { ratio, agreement, .. }) = self.retrace
+            && agreement < Self::LEAST_MISFIT
+        {
+            remarks.push(format!(
+                "trace and retrace differ by more than noise (probability {agreement:.1e}, amplitude of the retrace {ratio:.3} of that \
+                 of the trace): all numbers are of their mean, and intervals do not contain the difference; a slow feedback or an uneven \
+                 tip makes one"
+            ));
+        }
         if self.amplitude.value < 2.0 * self.residual {
             remarks.push(format!(
                 "the residual, {:.2e}, is more than half of the amplitude, {:.2e}",
@@ -186,7 +205,8 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let lines = Lines::new(&request.footprint, request.pitch / request.sigma)
         .filter(|_| positive)
         .ok_or(RippleError::Request("needs σ and pitch above 0, and a footprint that fades"))?;
-    let part = Part::settled(image)?;
+    let (pair, retrace) = Pair::of(image, request.retrace.as_ref())?;
+    let part = Part::settled(&pair)?;
     let wave = &part.wave;
     let ways = [(true, true), (true, false), (false, true), (false, false)];
     let admitted = ways.into_iter().filter(|(forward, upward)| {
@@ -209,5 +229,5 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let ([q, kappa], [x, y]) = (found.wave_vector, part.ends);
     let phase = (found.phase - q * middle(x) - kappa * middle(y)).rem_euclid(TAU);
     let is_whole = part.ends == part::ends(image);
-    Ok(Ripples { phase, part: (!is_whole).then_some(part.ends), ..found })
+    Ok(Ripples { phase, part: (!is_whole).then_some(part.ends), retrace, ..found })
 }

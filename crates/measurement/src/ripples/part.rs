@@ -3,6 +3,7 @@
 //! Ripples grow along the scan and from line to line, as in a wake: where the lines begin, and on the first of them, they are still
 //! growing, and beyond the wake they are those that the edge makes. Between them is the pattern that the model has.
 
+use super::pair::Pair;
 use super::wave::{Wave, coarse_image};
 use super::{RippleError, Ripples};
 use crate::image::Image;
@@ -30,13 +31,13 @@ const COARSE: usize = 128;
 
 impl Part {
     /// The largest part in which the ripples have settled, or the whole image if none has.
-    pub(super) fn settled(image: &Image) -> Result<Self, RippleError> {
+    pub(super) fn settled(image: &Pair) -> Result<Self, RippleError> {
         let wave = Wave::of(image)?;
         if wave.strength < LEAST_STRENGTH {
             return Err(RippleError::Nothing);
         }
         let (stands_out, has_settled) = (stands_out(&wave), has_settled(&wave));
-        let whole = Self { wave, ends: ends(image) };
+        let whole = Self { wave, ends: ends(&image.trace) };
         if has_settled {
             return Ok(whole);
         }
@@ -49,8 +50,8 @@ impl Part {
 }
 
 /// The largest part in which the ripples have settled; of several the most uniform one.
-fn largest(image: &Image) -> Option<Part> {
-    let coarse = coarse_image(image, COARSE).ok()?;
+fn largest(image: &Pair) -> Option<Part> {
+    let coarse = image.each(|image| coarse_image(image, COARSE)).ok()?;
     let mut parts: Vec<[[usize; 2]; 2]> =
         lengths().flat_map(|x| lengths().map(move |y| [x, y])).skip(1).collect();
     let area = |[[a, b], [c, d]]: &[[usize; 2]; 2]| (b - a) * (d - c);
@@ -61,7 +62,7 @@ fn largest(image: &Image) -> Option<Part> {
         let best = found.min_by(|a, b| a.1.modulation.total_cmp(&b.1.modulation));
         let fine = best.and_then(|(part, _)| {
             let image = cut(image, part)?;
-            Some(Part { wave: settled(&image)?, ends: ends(&image) })
+            Some(Part { wave: settled(&image)?, ends: ends(&image.trace) })
         });
         if fine.is_some() {
             return fine;
@@ -75,18 +76,20 @@ fn lengths() -> impl Iterator<Item = [usize; 2]> {
     LENGTHS.into_iter().flat_map(|length| (0..=EIGHTHS - length).map(move |i| [i, i + length]))
 }
 
-fn cut(image: &Image, [columns, rows]: [[usize; 2]; 2]) -> Option<Image> {
+fn cut(image: &Pair, [columns, rows]: [[usize; 2]; 2]) -> Option<Pair> {
     let range = |[first, last]: [usize; 2], count: usize| -> Range<usize> {
         first * count / EIGHTHS..last * count / EIGHTHS
     };
-    image.part(range(columns, image.x().len()), range(rows, image.y().len())).ok()
+    let part =
+        |image: &Image| image.part(range(columns, image.x().len()), range(rows, image.y().len()));
+    image.each(part).ok()
 }
 
 /// The wave of ripples that have settled; `None` of others.
-fn settled(image: &Image) -> Option<Wave> {
+fn settled(image: &Pair) -> Option<Wave> {
     let wave = Wave::of(image).ok()?;
     let length = |[first, last]: [f64; 2]| last - first;
-    let [x, y] = ends(image).map(length);
+    let [x, y] = ends(&image.trace).map(length);
     let count = (wave.q() * x).hypot(wave.kappa() * y) / TAU;
     (wave.strength >= LEAST_STRENGTH && count >= FEWEST && has_settled(&wave)).then_some(wave)
 }

@@ -9,6 +9,7 @@
 //! from pixel to pixel, and slow changes of the pattern across the image.
 
 use super::RippleError;
+use super::pair::Pair;
 use crate::image::{Image, ImageError};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -56,18 +57,24 @@ pub(crate) struct Wave {
 /// Rows without their own offsets and slopes; positions relative to the middle.
 struct Rows {
     x: Vec<f64>,
-    y: Vec<f64>,
-    z: Vec<Vec<f64>>,
+    rows: Vec<Row>,
+}
+
+/// Heights z of a line, whose ripples are further along it by the shift.
+struct Row {
+    y: f64,
+    z: Vec<f64>,
+    shift: f64,
+    weight: f64,
 }
 
 impl Wave {
-    /// The strongest wave of an image.
-    pub(crate) fn of(image: &Image) -> Result<Self, RippleError> {
-        let rows = Rows::of(image);
+    /// The strongest wave of a trace, and of its retrace.
+    pub(crate) fn of(pair: &Pair) -> Result<Self, RippleError> {
+        let trace = Rows::of(&pair.trace);
         let mut at = [0.0; UNKNOWNS];
-        [at[0], at[1]] = rows.coarse(COARSE).strongest().ok_or(RippleError::Nothing)?;
-        at[2] = 0.0;
-        rows.fit(at)
+        [at[0], at[1]] = trace.coarse(COARSE).strongest().ok_or(RippleError::Nothing)?;
+        trace.beside(pair).fit(at)
     }
 
     pub(crate) fn q(&self) -> f64 {
@@ -91,7 +98,8 @@ pub(crate) fn height(harmonics: &[Complex64], phase: f64) -> f64 {
 
 /// The image without offsets and slopes of its rows, averaged to at most `most` rows and columns.
 pub(crate) fn coarse_image(image: &Image, most: usize) -> Result<Image, ImageError> {
-    let Rows { x, y, z } = Rows::of(image).coarse(most);
+    let Rows { x, rows } = Rows::of(image).coarse(most);
+    let (y, z): (Vec<f64>, _) = rows.into_iter().map(|row| (row.y, row.z)).unzip();
     let moved = |at: &[f64], of: &[f64]| -> Vec<f64> {
         let middle = 0.5 * (of[0] + of[of.len() - 1]);
         at.iter().map(|v| v + middle).collect()
@@ -106,29 +114,40 @@ impl Rows {
             at.iter().map(|v| v - middle).collect()
         };
         let x = centred(image.x());
-        let z = image.rows().iter().map(|row| levelled(&x, row)).collect();
-        Self { y: centred(image.y()), x, z }
+        let rows = centred(image.y()).into_iter().zip(image.rows());
+        let rows = rows.map(|(y, row)| Row::new(y, levelled(&x, row))).collect();
+        Self { x, rows }
+    }
+
+    /// Each row, followed by that of the retrace.
+    fn beside(self, pair: &Pair) -> Self {
+        let Some(retrace) = &pair.retrace else { return self };
+        let [there, back] = pair.weights;
+        let both = self.rows.into_iter().zip(Self::of(retrace).rows).flat_map(|(a, b)| {
+            [Row { weight: there, ..a }, Row { weight: back, shift: pair.shift, ..b }]
+        });
+        Self { rows: both.collect(), ..self }
     }
 
     /// Averaged over blocks, to at most `most` rows and columns.
     fn coarse(&self, most: usize) -> Self {
-        let (across, along) = (self.y.len().div_ceil(most), self.x.len().div_ceil(most));
+        let (across, along) = (self.rows.len().div_ceil(most), self.x.len().div_ceil(most));
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let x: Vec<f64> = self.x.chunks_exact(along).map(mean).collect();
-        let y: Vec<f64> = self.y.chunks_exact(across).map(mean).collect();
-        let z = self.z.chunks_exact(across).map(|rows| {
+        let rows = self.rows.chunks_exact(across).map(|rows| {
+            let y: Vec<f64> = rows.iter().map(|row| row.y).collect();
             let sums: Vec<f64> =
-                (0..self.x.len()).map(|i| rows.iter().map(|row| row[i]).sum::<f64>()).collect();
+                (0..self.x.len()).map(|i| rows.iter().map(|row| row.z[i]).sum::<f64>()).collect();
             let row: Vec<f64> = sums.chunks_exact(along).map(mean).collect();
-            levelled(&x, &row)
+            Row::new(mean(&y), levelled(&x, &row))
         });
-        Self { z: z.collect(), x, y }
+        Self { rows: rows.collect(), x }
     }
 
     /// The wave vector of the largest value of the periodogram, at half the distance of Fourier frequencies.
     fn strongest(&self) -> Option<[f64; 2]> {
-        let (dx, dy) = (self.x[1] - self.x[0], self.y[1] - self.y[0]);
-        let (nx, ny) = (self.x.len(), self.y.len());
+        let (dx, dy) = (self.x[1] - self.x[0], self.rows[1].y - self.rows[0].y);
+        let (nx, ny) = (self.x.len(), self.rows.len());
         let step = [0.5 * TAU / (dx * nx as f64), 0.5 * TAU / (dy * ny as f64)];
         let first = (2.0 * FEWEST).ceil() as usize;
         let mut best = (0.0, None);
@@ -136,11 +155,11 @@ impl Rows {
             let q = step[0] * m as f64;
             let turn: Vec<Complex64> =
                 self.x.iter().map(|x| Complex64::from_polar(1.0, -q * x)).collect();
-            let sums: Vec<Complex64> =
-                self.z.iter().map(|row| row.iter().zip(&turn).map(|(z, e)| e * *z).sum()).collect();
+            let sum = |row: &Row| row.z.iter().zip(&turn).map(|(z, e)| e * *z).sum();
+            let sums: Vec<Complex64> = self.rows.iter().map(sum).collect();
             for n in 0..2 * ny {
                 let kappa = step[1] * (n as f64 - ny as f64);
-                let mut phase = Complex64::from_polar(1.0, -kappa * self.y[0]);
+                let mut phase = Complex64::from_polar(1.0, -kappa * self.rows[0].y);
                 let on = Complex64::from_polar(1.0, -kappa * dy);
                 let mut sum = Complex64::new(0.0, 0.0);
                 for row in &sums {
@@ -202,35 +221,38 @@ impl Rows {
             })
             .collect();
         let mut found = Normal::empty();
-        let (columns, rows) = (self.x.len(), self.y.len());
-        for (j, (y, z)) in self.y.iter().zip(&self.z).enumerate() {
+        let (columns, rows) = (self.x.len(), self.rows.len());
+        for (j, Row { y, z, shift, weight }) in self.rows.iter().enumerate() {
+            let away = kappa * y - q * shift;
             let turn: [Complex64; HARMONICS] =
-                std::array::from_fn(|i| Complex64::from_polar(1.0, (i + 1) as f64 * kappa * y));
+                std::array::from_fn(|i| Complex64::cis((i + 1) as f64 * away));
             let block = (j * BLOCKS / rows) * BLOCKS;
             for (i, z) in z.iter().enumerate() {
                 let mut slopes = [0.0; UNKNOWNS];
                 let mut left = *z;
                 for k in 0..HARMONICS {
                     let here = waves[k][0][i] * turn[k];
+                    let turned = 2.0 * (b[k] * here).im * (k + 1) as f64;
                     left -= 2.0 * (b[k] * here).re;
-                    slopes[0] += 2.0 * (b[k] * waves[k][1][i] * turn[k]).re;
-                    slopes[1] -= 2.0 * (b[k] * here).im * (k + 1) as f64 * y;
+                    slopes[0] += 2.0 * (b[k] * waves[k][1][i] * turn[k]).re + turned * shift;
+                    slopes[1] -= turned * y;
                     slopes[2 + 2 * k] = 2.0 * here.re;
                     slopes[3 + 2 * k] = -2.0 * here.im;
                 }
-                let turns = ((q * self.x[i] + kappa * y) / TAU).rem_euclid(1.0);
+                let turns = ((q * self.x[i] + away) / TAU).rem_euclid(1.0);
                 let part = ((turns * PARTS as f64) as usize).min(PARTS - 1);
-                found.add((block + i * BLOCKS / columns, part), left, &slopes);
+                found.add((block + i * BLOCKS / columns, part), (left, *weight), &slopes);
             }
         }
         found
     }
 
     fn judged(&self, at: [f64; UNKNOWNS], normal: &Normal) -> Result<Wave, RippleError> {
-        let pixels = (self.x.len() * self.y.len()) as f64;
-        let freedom = (pixels - 2.0 * self.y.len() as f64 - UNKNOWNS as f64).max(1.0);
+        let pixels = (self.x.len() * self.rows.len()) as f64;
+        let freedom = (pixels - 2.0 * self.rows.len() as f64 - UNKNOWNS as f64).max(1.0);
         let residual = (normal.sum / freedom).sqrt();
-        let all: f64 = self.z.iter().flatten().map(|z| z * z).sum();
+        let square = |row: &Row| row.weight * row.z.iter().map(|z| z * z).sum::<f64>();
+        let all: f64 = self.rows.iter().map(square).sum();
         let inverse = normal.matrix().try_inverse().ok_or(RippleError::Nothing)?;
         let white = &inverse * (residual * residual);
         let blocks = normal.scatter();
@@ -266,6 +288,12 @@ impl Rows {
     }
 }
 
+impl Row {
+    fn new(y: f64, z: Vec<f64>) -> Self {
+        Self { y, z, shift: 0.0, weight: 1.0 }
+    }
+}
+
 /// Normal equations of least squares.
 struct Normal {
     matrix: [[f64; UNKNOWNS]; UNKNOWNS],
@@ -273,7 +301,7 @@ struct Normal {
     scores: [[f64; UNKNOWNS]; BLOCKS * BLOCKS],
     /// Sum of the squared residuals.
     sum: f64,
-    /// Sum and number of the residuals in each part of a wavelength.
+    /// Weighted sum of the residuals in each part of a wavelength, and the sum of the weights.
     parts: [(f64, f64); PARTS],
 }
 
@@ -287,10 +315,16 @@ impl Normal {
         }
     }
 
-    fn add(&mut self, (block, part): (usize, usize), left: f64, slopes: &[f64; UNKNOWNS]) {
-        self.sum += left * left;
-        self.parts[part] = (self.parts[part].0 + left, self.parts[part].1 + 1.0);
+    fn add(
+        &mut self,
+        (block, part): (usize, usize),
+        (left, weight): (f64, f64),
+        slopes: &[f64; UNKNOWNS],
+    ) {
+        self.sum += weight * left * left;
+        self.parts[part] = (self.parts[part].0 + weight * left, self.parts[part].1 + weight);
         for (i, slope) in slopes.iter().enumerate() {
+            let slope = weight * slope;
             self.scores[block][i] += slope * left;
             for (sum, other) in self.matrix[i].iter_mut().zip(slopes).take(i + 1) {
                 *sum += slope * other;

@@ -84,6 +84,7 @@ fn request(made: &Made) -> RippleRequest {
         pitch: SIGMA * made.pitch,
         forward: None,
         upward: None,
+        retrace: None,
     }
 }
 
@@ -137,7 +138,59 @@ fn noise_has_no_ripples() {
         pitch: 2.0,
         forward: None,
         upward: None,
+        retrace: None,
     };
     let found = ripples(&image, &request);
     assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
+}
+
+/// Noise of the images with a retrace, in the unit of their heights.
+const NOISE: f64 = 5.0;
+
+/// Ripples of a raster seen twice, with offsets, tilts and noise of their own, the second time three columns further.
+#[test]
+fn a_retrace_narrows_the_intervals() {
+    let mut made = made(1.12, 1.0, 1.0, (120.0, 120.0));
+    // One frame, without noise; each way has noise as large as half of the ripples.
+    let clean = image(&mut made, 96, 0.0, 11, [false; 2]);
+    let noisy = |seed: u64| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut row = |row: &Vec<f64>| -> Vec<f64> {
+            let offset = normal(&mut random);
+            row.iter().map(|z| z + offset + NOISE * normal(&mut random)).collect()
+        };
+        let rows = clean.rows().iter().map(&mut row).collect();
+        Image::new(clean.x().to_vec(), clean.y().to_vec(), rows).unwrap()
+    };
+    let (there, back) = (noisy(1), noisy(2));
+    let columns = 3;
+    let cut = |image: &Image, first: usize, factor: f64| {
+        let kept = image.x().len() - columns;
+        let row = |row: &Vec<f64>| row[first..first + kept].iter().map(|z| factor * z).collect();
+        let rows = image.rows().iter().map(row).collect();
+        Image::new(image.x()[..kept].to_vec(), image.y().to_vec(), rows).unwrap()
+    };
+    let (trace, retrace) = (cut(&there, 0, 1.0), cut(&back, columns, 1.0));
+    let asked = |image: Image| RippleRequest { retrace: Some(image), ..request(&made) };
+    let alone = ripples(&trace, &request(&made)).unwrap();
+    let both = ripples(&trace, &asked(retrace.clone())).unwrap();
+    let beside = both.retrace.unwrap();
+    let all = format!("{}\n{}\n{beside:?}", summary(&made, &alone), summary(&made, &both));
+    let step = trace.x()[1] - trace.x()[0];
+    assert!((beside.shift + columns as f64 * step).abs() < 0.2 * step, "{step}: {all}");
+    assert!((beside.ratio - 1.0).abs() < 0.05 && beside.agreement > 0.005, "{all}");
+    for (one, two, truth) in [(alone.alpha, both.alpha, made.alpha), (alone.r, both.r, made.r)] {
+        assert!(two.low < truth && truth < two.high, "{all}");
+        let narrower = (two.high - two.low) / (one.high - one.low);
+        assert!((0.5..0.95).contains(&narrower), "{narrower}: {all}");
+    }
+    // A retrace that is higher by a fifth is said; one that lies the other way round is refused.
+    let other = ripples(&trace, &asked(cut(&back, columns, 1.2))).unwrap();
+    assert!(other.retrace.unwrap().agreement < 0.005, "{:?}", other.retrace);
+    assert!(other.remarks().iter().any(|remark| remark.contains("differ by more than noise")));
+    let mirrored = image(&mut made, 96, 0.5, 12, [true, false]);
+    let found = ripples(&there, &RippleRequest { retrace: Some(mirrored), ..request(&made) });
+    assert!(matches!(found, Err(RippleError::Retrace(_))), "{found:?}");
+    let found = ripples(&there, &RippleRequest { retrace: Some(trace), ..request(&made) });
+    assert!(matches!(found, Err(RippleError::Retrace(_))), "{found:?}");
 }

@@ -10,7 +10,7 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Estimate, Image, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
+    Estimate, Image, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
 };
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Wider};
@@ -62,6 +62,9 @@ pub struct FitImageFound {
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the lines, that the wave explains.
     pub explained_variance: f64,
+    /// The retrace beside the trace; null without `retrace_image`.
+    #[serde(default)]
+    pub retrace: Option<RetraceDocument>,
     /// The mean ripple, perpendicular to the crests.
     pub profile: RippleProfileDocument,
     /// The image without offsets and slopes of its lines, averaged to at most 128 × 128 pixels.
@@ -103,6 +106,21 @@ pub struct FitImage {
     /// Measured heights. Documents contain them, levelled, in the answer.
     #[serde(skip_serializing)]
     pub image: MeasuredImage,
+    /// Heights of the same area on the way back, at the same positions; both are fitted together.
+    #[serde(skip_serializing)]
+    pub retrace_image: Option<MeasuredImage>,
+}
+
+/// The retrace beside the trace.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RetraceDocument {
+    /// Distance by which its ripples are further along the lines, in the unit of the image; it is removed.
+    pub shift: f64,
+    /// Amplitude of its first harmonic over that of the trace.
+    pub ratio: f64,
+    /// Probability of an equally large difference, beyond the shift, by noise.
+    pub agreement: f64,
 }
 
 /// A direction across the lines.
@@ -181,12 +199,7 @@ impl FitImage {
 
     /// The image, on an even grid.
     fn heights(&self) -> Result<Image, Refused> {
-        let MeasuredImage { x, y, rows } = self.image.clone();
-        if !(is_even(&x) && is_even(&y)) {
-            let why = "the positions of columns and rows must ascend evenly";
-            return Err(Refused::whole("image", why));
-        }
-        Image::new(x, y, rows).map_err(|error| Refused::whole("image", error))
+        heights("image", &self.image)
     }
 
     /// The result with the error of σ: α and r are fitted again at both ends of its interval.
@@ -215,8 +228,22 @@ impl FitImage {
             pitch: self.distance()?,
             forward: self.scan.map(|scan| scan == ScanName::Right),
             upward: self.slow_scan.map(|scan| scan == SlowScanName::Up),
+            retrace: self
+                .retrace_image
+                .as_ref()
+                .map(|i| heights("retrace_image", i))
+                .transpose()?,
         })
     }
+}
+
+fn heights(name: &'static str, image: &MeasuredImage) -> Result<Image, Refused> {
+    let MeasuredImage { x, y, rows } = image.clone();
+    if !(is_even(&x) && is_even(&y)) {
+        let why = "the positions of columns and rows must ascend evenly";
+        return Err(Refused::whole(name, why));
+    }
+    Image::new(x, y, rows).map_err(|error| Refused::whole(name, error))
 }
 
 fn positive(name: &'static str, value: f64) -> Result<f64, Refused> {
@@ -252,6 +279,7 @@ impl Ask for FitImage {
     fn answer(&self, _: &Context) -> Result<(FitImageFound, Vec<String>), Failure> {
         let (image, request) = (self.heights()?, self.request()?);
         let refused = |error| match error {
+            RippleError::Retrace(_) => Refused::whole("retrace_image", error),
             RippleError::Request(_) => Refused::whole("tip", error),
             _ => Refused::whole("image", error),
         };
@@ -309,6 +337,11 @@ impl FitImageFound {
             modulation: found.modulation,
             residual: found.residual,
             explained_variance: found.explained,
+            retrace: found.retrace.map(|Retrace { shift, ratio, agreement }| RetraceDocument {
+                shift,
+                ratio,
+                agreement,
+            }),
             profile: found.profile.clone().into(),
             levelled: MeasuredImage {
                 x: levelled.x().to_vec(),

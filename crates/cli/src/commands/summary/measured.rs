@@ -100,6 +100,11 @@ impl Product for FitImageDocument {
             .row("height gain k/a", digits(self.height_gain, 5))
             .maybe("scan", word(json!(self.scan)))
             .maybe("lines", word(json!(self.slow_scan)))
+            .maybe(
+                "retrace shifted by",
+                self.retrace.map(|r| format!("{}{unit}", digits(r.shift, 3))),
+            )
+            .maybe("retrace over trace", self.retrace.map(|r| digits(r.ratio, 4)))
             .row("probability of the misfit", digits(self.misfit, 2))
             .row("residual", digits(self.residual, 3))
             .remarks(&self.remarks)

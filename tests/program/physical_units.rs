@@ -329,7 +329,7 @@ fn axes_of_r_and_alpha_are_velocities_and_indentation_rates_in_units() {
     let ([v1, n1], [v2, n2]) = (at(0.5, 0.3), at(1.5, 2.0));
     // The points of the longest curve, in the unit of the picture.
     let boundary = |text: &str| -> Vec<f64> {
-        let curves = text.split("<path d=\"M").filter(|path| path.contains("stroke=\"#0072B2\""));
+        let curves = text.split("<path d=\"M").filter(|path| path.contains("stroke=\"#0072b2\""));
         let longest = curves.max_by_key(|path| path.find('"')).unwrap().split('"').next().unwrap();
         let numbers = longest.split([' ', 'C', 'L', 'M']).filter(|n| !n.is_empty());
         numbers.map(|number| number.parse().unwrap()).collect()

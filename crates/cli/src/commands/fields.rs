@@ -3,7 +3,6 @@
 use crate::failure::Failure;
 use crate::message::harmless;
 use schemars::{JsonSchema, schema_for};
-use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -39,7 +38,7 @@ impl Fields {
 
     /// A line for each field, in the order of the request: numbers as in the document, words without quotes, null for
     /// a missing value.
-    pub(crate) fn of(&self, document: &impl Serialize) -> Result<String, Failure> {
+    pub(crate) fn of(&self, document: &dyn erased_serde::Serialize) -> Result<String, Failure> {
         let document = serde_json::to_value(document);
         let document = document.map_err(|error| Failure::Run(error.to_string()))?;
         Ok(self.0.iter().map(|path| format!("{}\n", shown(&document, path))).collect())

@@ -112,9 +112,9 @@ impl Job {
     }
 
     /// Writes a result and prints the given summary; returns the figure still to be drawn.
-    pub(crate) fn write_with<P: Serialize + Tabular>(
+    pub(crate) fn write_with(
         self,
-        product: &P,
+        product: &(impl Serialize + Tabular),
         summary: &Summary,
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
@@ -149,7 +149,7 @@ impl Job {
 
 /// Output after the document: requested fields on standard output, or the summary if the result went to a file.
 pub(crate) fn after(
-    product: &impl Serialize,
+    product: &dyn erased_serde::Serialize,
     summary: &Summary,
     fields: &Fields,
     has_summary: bool,

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use stickslip::{Column, Rows, Tabular, arrays_in_units, columns_in_units};
 
 /// Writes the columns as CSV, with their names and a line for each row.
-pub(crate) fn write_csv(table: &impl Tabular, output: Output) -> Result<(), Failure> {
+pub(crate) fn write_csv(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
     let columns = columns_in_units(table);
     let names: Vec<&str> = columns.iter().map(|(name, _)| &**name).collect();
     let rows = columns.iter().filter_map(|(_, column)| rows(column)).min().unwrap_or(0);
@@ -82,7 +82,7 @@ impl<'a> Cells<'a> {
 }
 
 /// Writes the arrays as a NumPy archive.
-pub(crate) fn write_npz(table: &impl Tabular, output: Output) -> Result<(), Failure> {
+pub(crate) fn write_npz(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
     output.write_with(|out| npz::write(arrays_in_units(table), out))
 }
 

@@ -7,15 +7,15 @@
 mod explained;
 mod pair;
 mod part;
+mod retrace;
 mod travelling;
 mod wave;
 
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
 use explained::Problem;
-use pair::Pair;
-pub use pair::Retrace;
 use part::Part;
+pub use retrace::Retrace;
 use std::f64::consts::TAU;
 use stickslip_tip::Footprint;
 use thiserror::Error;
@@ -205,7 +205,7 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let lines = Lines::new(&request.footprint, request.pitch / request.sigma)
         .filter(|_| positive)
         .ok_or(RippleError::Request("needs σ and pitch above 0, and a footprint that fades"))?;
-    let (pair, retrace) = Pair::of(image, request.retrace.as_ref())?;
+    let (pair, retrace) = self::retrace::pair(image, request.retrace.as_ref())?;
     let part = Part::settled(&pair)?;
     let wave = &part.wave;
     let ways = [(true, true), (true, false), (false, true), (false, false)];

@@ -33,7 +33,7 @@ pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
 
 /// The columns of a table; those with a dimension are converted to nm, s and nN and named accordingly, as far as the
 /// document contains the scales.
-pub fn columns<'a>(table: &'a (impl Tabular + ?Sized)) -> Vec<InUnit<'a>> {
+pub fn columns<'a>(table: &'a dyn Tabular) -> Vec<InUnit<'a>> {
     let columns = table.columns();
     let Some(physical) = table.physical() else {
         return columns.into_iter().map(|(name, column)| (name.into(), column)).collect();
@@ -54,9 +54,7 @@ fn in_unit<'a>((name, column): Named<'a>, scales: &KnownScales) -> InUnit<'a> {
 }
 
 /// The arrays of a document, converted in the same way, each made when its turn comes.
-pub fn arrays<'a>(
-    table: &'a (impl Tabular + ?Sized),
-) -> impl Iterator<Item = (Cow<'static, str>, Array<'a>)> {
+pub fn arrays<'a>(table: &'a dyn Tabular) -> impl Iterator<Item = (Cow<'static, str>, Array<'a>)> {
     let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
     let in_unit = move |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {
         Some((factor, name)) => (name.into(), array.times(factor)),

@@ -15,8 +15,8 @@ BEFORE ?= HEAD~1
 # Runs of `make judge`.
 RUNS ?= 1000
 
-# Builds for a first look (SVG only), shows the command as a user would type it, and runs it.
-trial := -p stickslip-cli --profile trial --no-default-features
+# Builds for a first look (SVG and animations), shows the command as a user would type it, and runs it.
+trial := -p stickslip-cli --profile trial --no-default-features --features animation
 stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 	&& $(CARGO) run --locked $(trial) --quiet -- $(1)
 
@@ -27,9 +27,10 @@ stickslip = $(CARGO) build --locked $(trial) && echo 'stickslip $(1)' \
 help: ## list these verbs
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
-run: ## a first run: a tip that comes to stick and slip, its surface, and a picture
+run: ## a first run: a tip that comes to stick and slip, its surface, a picture (run.svg) and an animation (run.gif)
 	@$(call stickslip,run --alpha 1.2 --r 1 --kick 0.05 --until 200 -o run.json --plot $(PLOT))
 	@$(call stickslip,surface run.json --at 200 --range 130:200 --spacing 0.02 -o surface.csv)
+	@$(call stickslip,plot run.json -o run.gif)
 
 test: ## all tests of the workspace
 	$(CARGO) test --workspace --locked

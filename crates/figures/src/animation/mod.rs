@@ -39,15 +39,18 @@ pub fn animate(
     let still = scene.still();
     let stage = Stage::of(&still, scene.times(), film)?;
     let times = film.times(scene.times());
+    let mut palette = palette(scene, &stage, &times)?;
     let mut writer: Box<dyn Writer> = match format {
         AnimationFormat::Webp => Box::new(Webp::new(stage.size())),
-        AnimationFormat::Gif => Box::new(Gif::new(stage.size(), palette(scene, &stage, &times)?)?),
-        AnimationFormat::Apng => Box::new(Apng::new(stage.size(), palette(scene, &stage, &times)?)),
+        AnimationFormat::Gif => Box::new(Gif::new(stage.size(), palette.clone())?),
+        AnimationFormat::Apng => Box::new(Apng::new(stage.size(), palette.clone())),
     };
+    let mut shown = vec![0; stage.size().0 * stage.size().1];
     let mut before: Option<Vec<u8>> = None;
     for (t, milliseconds) in times {
         let now = stage.draw(scene, t)?;
-        let patch = Patch::between(before.as_deref(), &now, stage.size());
+        let mut patch = Patch::between(before.as_deref(), &now, stage.size());
+        patch.reduce(&mut palette, &mut shown, stage.size().0);
         writer.frame(&patch, milliseconds)?;
         before = Some(now);
     }

@@ -7,6 +7,7 @@ const BITS: u8 = 5;
 const MOST: usize = 255;
 
 /// A palette, and the indices of the colours found so far.
+#[derive(Clone)]
 pub(super) struct Palette {
     colours: Vec<[u8; 3]>,
     known: HashMap<[u8; 3], u8>,
@@ -42,7 +43,13 @@ impl Palette {
         pixels.iter().map(|pixel| pixel.map_or(0, |colour| self.index(colour))).collect()
     }
 
-    fn index(&mut self, colour: [u8; 3]) -> u8 {
+    /// The colour of an index; `None` of 0.
+    pub(super) fn colour(&self, index: u8) -> Option<[u8; 3]> {
+        self.colours.get(usize::from(index).checked_sub(1)?).copied()
+    }
+
+    /// The index of the nearest colour.
+    pub(super) fn index(&mut self, colour: [u8; 3]) -> u8 {
         if let Some(index) = self.known.get(&colour) {
             return *index;
         }

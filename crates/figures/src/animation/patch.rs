@@ -1,6 +1,10 @@
 //! The part of a frame that differs from the frame before.
 
+use super::palette::Palette;
 use crate::error::FigureError;
+
+/// Largest difference of colours, of 255, that is left as it is: that of a colour from the palette.
+const NEAR: u8 = 8;
 
 /// A writer of frames.
 pub(super) trait Writer {
@@ -59,11 +63,45 @@ impl Patch {
         }
         Self { left, top, width: right - left, height: bottom - top, pixels }
     }
+
+    /// Replaces colours by those of the palette, and drops pixels that show a colour close to theirs: heights beside a line
+    /// change a little with each line. `shown` has the index of each pixel
+    /// of the frame, of this width.
+    pub(super) fn reduce(&mut self, palette: &mut Palette, shown: &mut [u8], width: usize) {
+        for (i, pixel) in self.pixels.iter_mut().enumerate() {
+            let Some(colour) = *pixel else { continue };
+            let place =
+                &mut shown[width * (self.top + i / self.width) + self.left + i % self.width];
+            if palette.colour(*place).is_some_and(|there| are_near(there, colour)) {
+                *pixel = None;
+                continue;
+            }
+            *place = palette.index(colour);
+            *pixel = palette.colour(*place);
+        }
+    }
+}
+
+/// Whether no channel differs by more than [`NEAR`].
+fn are_near(a: [u8; 3], b: [u8; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= NEAR)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colours_close_to_those_shown_are_left_and_others_replaced() {
+        let mut palette = Palette::of(&[vec![10, 10, 10, 200, 200, 200]]);
+        let mut shown = vec![0; 2];
+        for (now, seen) in [(12, Some([10; 3])), (18, None), (190, Some([200; 3])), (192, None)] {
+            let pixels = vec![Some([now; 3]), None];
+            let mut patch = Patch { left: 0, top: 0, width: 2, height: 1, pixels };
+            patch.reduce(&mut palette, &mut shown, 2);
+            assert_eq!(patch.pixels, [seen, None], "{now}");
+        }
+    }
 
     #[test]
     fn a_patch_holds_all_that_differs_and_no_more() {

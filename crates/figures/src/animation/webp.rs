@@ -2,7 +2,7 @@
 
 use super::patch::{Patch, Writer};
 use crate::error::FigureError;
-use image_webp::{ColorType, WebPEncoder};
+use image_webp::{ColorType, EncoderParams, WebPEncoder};
 
 /// Flags of VP8X for transparency and animation.
 const ALPHA: u8 = 1 << 4;
@@ -32,11 +32,10 @@ impl Writer for Webp {
     fn frame(&mut self, patch: &Patch, milliseconds: u32) -> Result<(), FigureError> {
         let rgba = |pixel: &Option<[u8; 3]>| pixel.map_or([0; 4], |[r, g, b]| [r, g, b, 255]);
         let pixels: Vec<u8> = patch.pixels.iter().flat_map(rgba).collect();
-        let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-        let mut file = vec![];
-        WebPEncoder::new(&mut file)
-            .encode(&pixels, side(patch.width), side(patch.height), ColorType::Rgba8)
-            .map_err(|error| FigureError::Png(error.to_string()))?;
+        let size = (patch.width, patch.height);
+        // Differences between neighbours are small in a whole picture, and large where changed pixels are few.
+        let (plain, predicted) = (encoded(&pixels, size, false)?, encoded(&pixels, size, true)?);
+        let file = if plain.len() < predicted.len() { plain } else { predicted };
         let mut frame = vec![];
         for number in [
             patch.left / 2,
@@ -61,6 +60,24 @@ impl Writer for Webp {
         file.extend(self.chunks);
         Ok(file)
     }
+}
+
+/// A file of one picture, of pixels or of their differences from a prediction by their neighbours.
+fn encoded(
+    pixels: &[u8],
+    (width, height): (usize, usize),
+    is_predicted: bool,
+) -> Result<Vec<u8>, FigureError> {
+    let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+    let mut params = EncoderParams::default();
+    params.use_predictor_transform = is_predicted;
+    let mut file = vec![];
+    let mut encoder = WebPEncoder::new(&mut file);
+    encoder.set_params(params);
+    encoder
+        .encode(pixels, side(width), side(height), ColorType::Rgba8)
+        .map_err(|error| FigureError::Png(error.to_string()))?;
+    Ok(file)
 }
 
 /// Appends a chunk: its name, its length, and its content, of even length.

@@ -17,6 +17,7 @@ use crate::files::input::parse_tip;
 use crate::files::lines::Lines;
 use crate::files::measured::parse_measured;
 use crate::files::sheet::Sheet;
+use crate::session::Session;
 use clap::Parser;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
@@ -313,7 +314,7 @@ fn any_sweep_is_taken_or_refused() {
 
 /// Checks whether options define a run, as far as that needs no file.
 fn judge_run<Q: Questions>(options: &Options<Q>) -> bool {
-    let question = || options.values().map(parameter::question::<Run>);
+    let question = || options.values(&Session::default()).map(parameter::question::<Run>);
     let is_model = || question().is_ok_and(|run| run.is_ok_and(|run| run.model().is_ok()));
     options.tip.tip_file.is_some() || is_model()
 }

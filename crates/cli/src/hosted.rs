@@ -5,8 +5,8 @@
 //! let made = hosted::call(["run", "--alpha=1.2", "--r=1", "--until=60"], &host)?;
 //! ```
 
-pub use crate::host::{Host, Pace, Supply};
 pub use crate::made::{Document, Made};
+pub use crate::session::{Host, Pace, Supply};
 
 use crate::arguments::{Cli, Command};
 use crate::commands::quantities::{Translated, translated};
@@ -14,7 +14,8 @@ use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
 use crate::message::harmless;
-use crate::{done, host, made};
+use crate::session::Session;
+use crate::{done, made};
 use clap::{ArgAction, CommandFactory, FromArgMatches};
 use serde::Serialize;
 use std::ffi::OsString;
@@ -37,7 +38,7 @@ pub enum Refusal {
     Stopped(String),
 }
 
-/// Runs a command, such as `["stability", "--r=1"]`, on this thread. Returns `None` if the result was written to a
+/// Runs a command, such as `["stability", "--r=1"]`. Returns `None` if the result was written to a
 /// file and not kept. A result obtained before an error is available from [`Host::take`].
 ///
 /// # Errors
@@ -46,9 +47,9 @@ pub fn call<'a>(
     words: impl IntoIterator<Item = &'a str>,
     host: &Arc<Host>,
 ) -> Result<Option<Made>, Refusal> {
-    let _lent = Lent::to(host);
-    let (cli, line) = parse(words)?;
-    match stop::where_asked_by(host.stop(), || done(&cli.command)) {
+    let session = Session::of(host);
+    let (cli, line) = parse(&session, words)?;
+    match stop::where_asked_by(host.stop(), || done(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own words for what it did not find.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {
@@ -58,7 +59,7 @@ pub fn call<'a>(
     }
 }
 
-/// Runs several `run` commands together on this thread, side by side where possible. Each has its words, such as
+/// Runs several `run` commands together, side by side where possible. Each has its words, such as
 /// `["run", "--r=1", …]`, and a host that supplies its files and hears its warnings; `host` sees the progress of all and
 /// may cancel them. Invalid input of any command is an error before the first run begins.
 ///
@@ -69,40 +70,23 @@ pub fn runs(
     host: &Arc<Host>,
 ) -> Result<Vec<Result<Made, Refusal>>, (usize, Refusal)> {
     let order = |(words, own): &(Vec<String>, Arc<Host>)| {
-        let _lent = Lent::to(own);
-        let (cli, line) = parse(words.iter().map(String::as_str))?;
+        let session = Session::of(own);
+        let (cli, line) = parse(&session, words.iter().map(String::as_str))?;
         let Command::Run(arguments) = &cli.command else {
             return Err(Refusal::Input("several commands at once are runs".into()));
         };
-        many::order_of(arguments).map_err(|failure| line.restored(failure).into())
+        many::order_of(&session, arguments).map_err(|failure| line.restored(failure).into())
     };
     let orders = commands.iter().enumerate();
     let orders = orders.map(|(number, command)| order(command).map_err(|e| (number, e)));
     let orders = orders.collect::<Result<_, _>>()?;
-    let _lent = Lent::to(host);
-    let runs = stop::where_asked_by(host.stop(), || many::runs(orders));
+    let runs = stop::where_asked_by(host.stop(), || many::runs(&Session::of(host), orders));
     let stopped = host.stop().load(Ordering::Relaxed);
     let refused = |failure: Failure| match failure {
         failure if stopped => Refusal::Stopped(failure.to_string()),
         failure => failure.into(),
     };
     Ok(runs.into_iter().map(|run| run.map_err(refused)).collect())
-}
-
-/// Guard: the thread has a host until this is dropped.
-struct Lent;
-
-impl Lent {
-    fn to(host: &Arc<Host>) -> Self {
-        host::set(Some(Arc::clone(host)));
-        Self
-    }
-}
-
-impl Drop for Lent {
-    fn drop(&mut self) {
-        host::set(None);
-    }
 }
 
 impl From<Failure> for Refusal {
@@ -123,7 +107,10 @@ fn parser() -> &'static Mutex<clap::Command> {
     PARSER.get_or_init(|| Mutex::new(Cli::command().no_binary_name(true)))
 }
 
-fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<(Cli, Translated), Refusal> {
+fn parse<'a>(
+    session: &Session,
+    words: impl IntoIterator<Item = &'a str>,
+) -> Result<(Cli, Translated), Refusal> {
     let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     let refused = |error: clap::Error| {
         let said = error.render().to_string();
@@ -133,7 +120,7 @@ fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<(Cli, Translate
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
     };
     let words = words.into_iter().map(OsString::from).collect();
-    let line = translated(words, &mut parser)?;
+    let line = translated(session, words, &mut parser)?;
     let matches = parser.try_get_matches_from_mut(&line.words).map_err(refused)?;
     Ok((Cli::from_arg_matches(&matches).map_err(refused)?, line))
 }
@@ -198,7 +185,7 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
     let refused = |error: Unusable| {
         Refusal::from(Failure::input(format!("DOCUMENT.json {}", path.display()), error))
     };
-    read(open("DOCUMENT.json", path)?).map_err(refused)
+    read(open(&Session::default(), "DOCUMENT.json", path)?).map_err(refused)
 }
 
 /// The document in a stream, of any format.
@@ -259,7 +246,6 @@ mod tests {
         let text = |run: &RunDocument| serde_json::to_string(run).unwrap();
         assert_eq!(text(&in_hand), text(written));
         assert!(in_hand.history.is_some());
-        assert!(host::current().is_none(), "the thread is its own again");
     }
 
     #[test]

@@ -4,13 +4,13 @@
 //! command that saves partial results [listens](Interrupt::listen): the first signal is stored and ends the command
 //! at its next step, a second one ends the program immediately. If all partial results are in a file already, the
 //! command need not reach its next step; it registers [its error message](Interrupt::or_else) instead. The same rules
-//! apply if the program was started with SIGINT ignored, like a background job. With a [host](crate::host) the
-//! program does not handle signals.
+//! apply if the program was started with SIGINT ignored, like a background job. With a
+//! [host](crate::session::Host) the program does not handle signals.
 
 use crate::failure::Failure;
 use crate::files::temporary::remove_unfinished;
-use crate::host::{self, Host};
 use crate::message::say;
+use crate::session::Session;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::io;
@@ -84,8 +84,8 @@ fn after_a_while(signal: u8) -> Option<Failure> {
 
 /// A listener for signals, or for cancellation by a host, while there are partial results.
 pub(crate) struct Interrupt {
-    host: Option<Arc<Host>>,
-    /// Whether there are partial results to save.
+    session: Session,
+    /// Whether a signal must leave time to save partial results.
     keeps: bool,
 }
 
@@ -94,33 +94,34 @@ impl Interrupt {
     ///
     /// # Errors
     /// The system rejects the signal handler.
-    pub(crate) fn listen() -> Result<Self, Failure> {
-        if let Some(host) = host::current() {
-            return Ok(Self { host: Some(host), keeps: true });
+    pub(crate) fn listen(session: &Session) -> Result<Self, Failure> {
+        let interrupt = Self { session: session.clone(), keeps: !session.has_host() };
+        if !interrupt.keeps {
+            return Ok(interrupt);
         }
         state().keepers.fetch_add(1, Ordering::SeqCst);
         let listening = end_at_once();
         listening.map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
-        Ok(Self { host: None, keeps: true })
+        Ok(interrupt)
     }
 
     /// A listener for work without partial results: a signal ends the program immediately, and a host can cancel the
     /// work.
-    pub(crate) fn of_host() -> Self {
-        Self { host: host::current(), keeps: false }
+    pub(crate) fn of_host(session: &Session) -> Self {
+        Self { session: session.clone(), keeps: false }
     }
 
     /// Registers the error for a command whose partial results are always in a file: the program ends soon after a
     /// signal, with this error.
     pub(crate) fn or_else(&self, tell: impl Fn(u8) -> Failure + Send + 'static) {
-        if self.host.is_none() {
+        if !self.session.has_host() {
             *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
         }
     }
 
     /// The signal received, if any.
     pub(crate) fn signal(&self) -> Option<u8> {
-        match &self.host {
+        match self.session.host() {
             Some(host) => host.stop().load(Ordering::Relaxed).then_some(SIGINT as u8),
             None => Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0),
         }
@@ -128,7 +129,7 @@ impl Interrupt {
 
     /// Flag set by the first signal; the work checks it.
     pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
-        match &self.host {
+        match self.session.host() {
             Some(host) => host.stop(),
             None => &state().received,
         }
@@ -137,7 +138,7 @@ impl Interrupt {
 
 impl Drop for Interrupt {
     fn drop(&mut self) {
-        if self.host.is_some() || !self.keeps {
+        if !self.keeps {
             return;
         }
         *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;

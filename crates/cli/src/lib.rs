@@ -17,11 +17,11 @@ mod files;
 mod fuzz;
 #[cfg(test)]
 mod fuzz_documents;
-mod host;
 pub mod hosted;
 mod interrupt;
 mod made;
 mod message;
+mod session;
 mod sign_of_life;
 
 use arguments::{Cli, Command, FIRST_SCREEN};
@@ -30,6 +30,7 @@ use clap::{CommandFactory, Parser};
 use commands::quantities::translated;
 use failure::Failure;
 use message::{say, say_lines};
+use session::Session;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
@@ -41,10 +42,11 @@ pub fn arguments() -> clap::Command {
 
 /// Runs the program, as called from a shell.
 pub fn main() -> ExitCode {
-    let line = match translated(std::env::args_os().collect(), &mut Cli::command()) {
-        Ok(line) => line,
-        Err(failure) => return failed(&failure),
-    };
+    let line =
+        match translated(&Session::default(), std::env::args_os().collect(), &mut Cli::command()) {
+            Ok(line) => line,
+            Err(failure) => return failed(&failure),
+        };
     let cli = match Cli::try_parse_from(&line.words) {
         Ok(cli) => cli,
         Err(mut error) => {
@@ -52,9 +54,7 @@ pub fn main() -> ExitCode {
             return answered(&error);
         }
     };
-    if cli.quiet {
-        message::be_quiet();
-    }
+    let session = Session::of_terminal(cli.quiet);
     if let Err(error) = interrupt::end_at_once() {
         say(format_args!("stickslip: cannot listen for signals: {error}"));
         return ExitCode::FAILURE;
@@ -62,7 +62,7 @@ pub fn main() -> ExitCode {
     if !cli.quiet {
         sign_of_life::begin();
     }
-    let done = done(&cli.command);
+    let done = done(&session, &cli.command);
     sign_of_life::end();
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -77,25 +77,25 @@ fn failed(failure: &Failure) -> ExitCode {
     failure.exit_code()
 }
 
-fn done(command: &Command) -> Result<(), Failure> {
+fn done(session: &Session, command: &Command) -> Result<(), Failure> {
     match command {
-        Command::Run(arguments) => commands::run::run(arguments),
-        Command::Verify(arguments) => commands::verify::verify(arguments),
-        Command::Surface(arguments) => commands::surface::surface(arguments),
-        Command::Stability(arguments) => commands::stability::stability(arguments),
-        Command::Boundary(arguments) => commands::boundary::boundary(arguments),
-        Command::Compare(arguments) => commands::compare::compare(arguments),
-        Command::Response(arguments) => commands::response::response(arguments),
-        Command::Cycle(arguments) => commands::cycle::cycle(arguments),
-        Command::Continue(arguments) => commands::continuation::follow(arguments),
-        Command::Sweep(arguments) => commands::sweep::sweep(arguments),
-        Command::Raster(arguments) => commands::raster::raster(arguments),
-        Command::Tip(arguments) => commands::tip::measured_tip(arguments),
-        Command::Fit(arguments) => commands::fit::fit(arguments),
-        Command::Friction(arguments) => commands::friction::friction(arguments),
-        Command::Units(arguments) => commands::units::units(arguments),
-        Command::Plot(arguments) => commands::plot::plot(arguments),
-        Command::Figures(arguments) => commands::figures::figures(arguments),
+        Command::Run(arguments) => commands::run::run(session, arguments),
+        Command::Verify(arguments) => commands::verify::verify(session, arguments),
+        Command::Surface(arguments) => commands::surface::surface(session, arguments),
+        Command::Stability(arguments) => commands::stability::stability(session, arguments),
+        Command::Boundary(arguments) => commands::boundary::boundary(session, arguments),
+        Command::Compare(arguments) => commands::compare::compare(session, arguments),
+        Command::Response(arguments) => commands::response::response(session, arguments),
+        Command::Cycle(arguments) => commands::cycle::cycle(session, arguments),
+        Command::Continue(arguments) => commands::continuation::follow(session, arguments),
+        Command::Sweep(arguments) => commands::sweep::sweep(session, arguments),
+        Command::Raster(arguments) => commands::raster::raster(session, arguments),
+        Command::Tip(arguments) => commands::tip::measured_tip(session, arguments),
+        Command::Fit(arguments) => commands::fit::fit(session, arguments),
+        Command::Friction(arguments) => commands::friction::friction(session, arguments),
+        Command::Units(arguments) => commands::units::units(session, arguments),
+        Command::Plot(arguments) => commands::plot::plot(session, arguments),
+        Command::Figures(arguments) => commands::figures::figures(session, arguments),
         Command::Schema(arguments) => commands::schema::schema(arguments),
         Command::Completions(arguments) => commands::completions::completions(arguments),
     }

@@ -3,52 +3,22 @@
 //! Messages quote file names and contents of files, which may contain control sequences that move a cursor or rename
 //! a window, and megabytes of text.
 
-use crate::host;
 use crate::sign_of_life::aside;
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{Write, stderr};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Largest number of characters of a line; of longer lines the beginning and the end are printed.
 const LONGEST: usize = 2000;
 /// Number of characters printed from the end.
 const END: usize = 400;
 
-/// Prints a line, or passes it to the host. Errors of standard error are ignored.
+/// Prints a line on standard error, whose own errors are ignored.
 pub(crate) fn say(line: impl Display) {
     let mut line = harmless(&short(&line.to_string())).into_owned();
-    if let Some(host) = host::current() {
-        return host.hear(line);
-    }
     line.push('\n');
     // In one piece: lines of several processes do not mix.
     aside(|| stderr().lock().write_all(line.as_bytes()).ok());
-}
-
-/// Whether only errors are printed.
-static QUIET: AtomicBool = AtomicBool::new(false);
-
-/// Prints only errors from now on.
-pub(crate) fn be_quiet() {
-    QUIET.store(true, Ordering::Relaxed);
-}
-
-/// Whether only errors are printed; progress is hidden too.
-pub(crate) fn is_quiet() -> bool {
-    QUIET.load(Ordering::Relaxed)
-}
-
-/// Prints a line that is not an error: a result or a warning.
-pub(crate) fn remark(line: impl Display) {
-    if !is_quiet() {
-        say(line);
-    }
-}
-
-/// Prints each line of a text that is not an error.
-pub(crate) fn remark_lines(text: &str) {
-    text.lines().for_each(remark);
 }
 
 /// Prints each line of a text.
@@ -80,7 +50,7 @@ pub(crate) fn is_harmful(c: char) -> bool {
 }
 
 /// The text, shortened to its beginning and its end if it is long.
-fn short(text: &str) -> Cow<'_, str> {
+pub(crate) fn short(text: &str) -> Cow<'_, str> {
     // A character has one byte at least.
     if text.len() <= LONGEST {
         return text.into();

@@ -8,8 +8,7 @@ use crate::arguments::{AnswerArguments, Options, Questions, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
-use crate::host;
-use crate::message::remark;
+use crate::session::Session;
 use serde_json::{Map, Value};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -22,18 +21,19 @@ use stickslip::{
 use stickslip_figures::Drawn;
 
 /// A context that reports progress to the terminal or to the host, which may cancel the work.
-pub(crate) fn context() -> Context {
-    context_cancelled_by(host::current().map(|host| Arc::clone(host.stop())).unwrap_or_default())
+pub(crate) fn context(session: &Session) -> Context {
+    context_cancelled_by(session, session.stop())
 }
 
 /// A context that is cancelled by a flag.
-pub(crate) fn context_cancelled_by(flag: Arc<AtomicBool>) -> Context {
+pub(crate) fn context_cancelled_by(session: &Session, flag: Arc<AtomicBool>) -> Context {
     let progress: Mutex<Option<Progress>> = Mutex::new(None);
+    let session = session.clone();
     Context::cancelled_by(flag).timed_by(seconds).watched_by(move |part, counted| {
         let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
         let bar = progress.get_or_insert_with(|| match part {
-            Some(_) => Progress::new(0.0, 1.0).at_every_call(),
-            None => Progress::without_end().at_every_call(),
+            Some(_) => Progress::new(&session, 0.0, 1.0).at_every_call(),
+            None => Progress::without_end(&session).at_every_call(),
         });
         bar.counted(part.unwrap_or_default(), || counted);
     })
@@ -86,9 +86,10 @@ impl<Q: Questions> Options<Q> {
     ///
     /// # Errors
     /// A file cannot be read, or the footprint is invalid.
-    pub(crate) fn values(&self) -> Result<Map<String, Value>, Failure> {
-        let base = self.parameters.as_deref().map(read_parameters::<Q>).transpose()?;
-        self.values_instead_of(base.unwrap_or_default())
+    pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
+        let read = |path| read_parameters::<Q>(session, path);
+        let base = self.parameters.as_deref().map(read).transpose()?;
+        self.values_instead_of(session, base.unwrap_or_default())
     }
 
     /// The values `base`, replaced by those given as options.
@@ -97,6 +98,7 @@ impl<Q: Questions> Options<Q> {
     /// The footprint is invalid.
     pub(crate) fn values_instead_of(
         &self,
+        session: &Session,
         base: Map<String, Value>,
     ) -> Result<Map<String, Value>, Failure> {
         if let Some((range, why)) = &self.refused_range {
@@ -104,7 +106,7 @@ impl<Q: Questions> Options<Q> {
         }
         let mut given = self.given.clone();
         if self.tip.is_given() {
-            let tip = serde_json::to_value(Tip(tip(&self.tip)?));
+            let tip = serde_json::to_value(Tip(tip(session, &self.tip)?));
             given.insert("tip".into(), tip.map_err(|error| Failure::Run(error.to_string()))?);
         }
         Ok(overridden(base, given))
@@ -112,10 +114,13 @@ impl<Q: Questions> Options<Q> {
 }
 
 /// The parameters of `Q` in a file: a document, or its `parameters` alone.
-fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Failure> {
+fn read_parameters<Q: Questions>(
+    session: &Session,
+    path: &Path,
+) -> Result<Map<String, Value>, Failure> {
     const OPTION: &str = "--parameters";
     let named = || format!("{OPTION} {}", path.display());
-    let text = read_text(OPTION, path, LARGEST_TABLE)?;
+    let text = read_text(session, OPTION, path, LARGEST_TABLE)?;
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| Failure::input(named(), format!("is not JSON: {error}")))?;
     let mut whole = match value {
@@ -130,7 +135,7 @@ fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Fail
         let known = Q::parameters();
         parameters.retain(|name, _| known.iter().any(|parameter| parameter.name == *name));
         let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
-        remark(format_args!(
+        session.remark(format_args!(
             "stickslip: {}: a document {format}: its parameters {} are used",
             named(),
             names.join(", ")
@@ -144,13 +149,14 @@ fn read_parameters<Q: Questions>(path: &Path) -> Result<Map<String, Value>, Fail
 /// # Errors
 /// A parameter is invalid, or nothing is found.
 pub(crate) fn answered<Q: Ask>(
+    session: &Session,
     question: Q,
     place: &AnswerArguments,
     tip_file: Option<&Path>,
 ) -> Result<Document<Q>, Failure> {
-    let context = context();
+    let context = context(session);
     let question = question.resolved(&context)?;
-    let scales = scales(&place.in_units, tip_file, question.support_velocity())?;
+    let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
     Ok(question.answered(&context)?.in_units(scales.as_ref()))
 }
 
@@ -159,6 +165,7 @@ pub(crate) fn answered<Q: Ask>(
 /// # Errors
 /// As [`answered`], or the answer cannot be written.
 pub(crate) fn answer<Q: Ask>(
+    session: &Session,
     question: Q,
     place: &AnswerArguments,
     tip_file: Option<&Path>,
@@ -166,10 +173,10 @@ pub(crate) fn answer<Q: Ask>(
 where
     Document<Q>: Product + Drawn,
 {
-    let context = context();
+    let context = context(session);
     let question = question.resolved(&context)?;
-    let scales = scales(&place.in_units, tip_file, question.support_velocity())?;
-    let job = Job::open::<Document<Q>>(&place.outlet, place.plot.as_deref())?;
+    let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
+    let job = Job::open::<Document<Q>>(session, &place.outlet, place.plot.as_deref())?;
     job.finish(question.answered(&context)?.in_units(scales.as_ref()))
 }
 
@@ -178,6 +185,7 @@ where
 /// # Errors
 /// As [`answer`]; or a parameter is missing, or does not belong to the question.
 pub(crate) fn asked<Q: Ask, K: Questions>(
+    session: &Session,
     options: &Options<K>,
     values: Map<String, Value>,
     place: &AnswerArguments,
@@ -188,7 +196,7 @@ where
 {
     refuse_strangers::<Q, K>(options, &values, chosen_by)?;
     let question: Q = parameter::question(values)?;
-    answer(question, place, options.tip.tip_file.as_deref())
+    answer(session, question, place, options.tip.tip_file.as_deref())
 }
 
 /// Rejects options that do not belong to `Q`; `chosen_by` is the option that selects this question.

@@ -14,6 +14,7 @@ use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
+use crate::session::Session;
 use grid::{Discretisation, Motion};
 use serde_json::{Map, Value};
 use stickslip::{
@@ -26,17 +27,18 @@ use stickslip_tip::planar::PlanarScenario;
 /// Number of heights compared.
 const POINTS: usize = 2001;
 
-pub(crate) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result<(), Failure> {
     let CompareArguments { options, area, answer: place, .. } = arguments;
     if options.has("lines") || area.area.is_some() {
-        return raster::compare(arguments);
+        return raster::compare(session, arguments);
     }
     judge_places(&place.outlet, place.plot.as_deref(), &files(arguments))?;
-    let values = options.values()?;
+    let values = options.values(session)?;
     let tip_file = options.tip.tip_file.as_deref();
-    let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
-    let asked = Asked::of(arguments, values, scales.as_ref())?;
-    let job = Job::open::<CompareDocument>(&place.outlet, place.plot.as_deref())?;
+    let scales =
+        scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let asked = Asked::of(session, arguments, values, scales.as_ref())?;
+    let job = Job::open::<CompareDocument>(session, &place.outlet, place.plot.as_deref())?;
     let sides = match &asked.across {
         None => on_its_line(&asked)?,
         Some(scenario) => across::sides(&asked, scenario)?,
@@ -62,7 +64,8 @@ fn on_its_line(asked: &Asked) -> Result<Sides, Failure> {
 }
 
 /// The checked options.
-struct Asked {
+struct Asked<'a> {
+    session: &'a Session,
     question: Run,
     /// The motion along the scan.
     scenario: Scenario,
@@ -75,14 +78,20 @@ struct Asked {
     time_limit: f64,
 }
 
-impl Asked {
+impl<'a> Asked<'a> {
     fn of(
+        session: &'a Session,
         arguments: &CompareArguments,
         values: Map<String, Value>,
         scales: Option<&KnownScales>,
     ) -> Result<Self, Failure> {
-        let (question, scenario, across) = run_of(arguments, values, scales)?;
-        warn_of_idle(&arguments.disturbance, &question, (scenario.start_time(), scenario.until));
+        let (question, scenario, across) = run_of(session, arguments, values, scales)?;
+        warn_of_idle(
+            session,
+            &arguments.disturbance,
+            &question,
+            (scenario.start_time(), scenario.until),
+        );
         let second_order = match across {
             None => grid::SECOND_ORDER,
             Some(_) if arguments.grid == GridName::Uniform => return Err(plane::no_uniform()),
@@ -106,7 +115,7 @@ impl Asked {
             ));
         }
         let time_limit = time_limit(arguments)?;
-        Ok(Self { question, scenario, across, discretisation, grid_until, time_limit })
+        Ok(Self { session, question, scenario, across, discretisation, grid_until, time_limit })
     }
 
     /// Least and largest value of a coordinate until the grid ends.
@@ -134,6 +143,7 @@ fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
 
 /// The run that both sides compute: its motion along the scan and, if the tip is free to move across it, the whole.
 fn run_of(
+    session: &Session,
     arguments: &CompareArguments,
     values: Map<String, Value>,
     scales: Option<&KnownScales>,
@@ -145,10 +155,10 @@ fn run_of(
         "a run: --lines N or --area FILE make it a raster",
     )?;
     let run: Run = parameter::question(values)?;
-    let run = disturbed(run, disturbance, support_path.as_deref(), scales)?;
+    let run = disturbed(session, run, disturbance, support_path.as_deref(), scales)?;
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let run = run.resolved(&context()).map_err(refused)?;
+    let run = run.resolved(&context(session)).map_err(refused)?;
     if let Some(scenario) = run.prepared_across().map_err(refused)? {
         scenario.texture().map_err(|error| refused(run.refused_across(error)))?;
         return Ok((run, scenario.along.clone(), Some(scenario)));

@@ -7,26 +7,27 @@ use super::job::{Job, judge_places};
 use crate::arguments::ContinueArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use std::sync::Arc;
 use stickslip::{Ask, Continue, ContinueDocument, Physical, Unusable, parameter};
 
-pub(crate) fn follow(arguments: &ContinueArguments) -> Result<(), Failure> {
+pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result<(), Failure> {
     let ContinueArguments { options, from, answer: place } = arguments;
     let [tip_file, parameters] = options.files();
     let read = [tip_file, parameters, ("--from", from.as_deref())];
     judge_places(&place.outlet, place.plot.as_deref(), &read)?;
-    let start = from.as_deref().map(read_cycle).transpose()?;
-    let mut question: Continue = parameter::question(values(options, start.as_ref())?)?;
+    let start = from.as_deref().map(|path| read_cycle(session, path)).transpose()?;
+    let mut question: Continue = parameter::question(values(session, options, start.as_ref())?)?;
     if let Some((path, document)) = &start {
         let named = || format!("--from {}", path.display());
         let unusable = |error: Unusable| Failure::input(named(), error);
         question = question.beginning_with(document).map_err(unusable)?;
     }
-    let interrupt = Interrupt::listen()?;
-    let context = context_cancelled_by(Arc::clone(interrupt.flag()));
+    let interrupt = Interrupt::listen(session)?;
+    let context = context_cancelled_by(session, Arc::clone(interrupt.flag()));
     let question = question.resolved(&context)?;
-    let scales = scales(&place.in_units, tip_file.1, question.support_velocity())?;
-    let job = Job::open::<ContinueDocument>(&place.outlet, place.plot.as_deref())?;
+    let scales = scales(session, &place.in_units, tip_file.1, question.support_velocity())?;
+    let job = Job::open::<ContinueDocument>(session, &place.outlet, place.plot.as_deref())?;
     let found = question.answered(&context);
     let signal = interrupt.signal();
     let document = match (found, signal) {

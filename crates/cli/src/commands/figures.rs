@@ -7,7 +7,7 @@ use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
 use crate::files::place;
-use crate::message::remark;
+use crate::session::Session;
 use clap::ValueEnum;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use stickslip::FigureDocument;
 use stickslip_figures::{self as figures, FigureFormat, Size, View};
 use stickslip_reproduction::{self as reproduction, Failed};
 
-pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
+pub(crate) fn figures(session: &Session, arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
     std::fs::create_dir_all(folder).map_err(|error| {
         let named = format!("--out-dir {}", folder.display());
@@ -34,7 +34,7 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<(), Failure> {
         let started = Instant::now();
         let files = make(*name, folder)?;
         let seconds = started.elapsed().as_secs_f64();
-        remark(format_args!("{} in {seconds:.1} s", files.join(", ")));
+        session.remark(format_args!("{} in {seconds:.1} s", files.join(", ")));
     }
     Ok(())
 }

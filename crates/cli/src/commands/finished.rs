@@ -6,7 +6,7 @@ use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
 use crate::files::beside;
 use crate::files::place::taken;
-use crate::message::remark;
+use crate::session::Session;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
@@ -102,6 +102,7 @@ pub(super) struct Finished<P: Part> {
 
 #[derive(Debug)]
 struct Kept {
+    session: Session,
     path: PathBuf,
     file: File,
     /// Whether the file or its folder was removed.
@@ -136,13 +137,14 @@ impl<P: Part> Finished<P> {
     /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
     /// the indices of its parts.
     pub(super) fn beside(
+        session: &Session,
         output: &Path,
         parameters: &impl Serialize,
         has: impl Fn(usize) -> bool,
     ) -> Result<Self, Failure> {
         let path = partial_of(output);
         let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
-        let opened = open::<P>(&path, output, &head, has);
+        let opened = open::<P>(session, &path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
             if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded) {
                 return Failure::Write { target: path.display().to_string(), error };
@@ -153,7 +155,16 @@ impl<P: Part> Finished<P> {
                 Failure::input(format!("--output {}", output.display()), message)
             })
         })?;
-        Ok(Self { parts, kept: Some(Kept { path, file, is_gone: false, name: P::NAME }) })
+        Ok(Self {
+            parts,
+            kept: Some(Kept {
+                session: session.clone(),
+                path,
+                file,
+                is_gone: false,
+                name: P::NAME,
+            }),
+        })
     }
 
     pub(super) fn parts(&self) -> &P::All {
@@ -204,7 +215,8 @@ impl Kept {
             let path = self.path.display();
             let fate = "are in memory only: an interrupt loses them; at the end they are written to --output or, if \
             that fails, to a temporary file";
-            remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
+            self.session
+                .remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
         }
     }
 }
@@ -238,6 +250,7 @@ fn part_of<P: Part>(line: &[u8]) -> Option<P> {
 }
 
 fn open<P: Part>(
+    session: &Session,
     path: &Path,
     output: &Path,
     head: &impl Serialize,
@@ -255,7 +268,7 @@ fn open<P: Part>(
             return Err(io::Error::other(other::<P>(&text)));
         }
         if text == first {
-            let (length, parts) = read::<P>(path, lines, first.len(), has)?;
+            let (length, parts) = read::<P>(session, path, lines, first.len(), has)?;
             if !beside::has_other_names(&file)? {
                 // What a kill left of the last line goes.
                 file.set_len(length as u64)?;
@@ -287,6 +300,7 @@ fn other<P: Part>(first: &[u8]) -> String {
 
 /// The complete lines after the first: the length up to their end, and their parts.
 fn read<P: Part>(
+    session: &Session,
     path: &Path,
     mut lines: impl BufRead,
     first: usize,
@@ -304,7 +318,7 @@ fn read<P: Part>(
     }
     if damaged > 0 {
         let path = path.display();
-        remark(format_args!(
+        session.remark(format_args!(
             "stickslip: {damaged} lines of {path} are damaged: their {}s are computed again",
             P::NAME
         ));

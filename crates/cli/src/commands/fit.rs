@@ -9,15 +9,16 @@ use crate::failure::Failure;
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
+use crate::session::Session;
 use serde_json::{Value, json};
 use std::path::Path;
 use stickslip::{Ask, Fit, FitDocument, Measured, Tip, parameter};
 use stickslip_units::Unit;
 
-pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
+pub(crate) fn fit(session: &Session, arguments: &FitArguments) -> Result<(), Failure> {
     let FitArguments { options, outlet, plot, .. } = arguments;
     if let Some(path) = &arguments.image {
-        return fit_image(arguments, path);
+        return fit_image(session, arguments, path);
     }
     let mut read = options.files().to_vec();
     read.extend(arguments.ripple.iter().map(|path| ("--ripple", Some(&**path))));
@@ -25,23 +26,23 @@ pub(crate) fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     read.push(("--onsets", arguments.onsets.as_deref()));
     read.push(("--wavelengths", arguments.wavelengths.as_deref()));
     judge_places(outlet, plot.as_deref(), &read)?;
-    let question = question(arguments)?;
-    let job = Job::open::<FitDocument>(outlet, plot.as_deref())?;
+    let question = question(session, arguments)?;
+    let job = Job::open::<FitDocument>(session, outlet, plot.as_deref())?;
     let refused = |failure| match failure {
         stickslip::Failure::Refused(refused) if refused.parameter == "data" => {
             Failure::input(refused.value.unwrap_or_default(), refused.why)
         }
         other => refusal(other, &options.tip, &[]),
     };
-    job.finish(question.ask(&context()).map_err(refused)?)
+    job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 
 /// The question of the options, with the data of the files.
-fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
+fn question(session: &Session, arguments: &FitArguments) -> Result<Fit, Failure> {
     let options = without_width(arguments);
-    let (tip, draws) = tip_and_draws(&options.tip)?;
+    let (tip, draws) = tip_and_draws(session, &options.tip)?;
     let tip = options.tip.is_given().then_some(Tip(tip));
-    let mut values = options.values()?;
+    let mut values = options.values(session)?;
     refuse_strangers::<Fit, _>(&options, &values, "--ripple and other data of lines")?;
     let is_free = |name: &str| {
         values
@@ -54,7 +55,7 @@ fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
             "is that of the triple Gaussian, and free: leave --beta, --tip and --tip-file out";
         return Err(Failure::input("--free beta", message));
     }
-    let (data, unit) = data(arguments, values.get("unit").and_then(Value::as_str))?;
+    let (data, unit) = data(session, arguments, values.get("unit").and_then(Value::as_str))?;
     if let Some(width) = arguments.options.tip.width {
         let width = in_unit("--width", width, unit.as_deref())?;
         values.insert("width".into(), json!(width));
@@ -72,10 +73,11 @@ fn question(arguments: &FitArguments) -> Result<Fit, Failure> {
 
 /// The measured data, and the unit of lengths.
 fn data(
+    session: &Session,
     arguments: &FitArguments,
     unit: Option<&str>,
 ) -> Result<(Vec<Measured>, Option<String>), Failure> {
-    let mut files = Files::of(unit)?;
+    let mut files = Files::of(session, unit)?;
     let mut found = vec![];
     for path in &arguments.ripple {
         found.push(files.ripple(path, arguments.height_gain)?);
@@ -95,18 +97,20 @@ fn data(
 }
 
 /// The data files; each quantity is converted to the unit of the first file.
-struct Files {
+struct Files<'a> {
+    session: &'a Session,
     lengths: Common,
     forces: Common,
     velocities: Common,
     loads: Common,
 }
 
-impl Files {
-    fn of(unit: Option<&str>) -> Result<Self, Failure> {
+impl<'a> Files<'a> {
+    fn of(session: &'a Session, unit: Option<&str>) -> Result<Self, Failure> {
         let given = |unit: &str| Common::given(Unit::Length, "--unit", unit);
         let lengths = unit.map(given).transpose()?;
         Ok(Self {
+            session,
             lengths: lengths.unwrap_or(Common::of(Unit::Length)),
             forces: Common::of(Unit::Force),
             velocities: Common::of(Unit::Velocity),
@@ -116,7 +120,7 @@ impl Files {
 
     fn ripple(&mut self, path: &Path, gain: Option<f64>) -> Result<Measured, Failure> {
         let named = format!("--ripple {}", path.display());
-        let mut sheet = read_measured("--ripple", path, &[2, 3])?;
+        let mut sheet = read_measured(self.session, "--ripple", path, &[2, 3])?;
         if sheet.columns.len() == 3 {
             // As `stickslip surface` writes it.
             if sheet.headings.iter().map(Heading::name).ne(["t", "x", "u"]) {
@@ -141,7 +145,8 @@ impl Files {
 
     fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Measured, Failure> {
         let named = format!("--friction {}", path.display());
-        let Sheet { headings, mut columns, .. } = read_measured("--friction", path, &[2, 3])?;
+        let Sheet { headings, mut columns, .. } =
+            read_measured(self.session, "--friction", path, &[2, 3])?;
         scale(&mut columns[0], self.lengths.factor(&named, &headings[0])?);
         for (column, heading) in columns.iter_mut().zip(&headings).skip(1) {
             // A gain is fitted to forces of any unit; the two ways of a loop have the same.
@@ -172,7 +177,7 @@ impl Files {
         path: &Path,
     ) -> Result<(String, [Vec<f64>; N]), Failure> {
         let named = format!("{option} {}", path.display());
-        let Sheet { headings, mut columns, .. } = read_measured(option, path, &[N])?;
+        let Sheet { headings, mut columns, .. } = read_measured(self.session, option, path, &[N])?;
         let quantities = [&mut self.velocities, &mut self.loads, &mut self.lengths];
         for ((column, heading), quantity) in columns.iter_mut().zip(&headings).zip(quantities) {
             scale(column, quantity.factor(&named, heading)?);

@@ -7,7 +7,7 @@ use crate::arguments::{Either, FitArguments, Length, Options, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::input::{TipFile, read_tip};
-use crate::message::remark;
+use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
@@ -15,27 +15,32 @@ use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
 const OPTION: &str = "--image";
 const RETRACE: &str = "--retrace-image";
 
-pub(super) fn fit_image(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
+pub(super) fn fit_image(
+    session: &Session,
+    arguments: &FitArguments,
+    path: &Path,
+) -> Result<(), Failure> {
     let FitArguments { options, outlet, plot, .. } = arguments;
     let retrace = arguments.retrace_image.as_deref();
     let [tip, parameters] = options.files();
     let files: [Named; 4] = [tip, parameters, (OPTION, Some(path)), (RETRACE, retrace)];
     judge_places(outlet, plot.as_deref(), &files)?;
-    let question = question(arguments, path)?;
+    let question = question(session, arguments, path)?;
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let job = Job::open::<FitImageDocument>(outlet, plot.as_deref())?;
-    job.finish(question.ask(&context()).map_err(refused)?)
+    let job = Job::open::<FitImageDocument>(session, outlet, plot.as_deref())?;
+    job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 
 /// The question of the options, with the image.
-fn question(arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> {
+fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> {
     let options = without_width(arguments);
-    let mut values = options.values()?;
+    let mut values = options.values(session)?;
     refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
-    let (image, unit) = measured_image(OPTION, path, values.get("unit").and_then(Value::as_str))?;
+    let (image, unit) =
+        measured_image(session, OPTION, path, values.get("unit").and_then(Value::as_str))?;
     let retrace_image = arguments.retrace_image.as_deref().map(|path| {
         let (image, other) =
-            measured_image(RETRACE, path, values.get("unit").and_then(Value::as_str))?;
+            measured_image(session, RETRACE, path, values.get("unit").and_then(Value::as_str))?;
         if other == unit {
             return Ok(image);
         }
@@ -47,7 +52,7 @@ fn question(arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> 
         values.insert("width".into(), json!(in_unit("--width", width, unit.as_deref())?));
         values.remove("width_interval");
     } else if !values.contains_key("width") {
-        values.extend(width_of(&options.tip, unit.as_deref())?);
+        values.extend(width_of(session, &options.tip, unit.as_deref())?);
     }
     if let Some(pitch) = arguments.pitch {
         values.insert("pitch".into(), json!(in_unit("--pitch", pitch, unit.as_deref())?));
@@ -77,15 +82,19 @@ pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Resul
 }
 
 /// σ of a measured tip and its interval, in the unit of the data, with a message.
-fn width_of(tip: &TipArguments, unit: Option<&str>) -> Result<Map<String, Value>, Failure> {
+fn width_of(
+    session: &Session,
+    tip: &TipArguments,
+    unit: Option<&str>,
+) -> Result<Map<String, Value>, Failure> {
     let mut values = Map::new();
     let (Some(path), Some(unit)) = (&tip.tip_file, unit) else { return Ok(values) };
-    let TipFile::Measured(measured) = read_tip(path)? else { return Ok(values) };
+    let TipFile::Measured(measured) = read_tip(session, path)? else { return Ok(values) };
     let Some(sigma) = measured.sigma_metres else { return Ok(values) };
     let factor = sigma / measured.sigma.value / metres(unit)?;
     let [width, low, high] = [Some(measured.sigma.value), measured.sigma.low, measured.sigma.high]
         .map(|v| Some(factor * v?));
-    remark(format_args!(
+    session.remark(format_args!(
         "σ = {} {unit}, that of --tip-file {}",
         Typed(width.unwrap_or(sigma)),
         path.display()

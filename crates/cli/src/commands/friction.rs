@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
+use crate::session::Session;
 use serde_json::Value;
 use std::path::Path;
 use stickslip::{Ask, ForceTrack, Friction, FrictionDocument, parameter};
@@ -15,13 +16,13 @@ use stickslip_units::Unit;
 const TRACE: &str = "TRACE.csv";
 const RETRACE: &str = "RETRACE.csv";
 
-pub(crate) fn friction(arguments: &FrictionArguments) -> Result<(), Failure> {
+pub(crate) fn friction(session: &Session, arguments: &FrictionArguments) -> Result<(), Failure> {
     let FrictionArguments { trace, retrace, options, outlet, plot, .. } = arguments;
     let [_, parameters] = options.files();
     let read = [(TRACE, Some(&**trace)), (RETRACE, retrace.as_deref()), parameters];
     judge_places(outlet, plot.as_deref(), &read)?;
-    let question = question(arguments)?;
-    let job = Job::open::<FrictionDocument>(outlet, plot.as_deref())?;
+    let question = question(session, arguments)?;
+    let job = Job::open::<FrictionDocument>(session, outlet, plot.as_deref())?;
     let source = question.source.clone();
     let refused = |failure| match failure {
         stickslip::Failure::Refused(refused) if refused.parameter == "trace and retrace" => {
@@ -29,13 +30,13 @@ pub(crate) fn friction(arguments: &FrictionArguments) -> Result<(), Failure> {
         }
         other => refusal(other, &options.tip, &[]),
     };
-    job.finish(question.ask(&context()).map_err(refused)?)
+    job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 
 /// The question of the options, with the data of the files.
-fn question(arguments: &FrictionArguments) -> Result<Friction, Failure> {
-    let values = arguments.options.values()?;
-    let mut data = Data::new(values.get("unit").and_then(Value::as_str))?;
+fn question(session: &Session, arguments: &FrictionArguments) -> Result<Friction, Failure> {
+    let values = arguments.options.values(session)?;
+    let mut data = Data::new(session, values.get("unit").and_then(Value::as_str))?;
     let [trace, retrace] = data.read(&arguments.trace, arguments.retrace.as_deref())?;
     let question: Friction = parameter::question(values)?;
     let force_unit = match (&question.force_unit, data.force_unit) {
@@ -51,19 +52,20 @@ fn question(arguments: &FrictionArguments) -> Result<Friction, Failure> {
 }
 
 /// The tables; positions are converted to the unit of the first.
-struct Data {
+struct Data<'a> {
+    session: &'a Session,
     source: String,
     lengths: Common,
     force_unit: Option<String>,
 }
 
-impl Data {
-    fn new(unit: Option<&str>) -> Result<Self, Failure> {
+impl<'a> Data<'a> {
+    fn new(session: &'a Session, unit: Option<&str>) -> Result<Self, Failure> {
         let lengths = match unit {
             Some(unit) => Common::given(Unit::Length, "--unit", unit)?,
             None => Common::of(Unit::Length),
         };
-        Ok(Self { source: String::new(), lengths, force_unit: None })
+        Ok(Self { session, source: String::new(), lengths, force_unit: None })
     }
 
     /// Trace and retrace, of two files or of one with three columns.
@@ -89,7 +91,8 @@ impl Data {
         columns: &[usize],
     ) -> Result<(Vec<f64>, [Vec<f64>; N]), Failure> {
         let named = format!("{option} {}", path.display());
-        let Sheet { headings, mut columns, .. } = read_measured(option, path, columns)?;
+        let Sheet { headings, mut columns, .. } =
+            read_measured(self.session, option, path, columns)?;
         let factor = self.lengths.factor(&named, &headings[0])?;
         let forces = columns.split_off(1);
         let x = columns.remove(0).into_iter().map(|x| x * factor).collect();

@@ -3,7 +3,7 @@
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::input::{TipFile, open, read_tip};
-use crate::message::remark;
+use crate::session::Session;
 use serde::Deserialize;
 use std::path::Path;
 use stickslip::{
@@ -18,30 +18,32 @@ const SAME: f64 = 1e-6;
 /// The scales of the result; `None` if no physical units are requested. `tip_file` is that of the command, `r` the
 /// velocity, if all results have the same.
 pub(crate) fn scales(
+    session: &Session,
     arguments: &InUnitsArguments,
     tip_file: Option<&Path>,
     r: Option<f64>,
 ) -> Result<Option<KnownScales>, Failure> {
-    let (scales, origin) = with_origin(arguments, tip_file, r)?;
-    origin.into_iter().for_each(remark);
+    let (scales, origin) = with_origin(session, arguments, tip_file, r)?;
+    origin.into_iter().for_each(|origin| session.remark(origin));
     Ok(scales)
 }
 
 /// The scales of what is made from a document: those of the options, or else its own; `None` for an image in metres of a
 /// document that lacks one of its scales.
 pub(crate) fn scales_of(
+    session: &Session,
     arguments: &InUnitsArguments,
     document: Option<&InUnits>,
     r: f64,
     is_image_in_metres: bool,
 ) -> Result<Option<KnownScales>, Failure> {
-    let typed = scales(arguments, None, Some(r))?;
+    let typed = scales(session, arguments, None, Some(r))?;
     let Some(own) = document.map(|physical| physical.scales).filter(|_| typed.is_none()) else {
         return Ok(typed);
     };
     let own = sound(own, "the document")?;
     if is_image_in_metres && own.length.zip(own.height).is_none() {
-        remark(
+        session.remark(
             "stickslip: the image is in σ and kσ²/a: the document does not have both in m. For metres give --sigma, \
              --stiffness and --slope-force",
         );
@@ -52,18 +54,19 @@ pub(crate) fn scales_of(
 
 /// The scales, and a remark on the origin of σ if it is that of a measured tip.
 pub(crate) fn with_origin(
+    session: &Session,
     arguments: &InUnitsArguments,
     tip_file: Option<&Path>,
     r: Option<f64>,
 ) -> Result<(Option<KnownScales>, Option<String>), Failure> {
     if let Some(path) = &arguments.units {
-        return of_document(path).map(|scales| (Some(scales), None));
+        return of_document(session, path).map(|scales| (Some(scales), None));
     }
     let given = Given::read(arguments)?;
     if given.is_empty() {
         return Ok((None, None));
     }
-    let (given, origin) = given.with_width_of(tip_file)?;
+    let (given, origin) = given.with_width_of(session, tip_file)?;
     Ok((Some(given.scales(r)?), origin))
 }
 
@@ -107,9 +110,13 @@ impl Given {
     }
 
     /// Adds the σ of a measured tip, with a remark.
-    fn with_width_of(self, tip_file: Option<&Path>) -> Result<(Self, Option<String>), Failure> {
+    fn with_width_of(
+        self,
+        session: &Session,
+        tip_file: Option<&Path>,
+    ) -> Result<(Self, Option<String>), Failure> {
         let Some(path) = tip_file.filter(|_| self.sigma.is_none()) else { return Ok((self, None)) };
-        let TipFile::Measured(measured) = read_tip(path)? else { return Ok((self, None)) };
+        let TipFile::Measured(measured) = read_tip(session, path)? else { return Ok((self, None)) };
         let origin = measured
             .sigma_metres
             .map(|sigma| format!("σ = {} nm, that of --tip-file {}", sigma * 1e9, path.display()));
@@ -186,9 +193,9 @@ struct WithScales {
 }
 
 /// The scales in a document.
-pub(crate) fn of_document(path: &Path) -> Result<KnownScales, Failure> {
+pub(crate) fn of_document(session: &Session, path: &Path) -> Result<KnownScales, Failure> {
     let named = || format!("--units {}", path.display());
-    let document: Scaled = serde_json::from_reader(open("--units", path)?)
+    let document: Scaled = serde_json::from_reader(open(session, "--units", path)?)
         .map_err(|error| Failure::input(named(), format!("no document: {error}")))?;
     let scales = match document.format.as_deref() {
         Some(UnitsDocument::FORMAT) => document.scales,

@@ -9,9 +9,8 @@ use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, OutputFormat};
 use crate::files::table::{write_csv, write_npz};
-use crate::host;
 use crate::made::{pictured, plain};
-use crate::message::remark_lines;
+use crate::session::Session;
 use crate::sign_of_life;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -37,6 +36,7 @@ pub(crate) fn judge_places(
 
 /// The output of a command, known to be writable.
 pub(crate) struct Job {
+    session: Session,
     output: Output,
     format: Format,
     figure: Option<Figure>,
@@ -52,21 +52,24 @@ impl Job {
     /// # Errors
     /// The output cannot be written, or has no such format or field.
     pub(crate) fn open<P: Product>(
+        session: &Session,
         outlet: &OutletArguments,
         plot: Option<&Path>,
     ) -> Result<Self, Failure> {
-        let format = format(outlet.format, &outlet.output, "")?;
-        Self::of_format::<P>(format, &outlet.output, &outlet.fields, plot)
+        let format = format(session, outlet.format, &outlet.output, "")?;
+        Self::of_format::<P>(session, format, &outlet.output, &outlet.fields, plot)
     }
 
     /// The same for a command with a fixed format.
     pub(crate) fn of_format<P: JsonSchema>(
+        session: &Session,
         format: Format,
         output: &Path,
         fields: &FieldArguments,
         plot: Option<&Path>,
     ) -> Result<Self, Failure> {
         Ok(Self {
+            session: session.clone(),
             format,
             fields: Fields::asked::<P>(&fields.print)?,
             is_file: output != Path::new("-"),
@@ -93,10 +96,11 @@ impl Job {
         product: P,
     ) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
+        let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
         let figure = self.write_with(&product, &summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        host::give(|| summary.of(pictured(product)));
+        session.give(|| summary.of(pictured(product)));
         drawn
     }
 
@@ -105,9 +109,10 @@ impl Job {
         self,
         product: P,
     ) -> Result<(), Failure> {
+        let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
         self.write_with(&product, &summary)?;
-        host::give(|| summary.of(plain(product)));
+        session.give(|| summary.of(plain(product)));
         Ok(())
     }
 
@@ -119,7 +124,7 @@ impl Job {
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
         // Fields take the place of the document, and a host takes it as it is.
-        if self.is_file || (self.fields.is_empty() && !host::is_there()) {
+        if self.is_file || (self.fields.is_empty() && !self.session.has_host()) {
             match self.format {
                 Format::Json => self.output.write_json(product)?,
                 Format::Csv => write_csv(product, self.output)?,
@@ -127,7 +132,7 @@ impl Job {
                 Format::Text => self.output.write_bytes(summary.text().as_bytes())?,
             }
         }
-        after(product, summary, &self.fields, self.has_summary)?;
+        after(&self.session, product, summary, &self.fields, self.has_summary)?;
         Ok(self.figure)
     }
 
@@ -140,15 +145,16 @@ impl Job {
         let figure = self.figure.take();
         let summary = product.summary().in_units(product.physical());
         self.output.write_bytes(bytes)?;
-        after(&product, &summary, &self.fields, self.has_summary)?;
+        after(&self.session, &product, &summary, &self.fields, self.has_summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        host::give(|| summary.of(pictured(product)));
+        self.session.give(|| summary.of(pictured(product)));
         drawn
     }
 }
 
 /// Output after the document: requested fields on standard output, or the summary if the result went to a file.
 pub(crate) fn after(
+    session: &Session,
     product: &dyn erased_serde::Serialize,
     summary: &Summary,
     fields: &Fields,
@@ -160,19 +166,24 @@ pub(crate) fn after(
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }
     // A host has the result itself.
-    if has_summary && !host::is_there() {
-        remark_lines(&summary.in_short());
+    if has_summary && !session.has_host() {
+        summary.in_short().lines().for_each(|line| session.remark(line));
     }
     Ok(())
 }
 
 /// The format requested, or that of the file's extension; `more` lists further extensions of the command.
-pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result<Format, Failure> {
+pub(crate) fn format(
+    session: &Session,
+    asked: Option<Format>,
+    output: &Path,
+    more: &str,
+) -> Result<Format, Failure> {
     if let Some(format) = asked {
         return Ok(format);
     }
     if output == Path::new("-") {
-        return Ok(on_standard_output());
+        return Ok(on_standard_output(session));
     }
     Ok(match OutputFormat::or_also(output, more)? {
         OutputFormat::Json => Format::Json,
@@ -182,6 +193,6 @@ pub(crate) fn format(asked: Option<Format>, output: &Path, more: &str) -> Result
 }
 
 /// The default format on standard output: text on a terminal, JSON otherwise.
-pub(crate) fn on_standard_output() -> Format {
-    if io::stdout().is_terminal() && !host::is_there() { Format::Text } else { Format::Json }
+pub(crate) fn on_standard_output(session: &Session) -> Format {
+    if io::stdout().is_terminal() && !session.has_host() { Format::Text } else { Format::Json }
 }

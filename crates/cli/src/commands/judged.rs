@@ -2,13 +2,14 @@
 
 use super::summary::quoted;
 use crate::failure::Failure;
-use crate::message::say;
+use crate::session::Session;
 use std::path::Path;
 use stickslip_measurement::{Verdict, judge};
 use stickslip_tip::TipFunction;
 
 /// Rejects a table whose result depends on noise, and warns if noise has an effect or if that is unknown.
 pub(super) fn judge_table(
+    session: &Session,
     path: &Path,
     (x, f): (&[f64], &[f64]),
     tip: &TipFunction,
@@ -24,13 +25,13 @@ pub(super) fn judge_table(
     match judge((x, f), tip) {
         Verdict::Sound => Ok(()),
         Verdict::Few { rows } => {
-            say(format_args!(
+            session.say(format_args!(
                 "stickslip: {option}: {rows} rows are too few to distinguish noise from shape: 2 % of noise can halve alpha_c"
             ));
             Ok(())
         }
         Verdict::Felt { change } => {
-            say(format_args!(
+            session.say(format_args!(
                 "stickslip: {option}: its noise may change alpha_c by {:.0} % (r = 1); {advice}",
                 100.0 * change
             ));

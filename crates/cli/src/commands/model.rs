@@ -4,16 +4,18 @@ use super::judged::judge_table;
 use crate::arguments::{Length, TipArguments};
 use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
+use crate::session::Session;
 use stickslip::{GaussianDocument, NamedTip, judge_details};
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, TipFunction};
 
 /// The footprint in the options.
-pub(crate) fn tip(arguments: &TipArguments) -> Result<TipFunction, Failure> {
-    tip_and_draws(arguments).map(|(tip, _)| tip)
+pub(crate) fn tip(session: &Session, arguments: &TipArguments) -> Result<TipFunction, Failure> {
+    tip_and_draws(session, arguments).map(|(tip, _)| tip)
 }
 
 /// The footprint, and for a measured one the terms of those drawn within its error.
 pub(crate) fn tip_and_draws(
+    session: &Session,
     arguments: &TipArguments,
 ) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
     let TipArguments { tip, beta, width, tip_file, retrace } = arguments;
@@ -25,7 +27,7 @@ pub(crate) fn tip_and_draws(
         if tip.is_some() || beta.is_some() || width.is_some() {
             return Err(unused(named, "--tip, --beta or --width"));
         }
-        let mut file = read_tip(path)?;
+        let mut file = read_tip(session, path)?;
         let draws = match &mut file {
             TipFile::Measured(measured) => std::mem::take(&mut measured.draws),
             _ => vec![],
@@ -42,7 +44,7 @@ pub(crate) fn tip_and_draws(
         }
         let tip = if *retrace { tip.mirrored() } else { tip };
         if let Some((x, f)) = table {
-            judge_table(path, (&x, &f), &tip)?;
+            judge_table(session, path, (&x, &f), &tip)?;
         }
         return Ok((tip, draws));
     }

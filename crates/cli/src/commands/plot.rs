@@ -9,14 +9,15 @@ use crate::arguments::PlotArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::{open, read_document};
+use crate::session::Session;
 use std::path::Path;
 use stickslip::{BoundaryDocument, FigureDocument};
 use stickslip_figures::{self as figures, AnimationFormat, FigureError, Size, View, Width};
 use stickslip_units::Unit;
 
-pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
+pub(crate) fn plot(session: &Session, arguments: &PlotArguments) -> Result<(), Failure> {
     if let Some(format) = AnimationFormat::of(&arguments.output) {
-        return animate(arguments, format);
+        return animate(session, arguments, format);
     }
     let of_animations = [
         ("--times", arguments.times.is_some()),
@@ -40,12 +41,16 @@ pub(crate) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let read = [("DOCUMENT.json", Some(&*arguments.document)), units];
     distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Figure::at("--output", &arguments.output)?;
-    output.write(&figure(arguments, &view)?, &size)
+    output.write(&figure(session, arguments, &view)?, &size)
 }
 
 #[cfg(feature = "animation")]
-fn animate(arguments: &PlotArguments, format: AnimationFormat) -> Result<(), Failure> {
-    animation::write(arguments, format)
+fn animate(
+    session: &Session,
+    arguments: &PlotArguments,
+    format: AnimationFormat,
+) -> Result<(), Failure> {
+    animation::write(session, arguments, format)
 }
 
 #[cfg(not(feature = "animation"))]
@@ -54,7 +59,11 @@ fn animate(arguments: &PlotArguments, _: AnimationFormat) -> Result<(), Failure>
     Err(Failure::input(option, FigureError::Missing("animations", "animation")))
 }
 
-fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Failure> {
+fn figure(
+    session: &Session,
+    arguments: &PlotArguments,
+    view: &View,
+) -> Result<FigureDocument, Failure> {
     let option = "DOCUMENT.json";
     let path: &Path = &arguments.document;
     let named = || format!("{option} {}", path.display());
@@ -64,18 +73,19 @@ fn figure(arguments: &PlotArguments, view: &View) -> Result<FigureDocument, Fail
     };
     if arguments.onset {
         let option = format!("--onset with {option}");
-        let document: BoundaryDocument = read_document(&option, path, BoundaryDocument::FORMAT)?;
-        let view = View { scales: scales(&arguments.in_units, None, None)?, ..*view };
+        let document: BoundaryDocument =
+            read_document(session, &option, path, BoundaryDocument::FORMAT)?;
+        let view = View { scales: scales(session, &arguments.in_units, None, None)?, ..*view };
         return figures::onset_of(&document, &view).map_err(refused);
     }
-    let document =
-        figures::saved(open(option, path)?).map_err(|error| Failure::input(named(), error))?;
+    let document = figures::saved(open(session, option, path)?)
+        .map_err(|error| Failure::input(named(), error))?;
     // With the velocity of the support times need the one r of what is drawn.
     let r = match &arguments.in_units.velocity {
         Some(_) => figures::of(&*document, view).map_err(refused)?.one_r(),
         None => None,
     };
-    let view = View { scales: scales(&arguments.in_units, None, r)?, ..*view };
+    let view = View { scales: scales(session, &arguments.in_units, None, r)?, ..*view };
     figures::of(&*document, &view).map_err(refused)
 }
 

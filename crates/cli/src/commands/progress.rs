@@ -1,12 +1,10 @@
 //! Progress of long work, on standard error if it is a terminal, or to a host: the fraction done, a count, the
 //! elapsed time, and the remaining time if it can be estimated.
 
-use crate::host::{self, Host, Pace};
-use crate::message::is_quiet;
+use crate::session::{Pace, Session};
 use crate::sign_of_life::{self, PATIENCE};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Display;
-use std::sync::Arc;
 use std::time::Instant;
 
 /// Calls between two readings of the clock, for work whose parts are shorter than a reading.
@@ -21,26 +19,26 @@ pub(crate) struct Progress {
     /// Calls between two readings of the clock.
     calls_per_look: u32,
     bar: Option<ProgressBar>,
-    /// Host that receives the progress instead of the terminal.
-    host: Option<Arc<Host>>,
+    /// Where it is shown.
+    session: Session,
 }
 
 impl Progress {
     /// Progress of work that advances from `from` to `to` at an even pace.
-    pub(crate) fn new(from: f64, to: f64) -> Self {
+    pub(crate) fn new(session: &Session, from: f64, to: f64) -> Self {
         Self {
             span: Some((from, to)),
             started: Instant::now(),
             calls: 0,
             calls_per_look: CALLS_PER_LOOK,
             bar: None,
-            host: host::current(),
+            session: session.clone(),
         }
     }
 
     /// Progress of work of unknown length.
-    pub(crate) fn without_end() -> Self {
-        let mut progress = Self::new(0.0, 1.0);
+    pub(crate) fn without_end(session: &Session) -> Self {
+        let mut progress = Self::new(session, 0.0, 1.0);
         progress.span = None;
         progress
     }
@@ -64,11 +62,11 @@ impl Progress {
             return;
         }
         let (span, started) = (self.span, self.started);
-        if let Some(host) = &self.host {
+        if let Some(host) = self.session.host() {
             let part = span.map(|(from, to)| ((at - from) / (to - from)).clamp(0.0, 1.0));
             return host.show(Pace { part, counted: what().to_string() });
         }
-        if started.elapsed() < PATIENCE || is_quiet() {
+        if started.elapsed() < PATIENCE || self.session.is_quiet() {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| new_bar(span.is_some(), started));

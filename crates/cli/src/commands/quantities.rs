@@ -6,6 +6,7 @@ use super::in_units::{of_document, with_origin};
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::input::open;
+use crate::session::Session;
 use clap::{Arg, ArgAction, Command};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -94,6 +95,7 @@ fn needs(unit: &str) -> &'static str {
 /// # Errors
 /// A quantity is of another kind than its option, or the scale that it needs is unknown.
 pub(crate) fn translated(
+    session: &Session,
     words: Vec<OsString>,
     parser: &mut Command,
 ) -> Result<Translated, Failure> {
@@ -110,7 +112,7 @@ pub(crate) fn translated(
         let length = Unit::Length.one(unit);
         (Some(KnownScales { length, ..KnownScales::default() }), Some(unit))
     } else {
-        (line.scales(parser, at, &command, &quantities)?, None)
+        (line.scales(session, parser, at, &command, &quantities)?, None)
     };
     let has_scales = option_of(parser, &command, "units").is_some();
     for quantity in &quantities {
@@ -271,6 +273,7 @@ impl Line {
     /// The scales of the options, or else those of the documents that the command reads.
     fn scales(
         &self,
+        session: &Session,
         parser: &Command,
         at: usize,
         command: &[String],
@@ -290,11 +293,11 @@ impl Line {
         // A velocity gives the scale of time together with r, which then is a number.
         let is_r = quantities.iter().any(|quantity| quantity.option == "--r");
         let r = text("r").filter(|_| !is_r).and_then(|r| r.parse().ok());
-        let r = r.or_else(|| read.iter().find_map(|path| r_of(path)));
-        if let (Some(scales), _) = with_origin(&arguments, tip, r)? {
+        let r = r.or_else(|| read.iter().find_map(|path| r_of(session, path)));
+        if let (Some(scales), _) = with_origin(session, &arguments, tip, r)? {
             return Ok(Some(scales));
         }
-        Ok(read.into_iter().chain(tip).find_map(|path| of_document(path).ok()))
+        Ok(read.into_iter().chain(tip).find_map(|path| of_document(session, path).ok()))
     }
 
     /// The documents that the command reads; its arguments begin at `first`.
@@ -323,7 +326,8 @@ fn option_of<'a>(parser: &'a Command, command: &[String], name: &str) -> Option<
 }
 
 /// r among the parameters of a document.
-fn r_of(path: &Path) -> Option<f64> {
-    let document: Value = serde_json::from_reader(open("--parameters", path).ok()?).ok()?;
+fn r_of(session: &Session, path: &Path) -> Option<f64> {
+    let document: Value =
+        serde_json::from_reader(open(session, "--parameters", path).ok()?).ok()?;
     document.pointer("/parameters/r").or(document.get("r"))?.as_f64()
 }

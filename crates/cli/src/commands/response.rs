@@ -5,13 +5,14 @@ use super::job::judge_places;
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
 use crate::arguments::ResponseArguments;
 use crate::failure::Failure;
+use crate::session::Session;
 use serde_json::json;
 use stickslip::{PulseParameters, Response, parameter};
 
-pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
+pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Result<(), Failure> {
     let ResponseArguments { options, pulse, answer: place } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &options.files())?;
-    let mut values = options.values()?;
+    let mut values = options.values(session)?;
     let pulses = parse_pulses(pulse)?;
     if !pulses.is_empty() {
         let pulses: Vec<PulseParameters> = pulses.iter().copied().map(Into::into).collect();
@@ -19,6 +20,6 @@ pub(crate) fn response(arguments: &ResponseArguments) -> Result<(), Failure> {
     }
     let question: Response = parameter::question(values)?;
     // A pulse before the samples is felt in them.
-    warn_of_idle_pulses(pulse, &pulses, (f64::NEG_INFINITY, question.until));
-    answer(question, place, options.tip.tip_file.as_deref())
+    warn_of_idle_pulses(session, pulse, &pulses, (f64::NEG_INFINITY, question.until));
+    answer(session, question, place, options.tip.tip_file.as_deref())
 }

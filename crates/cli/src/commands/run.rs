@@ -20,6 +20,7 @@ use crate::failure::Failure;
 use crate::files::place::{Place, Target as File, place};
 use crate::files::stream::Stream;
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use checkpoint::Checkpoints;
 use integration::{Integrated, Integration};
 use motion::{Motion, Recorded};
@@ -31,22 +32,22 @@ use stickslip_outcome::Watched;
 use stickslip_tip::{RunError, Scenario};
 use write::Target;
 
-pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+pub(crate) fn run(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
     match &arguments.resume {
-        None => start(arguments),
-        Some(path) => resume::resume(path, arguments),
+        None => start(session, arguments),
+        Some(path) => resume::resume(session, path, arguments),
     }
 }
 
-fn start(arguments: &RunArguments) -> Result<(), Failure> {
-    let values = arguments.options.values()?;
+fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
+    let values = arguments.options.values(session)?;
     if values.get("walker") == Some(&Value::Bool(true)) {
-        return walker::run(arguments, values);
+        return walker::run(session, arguments, values);
     }
-    let order = order::order(arguments, values)?;
+    let order = order::order(session, arguments, values)?;
     let refusal_of = |failure| refusal(failure, &arguments.options.tip, &order::files(arguments));
     if let Some(scenario) = order.parameters.prepared_across().map_err(refusal_of)? {
-        return across::start(arguments, &order, &scenario);
+        return across::start(session, arguments, &order, &scenario);
     }
     let scenario = order.parameters.prepared()?;
     let refused = |error: RunError| {
@@ -54,23 +55,25 @@ fn start(arguments: &RunArguments) -> Result<(), Failure> {
     };
     let surface = scenario.initial_surface().map_err(refused)?;
     let running = Watched::new(&scenario, &surface).map_err(refused)?;
-    let (integrated, target) = integrated(arguments, &order, &scenario, running)?;
-    write::all(&order, &scenario, &surface, integrated, target)
+    let (integrated, target) = integrated(session, arguments, &order, &scenario, running)?;
+    write::all(session, &order, &scenario, &surface, integrated, target)
 }
 
 /// The finished run of a motion that is at the start of a scenario, and its output.
 fn integrated<R: Motion>(
+    session: &Session,
     arguments: &RunArguments,
     order: &Order,
     scenario: &Scenario,
     running: R,
 ) -> Result<(Integrated<R>, Target), Failure> {
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(session)?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
     let numbers = R::Step::NUMBERS;
-    let (target, sink) = open(arguments, order, checkpoint.as_ref().map(File::path), numbers)?;
+    let (target, sink) =
+        open(session, arguments, order, checkpoint.as_ref().map(File::path), numbers)?;
 
     let mut record = record(order, scenario, sink);
     write::head(&mut record, order, scenario)?;
@@ -85,7 +88,7 @@ fn integrated<R: Motion>(
         seconds: 0.0,
     };
     integration.checkpoint()?;
-    Ok((integration.finish(scenario)?, target))
+    Ok((integration.finish(session, scenario)?, target))
 }
 
 /// A place that must be a file.
@@ -101,6 +104,7 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
 
 /// Opens the output of the run.
 fn open(
+    session: &Session,
     arguments: &RunArguments,
     order: &Order,
     checkpoint: Option<&Path>,
@@ -119,7 +123,7 @@ fn open(
         }
         return Ok((Target::Lines(fields), Sink::Lines(stream)));
     }
-    let target = Target::Document(job(order, output, arguments.plot.as_deref(), fields)?);
+    let target = Target::Document(job(session, order, output, arguments.plot.as_deref(), fields)?);
     let numbers = if keeps_history(order) { of_step } else { of_sample };
     let journal = |path| record::journal(path, numbers);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
@@ -127,12 +131,13 @@ fn open(
 
 /// The output of the document and the figure.
 fn job(
+    session: &Session,
     order: &Order,
     output: &Path,
     plot: Option<&Path>,
     fields: &FieldArguments,
 ) -> Result<Job, Failure> {
-    Job::of_format::<RunDocument>(format_of(order.format), output, fields, plot)
+    Job::of_format::<RunDocument>(session, format_of(order.format), output, fields, plot)
 }
 
 fn format_of(format: RunFormat) -> Format {

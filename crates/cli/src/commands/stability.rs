@@ -4,19 +4,26 @@ use super::ask::asked;
 use super::job::judge_places;
 use crate::arguments::StabilityArguments;
 use crate::failure::Failure;
+use crate::session::Session;
 use serde_json::Value;
 use stickslip::{RasterStability, Stability, Walking};
 
-pub(crate) fn stability(arguments: &StabilityArguments) -> Result<(), Failure> {
+pub(crate) fn stability(session: &Session, arguments: &StabilityArguments) -> Result<(), Failure> {
     let StabilityArguments { options, answer } = arguments;
     judge_places(&answer.outlet, answer.plot.as_deref(), &options.files())?;
-    let values = options.values()?;
+    let values = options.values(session)?;
     let has = |name: &str| values.get(name).is_some_and(|value| !value.is_null());
     if values.get("no_spring") == Some(&Value::Bool(true)) {
-        asked::<Walking, _>(options, values, answer, "--no-spring")
+        asked::<Walking, _>(session, options, values, answer, "--no-spring")
     } else if has("pitch") || has("path") {
-        asked::<RasterStability, _>(options, values, answer, "--pitch or --path")
+        asked::<RasterStability, _>(session, options, values, answer, "--pitch or --path")
     } else {
-        asked::<Stability, _>(options, values, answer, "a single line, without --pitch or --path")
+        asked::<Stability, _>(
+            session,
+            options,
+            values,
+            answer,
+            "a single line, without --pitch or --path",
+        )
     }
 }

@@ -14,7 +14,7 @@ use crate::commands::in_units::scales;
 use crate::commands::model::tip;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::message::remark;
+use crate::session::Session;
 use divided::Divided;
 use serde_json::{Value, json};
 use std::collections::HashSet;
@@ -42,17 +42,17 @@ impl Part for RasterSweepPoint {
     }
 }
 
-pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(), Failure> {
     match &arguments.then {
-        Some(SweepThen::Merge(merged)) => return merge::merge(merged),
-        Some(SweepThen::Raster(rasters)) => return raster(rasters),
+        Some(SweepThen::Merge(merged)) => return merge::merge(session, merged),
+        Some(SweepThen::Raster(rasters)) => return raster(session, rasters),
         None => {}
     }
     let SweepArguments { work, in_units, outlet, plot, tip_file, .. } = arguments;
-    let place = Place { work, in_units, outlet, plot: plot.as_deref() };
+    let place = Place { session, work, in_units, outlet, plot: plot.as_deref() };
     place.judge(&[("--tip-file", tip_file.as_deref())])?;
-    let mut values = arguments.options.values()?;
-    values.insert("tips".into(), tips(arguments)?);
+    let mut values = arguments.options.values(session)?;
+    values.insert("tips".into(), tips(session, arguments)?);
     values.insert("width".into(), json!(arguments.width.as_ref().map(Range::values)));
     values.insert("beta".into(), json!(arguments.beta.as_ref().map(Range::values)));
     let question = parameter::question::<Sweep>(values)?;
@@ -65,18 +65,18 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 }
 
 /// The pattern of a raster over pitch and α.
-fn raster(arguments: &RasterSweepArguments) -> Result<(), Failure> {
+fn raster(session: &Session, arguments: &RasterSweepArguments) -> Result<(), Failure> {
     let RasterSweepArguments { options, work, in_units, outlet, plot } = arguments;
-    let place = Place { work, in_units, outlet, plot: plot.as_deref() };
+    let place = Place { session, work, in_units, outlet, plot: plot.as_deref() };
     place.judge(&options.files())?;
-    let question = parameter::question::<RasterSweep>(options.values()?)?;
+    let question = parameter::question::<RasterSweep>(options.values(session)?)?;
     let question = RasterSweep { shard: work.shard.map(Into::into), ..question };
     let grid = question.resolved(&Context::default())?;
     place.answer(grid, options.tip.tip_file.as_deref())
 }
 
 /// The footprints, widths times β.
-fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
+fn tips(session: &Session, arguments: &SweepArguments) -> Result<Value, Failure> {
     let SweepArguments { tip: name, tip_file, retrace, beta, width, .. } = arguments;
     let count = |range: &Option<Range>| range.as_ref().map_or(1, Range::points);
     for (option, tips) in [("--beta", count(beta)), ("--width", count(width))] {
@@ -94,13 +94,15 @@ fn tips(arguments: &SweepArguments) -> Result<Value, Failure> {
     let one = |(width, beta): (Option<f64>, Option<f64>)| {
         let tip_file = tip_file.clone();
         let width = width.map(Length::Bare);
-        tip(&TipArguments { tip: *name, beta, width, tip_file, retrace: *retrace }).map(Tip)
+        tip(session, &TipArguments { tip: *name, beta, width, tip_file, retrace: *retrace })
+            .map(Tip)
     };
     Ok(json!(both.map(one).collect::<Result<Vec<Tip>, Failure>>()?))
 }
 
 /// How points are computed, and where they go.
 struct Place<'a> {
+    session: &'a Session,
     work: &'a WorkArguments,
     in_units: &'a InUnitsArguments,
     outlet: &'a OutletArguments,
@@ -119,20 +121,20 @@ impl Place<'_> {
         Document<Q>: Divided<Point = Q::Point, Parameters = Q>,
         Q::Point: Part,
     {
-        let scales = scales(self.in_units, tip_file, grid.support_velocity())?;
-        let job = Job::open::<Document<Q>>(self.outlet, self.plot)?;
+        let scales = scales(self.session, self.in_units, tip_file, grid.support_velocity())?;
+        let job = Job::open::<Document<Q>>(self.session, self.outlet, self.plot)?;
         let indices = grid.indices();
-        let is_done = |file| merge::is_done::<Document<Q>>(file, &grid, &indices);
+        let is_done = |file| merge::is_done::<Document<Q>>(self.session, file, &grid, &indices);
         if self.work.if_needed && job.file().is_some_and(is_done) {
             return Ok(());
         }
         let has = |index| indices.binary_search(&index).is_ok();
         let finished = match job.file() {
-            Some(file) => Finished::beside(file, &grid, has)?,
+            Some(file) => Finished::beside(self.session, file, &grid, has)?,
             None => Finished::in_memory(),
         };
         let threads = self.work.threads.unwrap_or(0);
-        let mut finished = compute(&grid, indices, finished, threads)?;
+        let mut finished = compute(self.session, &grid, indices, finished, threads)?;
         let points = finished.take_in_order();
         let document = <Document<Q> as Divided>::of(grid, points);
         job.finish(document.sealed()?.in_units(scales.as_ref()))?;
@@ -146,6 +148,7 @@ impl Place<'_> {
 /// # Errors
 /// A signal arrived, or a point could not be saved.
 fn compute<Q: Points>(
+    session: &Session,
     grid: &Q,
     mut missing: Vec<usize>,
     mut finished: Finished<Q::Point>,
@@ -160,15 +163,16 @@ where
         missing.retain(|index| !there.contains(index));
     }
     if let (Some(path), true) = (finished.path(), done > 0) {
-        remark(format_args!("stickslip: {done} of {count} points are in {}", path.display()));
+        session
+            .remark(format_args!("stickslip: {done} of {count} points are in {}", path.display()));
     }
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(session)?;
     let so_far = Arc::new(AtomicUsize::new(done));
     let (path, known) = (finished.path().map(Path::to_owned), Arc::clone(&so_far));
     interrupt.or_else(move |signal| {
         unfinished(known.load(Ordering::Relaxed), count, path.as_deref(), signal)
     });
-    let mut progress = Progress::new(done as f64, count as f64).at_every_call();
+    let mut progress = Progress::new(session, done as f64, count as f64).at_every_call();
     let mut kept: io::Result<()> = Ok(());
     let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
     let computed = each_point(grid, &missing, threads, &context, |point| {

@@ -8,6 +8,7 @@ use crate::files::distinct::Named;
 use crate::files::gsf::read_gsf;
 use crate::files::heading::Heading;
 use crate::files::measured::{one_of, read_measured};
+use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use stickslip::{Ask, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, parameter};
@@ -15,12 +16,15 @@ use stickslip_units::Unit;
 
 const OPTION: &str = "MEASURED.csv";
 
-pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failure> {
+pub(crate) fn measured_tip(
+    session: &Session,
+    arguments: &MeasuredTipArguments,
+) -> Result<(), Failure> {
     let MeasuredTipArguments { measured, options, both, sigma, outlet, plot } = arguments;
     let [_, parameters] = options.files();
     judge_places(outlet, plot.as_deref(), &[(OPTION, Some(&**measured)), parameters])?;
-    let mut values = options.values()?;
-    let data = Data::read(measured, values.get("unit").and_then(Value::as_str))?;
+    let mut values = options.values(session)?;
+    let data = Data::read(session, measured, values.get("unit").and_then(Value::as_str))?;
     if *both {
         values.insert("half".into(), json!(false));
     }
@@ -30,8 +34,8 @@ pub(crate) fn measured_tip(arguments: &MeasuredTipArguments) -> Result<(), Failu
     let question = data.asked(values, measured)?;
     let files = files(measured);
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let job = Job::open::<MeasuredTipDocument>(outlet, plot.as_deref())?;
-    job.finish(question.ask(&context()).map_err(refused)?)
+    let job = Job::open::<MeasuredTipDocument>(session, outlet, plot.as_deref())?;
+    job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 
 /// The file as the option of a refused profile or image.
@@ -48,12 +52,12 @@ struct Data {
 }
 
 impl Data {
-    fn read(path: &Path, given: Option<&str>) -> Result<Self, Failure> {
+    fn read(session: &Session, path: &Path, given: Option<&str>) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf")) {
-            let (image, unit) = measured_image(OPTION, path, given)?;
+            let (image, unit) = measured_image(session, OPTION, path, given)?;
             return Ok(Self { profile: MeasuredProfile::default(), image: Some(image), unit });
         }
-        let sheet = read_measured(OPTION, path, &[2])?;
+        let sheet = read_measured(session, OPTION, path, &[2])?;
         let unit = unit((OPTION, path), given, &sheet.headings[0])?;
         let [x, f] = [0, 1].map(|i| sheet.columns[i].clone());
         Ok(Self { profile: MeasuredProfile { x, f }, image: None, unit })
@@ -70,11 +74,12 @@ impl Data {
 
 /// An image in a file, and the unit of its positions.
 pub(super) fn measured_image(
+    session: &Session,
     option: &str,
     path: &Path,
     given: Option<&str>,
 ) -> Result<(MeasuredImage, Option<String>), Failure> {
-    let read = read_gsf(option, path)?;
+    let read = read_gsf(session, option, path)?;
     let heading = Heading::of(if read.in_nanometres { "x_nm" } else { "x" });
     let unit = unit((option, path), given, &heading)?;
     Ok((MeasuredImage { x: read.x, y: read.y, rows: read.rows }, unit))

@@ -5,20 +5,21 @@ use super::job::{Job, format, judge_places};
 use crate::arguments::{Format, UnitsArguments};
 use crate::failure::Failure;
 use crate::files::input::{TipFile, read_tip};
+use crate::session::Session;
 use serde_json::json;
 use stickslip::{Units, UnitsDocument, parameter};
 use stickslip_units::Unit;
 
-pub(crate) fn units(arguments: &UnitsArguments) -> Result<(), Failure> {
+pub(crate) fn units(session: &Session, arguments: &UnitsArguments) -> Result<(), Failure> {
     let UnitsArguments { options, outlet, .. } = arguments;
     judge_places(outlet, None, &options.files())?;
-    if format(outlet.format, &outlet.output, "")? == Format::Npz {
+    if format(session, outlet.format, &outlet.output, "")? == Format::Npz {
         let message = "there are no arrays to write: take .json or .csv";
         let named = format!("--output {}", outlet.output.display());
         return Err(Failure::input(named, message));
     }
-    let question = question(arguments)?;
-    let job = Job::open::<UnitsDocument>(outlet, None)?;
+    let question = question(session, arguments)?;
+    let job = Job::open::<UnitsDocument>(session, outlet, None)?;
     job.write(question.answered().map_err(|failure| as_typed(failure, arguments))?)
 }
 
@@ -45,8 +46,8 @@ fn quantities(given: &UnitsArguments) -> [(&'static str, Option<&str>, Unit); 6]
 }
 
 /// The question of the options, with quantities in SI units.
-fn question(arguments: &UnitsArguments) -> Result<Units, Failure> {
-    let mut values = arguments.options.values()?;
+fn question(session: &Session, arguments: &UnitsArguments) -> Result<Units, Failure> {
+    let mut values = arguments.options.values(session)?;
     for (name, text, unit) in quantities(arguments) {
         let Some(text) = text else { continue };
         let named = || format!("{} {text}", option(name));
@@ -60,13 +61,13 @@ fn question(arguments: &UnitsArguments) -> Result<Units, Failure> {
     if question.tip_width.is_some() || question.left_out() <= numbers {
         return Ok(question);
     }
-    Ok(Units { tip_width: sigma_of(arguments)?, ..question })
+    Ok(Units { tip_width: sigma_of(session, arguments)?, ..question })
 }
 
 /// σ in m from a tip file that `stickslip tip` wrote for a profile with a unit.
-fn sigma_of(arguments: &UnitsArguments) -> Result<Option<f64>, Failure> {
+fn sigma_of(session: &Session, arguments: &UnitsArguments) -> Result<Option<f64>, Failure> {
     let Some(path) = &arguments.options.tip.tip_file else { return Ok(None) };
-    match read_tip(path)? {
+    match read_tip(session, path)? {
         TipFile::Measured(measured) => Ok(measured.sigma_metres),
         _ => Ok(None),
     }

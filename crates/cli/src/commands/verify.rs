@@ -12,6 +12,7 @@ use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use claims::{Judged, Summary};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -24,35 +25,41 @@ use stickslip_verify::{
     Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
 };
 
-pub(crate) fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
+pub(crate) fn verify(session: &Session, arguments: &VerifyArguments) -> Result<(), Failure> {
     let path = &arguments.run;
     let read = [("RUN", Some(&**path))];
     distinct(&[("--output", Some(&*arguments.outlet.output))], &read)?;
-    match open(path).map_err(|error| Failure::input(format!("RUN {}", path.display()), error))? {
-        Written::Document(reader) => of_document(read_run_from(reader, path)?, arguments),
-        Written::Lines(file) => lines::verify(path, &file, &arguments.outlet),
+    match open(session, path)
+        .map_err(|error| Failure::input(format!("RUN {}", path.display()), error))?
+    {
+        Written::Document(reader) => of_document(session, read_run_from(reader, path)?, arguments),
+        Written::Lines(file) => lines::verify(session, path, &file, &arguments.outlet),
     }
 }
 
 /// The output: JSON for any file name, or text; there are no columns.
-fn job(outlet: &OutletArguments) -> Result<Job, Failure> {
+fn job(session: &Session, outlet: &OutletArguments) -> Result<Job, Failure> {
     let format = match outlet.format {
         Some(format @ (Format::Json | Format::Text)) => format,
         Some(_) => return Err(Failure::input("--format", "must be json or text")),
-        None if outlet.output == Path::new("-") => on_standard_output(),
+        None if outlet.output == Path::new("-") => on_standard_output(session),
         None => Format::Json,
     };
-    Job::of_format::<VerifyDocument>(format, &outlet.output, &outlet.fields, None)
+    Job::of_format::<VerifyDocument>(session, format, &outlet.output, &outlet.fields, None)
 }
 
-fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {
+fn of_document(
+    session: &Session,
+    run: RunDocument,
+    arguments: &VerifyArguments,
+) -> Result<(), Failure> {
     let damaged = |message: String| {
         let named = format!("RUN.json {}", arguments.run.display());
         Failure::input(named, format!("damaged: {message}"))
     };
     let unusable = |error: Unusable| damaged(error.to_string());
     if run.parameters.stiffness_across.is_some() {
-        return across::of_document(run, arguments);
+        return across::of_document(session, run, arguments);
     }
     let scenario = run.parameters.scenario().map_err(unusable)?;
     let memory = &run.work.memory;
@@ -67,10 +74,10 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
     };
     let first = trajectory.as_ref().map(|trajectory| trajectory.x0(trajectory.start()));
     begins_as(&scenario, first, &samples).map_err(damaged)?;
-    let job = job(&arguments.outlet)?;
+    let job = job(session, &arguments.outlet)?;
     let verification = match &trajectory {
-        Some(trajectory) => of_history(&scenario, memory, trajectory)?,
-        None => of_samples(&scenario, memory, &samples)?,
+        Some(trajectory) => of_history(session, &scenario, memory, trajectory)?,
+        None => of_samples(session, &scenario, memory, &samples)?,
     };
     let (wider, support) = (*scenario.model.wider(), scenario.support());
     let summary = trajectory.as_ref().map(|along| {
@@ -78,26 +85,33 @@ fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Fail
         (along, move |i: usize, t: f64| SampleLine::of(&along.steps()[i], law, t))
     });
     let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
-    let differences = claims::of_document(&run, Judged::Along(&scenario), summary)?;
-    finish(run, job, verification, differences)
+    let differences = claims::of_document(session, &run, Judged::Along(&scenario), summary)?;
+    finish(session, run, job, verification, differences)
 }
 
 /// Writes the result, and says what is wrong.
 fn finish(
+    session: &Session,
     run: RunDocument,
     job: Job,
     verification: VerificationDocument,
     differences: Vec<ClaimDocument>,
 ) -> Result<(), Failure> {
-    let failure = failure_of(broken_in(&verification, run.parameters.tolerance), &differences);
+    let failure =
+        failure_of(session, broken_in(&verification, run.parameters.tolerance), &differences);
     let job = job.silent_if(failure.is_some());
     job.write(VerifyDocument::new(run.parameters, verification, differences, None))?;
     failure.map_or(Ok(()), Err)
 }
 
 /// The error for a run that misses its tolerance, or that contains wrong values.
-fn failure_of(broken: Option<String>, differences: &[ClaimDocument]) -> Option<Failure> {
-    let said: Vec<String> = broken.into_iter().chain(claims::said_of(differences)).collect();
+fn failure_of(
+    session: &Session,
+    broken: Option<String>,
+    differences: &[ClaimDocument],
+) -> Option<Failure> {
+    let said: Vec<String> =
+        broken.into_iter().chain(claims::said_of(session, differences)).collect();
     (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
@@ -153,33 +167,38 @@ fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, 
 
 /// Comparison of the dense history of a run with its repetition.
 pub(super) fn of_history(
+    session: &Session,
     scenario: &Scenario,
     memory: &str,
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
-    let found =
-        repeated(|observe| stickslip_verify::verify(scenario, memory, trajectory, observe))?;
+    let found = repeated(session, |observe| {
+        stickslip_verify::verify(scenario, memory, trajectory, observe)
+    })?;
     Ok((&found).into())
 }
 
 /// Comparison of samples in the order of time, at least one, with the repetition of their run.
 fn of_samples(
+    session: &Session,
     scenario: &Scenario,
     memory: &str,
     samples: &[Sample],
 ) -> Result<VerificationDocument, Failure> {
     let until = samples.last().map_or(scenario.until, |last| last.t);
     let each = || samples.iter().copied();
-    let found = repeated(|observe| verify_samples(scenario, memory, each, until, observe))?;
+    let found =
+        repeated(session, |observe| verify_samples(scenario, memory, each, until, observe))?;
     Ok((&found).into())
 }
 
 /// Repeats the run with progress, until it is finished or interrupted.
 fn repeated(
+    session: &Session,
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {
-    let interrupt = Interrupt::of_host();
-    let mut progress = Progress::new(0.0, 1.0);
+    let interrupt = Interrupt::of_host(session);
+    let mut progress = Progress::new(session, 0.0, 1.0);
     let found = work(&mut |part| {
         progress.reached(part);
         if interrupt.signal().is_some() {

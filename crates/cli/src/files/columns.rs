@@ -5,6 +5,7 @@ use super::in_model_units::in_model_units;
 use super::sheet::{Sheet, parse_sheet};
 use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
+use crate::session::Session;
 use std::path::Path;
 use stickslip::{KnownScales, SurfaceTable};
 use stickslip_raster::AreaLine;
@@ -14,23 +15,25 @@ pub(crate) type Columns = (Vec<f64>, Vec<f64>);
 
 /// Two columns of numbers with the names in `heading`.
 pub(crate) fn read_columns(
+    session: &Session,
     option: &str,
     path: &Path,
     heading: &str,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
+    let text = read_text(session, option, path, LARGEST_TABLE)?;
     parse_columns(&text, heading, scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
 /// Lines of an area, y,start,length.
 pub(crate) fn read_area(
+    session: &Session,
     option: &str,
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Vec<AreaLine>, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
+    let text = read_text(session, option, path, LARGEST_TABLE)?;
     let [y, start, length] = parse_table(&text, "y,start,length", scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
     let columns = y.into_iter().zip(start).zip(length);
@@ -39,11 +42,12 @@ pub(crate) fn read_area(
 
 /// Heights at all points of a grid, x,y,u, in any order.
 pub(crate) fn read_surface_table(
+    session: &Session,
     option: &str,
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<SurfaceTable, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
+    let text = read_text(session, option, path, LARGEST_TABLE)?;
     let named = |message: String| Failure::input(format!("{option} {}", path.display()), message);
     surface_table(parse_table(&text, "x,y,u", scales).map_err(named)?).map_err(named)
 }
@@ -79,11 +83,12 @@ fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
 
 /// A profile x,u; or one surface t,x,u, as written by `surface`.
 pub(crate) fn read_profile(
+    session: &Session,
     option: &str,
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let text = read_text(option, path, LARGEST_TABLE)?;
+    let text = read_text(session, option, path, LARGEST_TABLE)?;
     parse_profile(&text, scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }

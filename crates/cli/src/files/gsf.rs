@@ -7,6 +7,7 @@ use super::decode::decoded;
 use super::sheet::lines;
 use super::text::read_bytes;
 use crate::failure::Failure;
+use crate::session::Session;
 use std::fmt::Write;
 use std::path::Path;
 use stickslip_units::Unit;
@@ -80,8 +81,8 @@ pub(crate) struct Image {
 const LARGEST: u64 = (4 << 24) + (1 << 16);
 
 /// The image in a file.
-pub(crate) fn read_gsf(option: &str, path: &Path) -> Result<Image, Failure> {
-    let bytes = read_bytes(option, path, LARGEST)?;
+pub(crate) fn read_gsf(session: &Session, option: &str, path: &Path) -> Result<Image, Failure> {
+    let bytes = read_bytes(session, option, path, LARGEST)?;
     parse_gsf(&bytes)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }

@@ -3,7 +3,7 @@
 use super::columns::{Columns, whole};
 use super::text::{LARGEST_TABLE, read_text, unreadable};
 use crate::failure::Failure;
-use crate::host;
+use crate::session::Session;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs::File;
@@ -44,9 +44,9 @@ pub(crate) struct GaussianEntry {
     pub(crate) width_y: Option<f64>,
 }
 
-pub(crate) fn read_tip(path: &Path) -> Result<TipFile, Failure> {
+pub(crate) fn read_tip(session: &Session, path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
-    let text = read_text(OPTION, path, LARGEST_TABLE)?;
+    let text = read_text(session, OPTION, path, LARGEST_TABLE)?;
     parse_tip(&text)
         .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
 }
@@ -95,13 +95,14 @@ pub(crate) enum RunOrRaster {
 }
 
 /// Reads a document of `stickslip run` or `stickslip raster`.
-pub(crate) fn read_scanned(path: &Path) -> Result<RunOrRaster, Failure> {
-    if let Some(run) = host::document(path) {
+pub(crate) fn read_scanned(session: &Session, path: &Path) -> Result<RunOrRaster, Failure> {
+    if let Some(run) = session.document(path) {
         return Ok(RunOrRaster::Run(Box::new(run)));
     }
     let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
     let (kind, source) =
-        documents::identified(open("RUN.json", path)?, RunDocument::FORMAT).map_err(refused)?;
+        documents::identified(open(session, "RUN.json", path)?, RunDocument::FORMAT)
+            .map_err(refused)?;
     if kind.format.as_deref() == Some(RasterDocument::FORMAT) {
         let raster = documents::read_from(source, RasterDocument::FORMAT).map_err(refused)?;
         return Ok(RunOrRaster::Raster(Box::new(raster)));
@@ -118,31 +119,33 @@ pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocumen
 
 /// Reads a document of this format, which has the name of a command.
 pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
+    session: &Session,
     option: &str,
     path: &Path,
     wanted: &str,
 ) -> Result<D, Failure> {
-    if let Some(document) = host::document(path) {
+    if let Some(document) = session.document(path) {
         return Ok(document);
     }
-    documents::read_from(open(option, path)?, wanted)
+    documents::read_from(open(session, option, path)?, wanted)
         .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 
 /// The format of the document in a file; `None` if it names none.
 pub(crate) fn format_of(
+    session: &Session,
     option: &str,
     path: &Path,
     wanted: &str,
 ) -> Result<Option<String>, Failure> {
-    let kind = documents::kind_of(open(option, path)?, wanted);
+    let kind = documents::kind_of(open(session, option, path)?, wanted);
     let refused = |error| Failure::input(format!("{option} {}", path.display()), error);
     kind.map(|kind| kind.format).map_err(refused)
 }
 
 /// Opens the stream of a document (`-`: standard input), limited to the largest size.
-pub(crate) fn open(option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
-    if let Some(bytes) = host::bytes(path) {
+pub(crate) fn open(session: &Session, option: &str, path: &Path) -> Result<Box<dyn Read>, Failure> {
+    if let Some(bytes) = session.bytes(path) {
         return Ok(Box::new(Cursor::new(bytes)));
     }
     if path == Path::new("-") {

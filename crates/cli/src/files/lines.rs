@@ -1,7 +1,7 @@
 //! Reading of a run written as lines, without keeping them in memory.
 
 use super::text::unreadable;
-use crate::host;
+use crate::session::Session;
 use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
@@ -26,12 +26,12 @@ pub(crate) enum Written {
 }
 
 /// Opens an output of `stickslip run` (`-`: standard input). Lines from a pipe are copied to a temporary file.
-pub(crate) fn open(path: &Path) -> Result<Written, String> {
-    opened(path).map_err(unreadable)
+pub(crate) fn open(session: &Session, path: &Path) -> Result<Written, String> {
+    opened(session, path).map_err(unreadable)
 }
 
-fn opened(path: &Path) -> io::Result<Written> {
-    if let Some(bytes) = host::bytes(path) {
+fn opened(session: &Session, path: &Path) -> io::Result<Written> {
+    if let Some(bytes) = session.bytes(path) {
         return Ok(Written::Document(Box::new(Cursor::new(bytes))));
     }
     let mut source: Box<dyn Read> = match path {

@@ -4,23 +4,24 @@ use super::heading::Heading;
 use super::sheet::{Sheet, parse_sheet};
 use super::text::{LARGEST_TABLE, read_text};
 use crate::failure::Failure;
-use crate::message::remark;
+use crate::session::Session;
 use std::path::Path;
 use stickslip_units::Unit;
 
 /// The table in a file, with one of these numbers of columns. Rows with missing values are omitted, with a warning.
 pub(crate) fn read_measured(
+    session: &Session,
     option: &str,
     path: &Path,
     columns: &[usize],
 ) -> Result<Sheet, Failure> {
     let named = || format!("{option} {}", path.display());
-    let text = read_text(option, path, LARGEST_TABLE)?;
+    let text = read_text(session, option, path, LARGEST_TABLE)?;
     let sheet =
         parse_measured(&text, columns).map_err(|message| Failure::input(named(), message))?;
     if let Some(first) = sheet.missing.first() {
         let (count, all) = (sheet.missing.len(), sheet.missing.len() + sheet.columns[0].len());
-        remark(format_args!(
+        session.remark(format_args!(
             "stickslip: {}: {count} of {all} rows have no value and are left out, the first in line {first}",
             named()
         ));

@@ -3,7 +3,7 @@
 use super::decode::decoded;
 use super::instrument;
 use crate::failure::Failure;
-use crate::host;
+use crate::session::Session;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -12,16 +12,26 @@ use std::path::Path;
 pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
 
 /// The text of a file (`-`: standard input) in any usual encoding; an error if it is larger than `most` bytes.
-pub(crate) fn read_text(option: &str, path: &Path, most: u64) -> Result<String, Failure> {
-    let bytes = read_bytes(option, path, most)?;
+pub(crate) fn read_text(
+    session: &Session,
+    option: &str,
+    path: &Path,
+    most: u64,
+) -> Result<String, Failure> {
+    let bytes = read_bytes(session, option, path, most)?;
     instrument::judge(path, &bytes)
         .and_then(|()| decoded(bytes))
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
 /// The bytes of a file, with the same limit.
-pub(super) fn read_bytes(option: &str, path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
-    let bytes = if let Some(bytes) = host::bytes(path) {
+pub(super) fn read_bytes(
+    session: &Session,
+    option: &str,
+    path: &Path,
+    most: u64,
+) -> Result<Vec<u8>, Failure> {
+    let bytes = if let Some(bytes) = session.bytes(path) {
         bytes_of(&*bytes, most)
     } else if path == Path::new("-") {
         bytes_of(io::stdin().lock(), most)
@@ -57,8 +67,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("table.csv");
         std::fs::write(&path, "0,1\n2,3\n").unwrap();
-        assert_eq!(read_text("--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
-        let refused = read_text("--force-file", &path, 7).unwrap_err();
+        assert_eq!(read_text(&Session::default(), "--force-file", &path, 8).unwrap(), "0,1\n2,3\n");
+        let refused = read_text(&Session::default(), "--force-file", &path, 7).unwrap_err();
         assert!(refused.to_string().contains("larger than"), "{refused}");
     }
 
@@ -66,7 +76,9 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn a_device_without_end_is_refused() {
-        let endless = read_text("--force-file", Path::new("/dev/zero"), 1 << 20).unwrap_err();
+        let endless =
+            read_text(&Session::default(), "--force-file", Path::new("/dev/zero"), 1 << 20)
+                .unwrap_err();
         assert!(endless.to_string().contains("larger than"), "{endless}");
     }
 }

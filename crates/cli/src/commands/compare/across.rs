@@ -74,7 +74,7 @@ fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<((Vec<Step>, Work),
     let refused = |error| asked.question.refused_across(error);
     let span = (scenario.along.start_time(), scenario.along.until);
     let pace = Pace::new("--until", span, asked.time_limit);
-    let mut progress = Progress::new(span.0, span.1);
+    let mut progress = Progress::new(asked.session, span.0, span.1);
     let mut running = PlanarRunning::new(scenario).map_err(refused)?;
     let mut steps = vec![];
     while let Some(step) = running.step().map_err(refused)? {

@@ -24,7 +24,7 @@ pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
     let span = (scenario.start_time(), scenario.until);
     let once = || {
         let pace = Pace::new("--until", span, *time_limit);
-        let mut progress = Progress::new(span.0, span.1);
+        let mut progress = Progress::new(asked.session, span.0, span.1);
         let (mut steps, mut failure) = (0_u32, None);
         let run = run_observed(scenario, |step| {
             progress.reached(step.end());

@@ -248,7 +248,7 @@ impl Watch {
     pub(super) fn new(asked: &Asked) -> Self {
         let span = (asked.scenario.start_time(), asked.grid_until);
         let pace = Pace::new("--grid-until", span, asked.time_limit);
-        let progress = Progress::new(span.0, span.1).at_every_call();
+        let progress = Progress::new(asked.session, span.0, span.1).at_every_call();
         Self { progress, pace, samples: Samples::default(), failure: None }
     }
 

@@ -14,6 +14,7 @@ use crate::commands::progress::Progress;
 use crate::commands::raster::{files_read, question};
 use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
+use crate::session::Session;
 use serde_json::Value;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -28,26 +29,27 @@ use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 /// Number of heights compared on each row.
 const POINTS: usize = 501;
 
-pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
+pub(super) fn compare(session: &Session, arguments: &CompareArguments) -> Result<(), Failure> {
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
-    let values = options.values()?;
+    let values = options.values(session)?;
     refuse_strangers::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
     let tip_file = options.tip.tip_file.as_deref();
-    let scales = scales(&place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales =
+        scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let (parameters, plan) =
-        question(options, values, (area, &disturbance.pulse), scales.as_ref())?;
+        question(session, options, values, (area, &disturbance.pulse), scales.as_ref())?;
     let sampling = &parameters.sampling;
     let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
     let cells = Cells::of(arguments, &plan)?;
     // Its own steps, unless times are asked for, which it would have to step to.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
     let times = if is_asked { parameters.times(&plan)? } else { vec![] };
-    let job = Job::open::<RasterCompareDocument>(&place.outlet, place.plot.as_deref())?;
+    let job = Job::open::<RasterCompareDocument>(session, &place.outlet, place.plot.as_deref())?;
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;
-    let asked = Asked { plan: &plan, stepping, times, x, limit };
+    let asked = Asked { session, plan: &plan, stepping, times, x, limit };
     let compared = match (&plan.free, &cells.plane) {
         (Some(free), Some(plane)) => across::on_cells(&asked, free, plane)?,
         _ => on_rows(&asked, (cells.rows, cells.spacing))?,
@@ -64,6 +66,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
 
 /// What the grid is asked.
 struct Asked<'a> {
+    session: &'a Session,
     plan: &'a Plan,
     stepping: Stepping,
     /// Times on each line; without any, the ends of its steps.
@@ -154,7 +157,7 @@ fn scan_lines(plan: &Plan) -> Vec<ScanLine> {
 
 /// The raster of a tip that is held on its lines, on rows of cells.
 fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Failure> {
-    let Asked { plan, stepping, times, x, limit } = asked;
+    let Asked { plan, stepping, times, x, limit, .. } = asked;
     type Function<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
     let parts = plan.footprint.layers();
     let functions: Vec<(Function, Function)> = parts
@@ -177,7 +180,7 @@ fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Fail
         zigzag: plan.path == Path::Zigzag,
         force: &|t| plan.disturbance.value(t),
     };
-    let mut watch = Watch::new(lines.len(), *limit);
+    let mut watch = Watch::new(asked.session, lines.len(), *limit);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan(&problem, rows, stepping, (times, x), &mut line);
     let (scanned, seconds) = watch.ended(scanned)?;
@@ -208,8 +211,8 @@ struct Watch {
 }
 
 impl Watch {
-    fn new(lines: usize, limit: f64) -> Self {
-        let progress = Progress::new(0.0, lines as f64).at_every_call();
+    fn new(session: &Session, lines: usize, limit: f64) -> Self {
+        let progress = Progress::new(session, 0.0, lines as f64).at_every_call();
         Self { clock: Instant::now(), progress, lines, limit, failure: None }
     }
 

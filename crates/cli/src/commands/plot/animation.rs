@@ -8,9 +8,14 @@ use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::open;
 use crate::files::output::Output;
+use crate::session::Session;
 use stickslip_figures::{self as figures, AnimationFormat, Drawn, FigureError, Film, Shot};
 
-pub(super) fn write(arguments: &PlotArguments, format: AnimationFormat) -> Result<(), Failure> {
+pub(super) fn write(
+    session: &Session,
+    arguments: &PlotArguments,
+    format: AnimationFormat,
+) -> Result<(), Failure> {
     refuse_options_of_pictures(arguments)?;
     let film = film(arguments)?;
     let times = range("--times", arguments.times.as_deref())?;
@@ -20,9 +25,9 @@ pub(super) fn write(arguments: &PlotArguments, format: AnimationFormat) -> Resul
     let output = Output::open("--output", &arguments.output)?;
     let option = "DOCUMENT.json";
     let named = || format!("{option} {}", arguments.document.display());
-    let document = figures::saved(open(option, &arguments.document)?)
+    let document = figures::saved(open(session, option, &arguments.document)?)
         .map_err(|error| Failure::input(named(), error))?;
-    let scales = scales(&arguments.in_units, None, one_r(arguments, &*document))?;
+    let scales = scales(session, &arguments.in_units, None, one_r(arguments, &*document))?;
     let known = scales.or_else(|| document.physical().map(|physical| physical.scales));
     let unit = if known.is_some_and(|known| known.time.is_some()) { "s" } else { "Γ/k" };
     if let Some((_, Some(given))) =

@@ -15,28 +15,37 @@ use crate::failure::Failure;
 use crate::files::columns::read_area;
 use crate::files::distinct::{Named, distinct};
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use serde_json::{Map, Value};
 use stickslip::{AreaDocument, Ask, KnownScales, Physical, Raster, RasterDocument, parameter};
 use stickslip_raster::Plan;
 use stickslip_tip::Pulse;
 
-pub(crate) fn raster(arguments: &RasterArguments) -> Result<(), Failure> {
+pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;
     let threads = threads(arguments.threads)?;
     let read = files_read(options, area);
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
         && output.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf"));
-    let format = if is_gsf { Format::Json } else { format(arguments.format, output, ", .gsf")? };
-    let values = options.values()?;
+    let format =
+        if is_gsf { Format::Json } else { format(session, arguments.format, output, ", .gsf")? };
+    let values = options.values(session)?;
     let tip_file = options.tip.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
-    let (question, plan) = question(options, values, (area, pulse), scales.as_ref())?;
+    let scales =
+        scales(session, &arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let (question, plan) = question(session, options, values, (area, pulse), scales.as_ref())?;
     let times = question.times(&plan)?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
-    let job = Job::of_format::<RasterDocument>(format, output, &arguments.fields, plot.as_deref())?;
-    let interrupt = Interrupt::listen()?;
-    let (lines, finished) = scan::scan(&plan, &question, job.file(), &interrupt, threads)?;
+    let job = Job::of_format::<RasterDocument>(
+        session,
+        format,
+        output,
+        &arguments.fields,
+        plot.as_deref(),
+    )?;
+    let interrupt = Interrupt::listen(session)?;
+    let (lines, finished) = scan::scan(session, &plan, &question, job.file(), &interrupt, threads)?;
     let document = question.document(&plan, &lines, &times).in_units(scales.as_ref());
     if let Some(unit) = in_metres {
         let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
@@ -60,6 +69,7 @@ pub(super) fn files_read<'a, Q: Questions>(
 
 /// The resolved question and its plan.
 pub(super) fn question<Q: Questions>(
+    session: &Session,
     options: &Options<Q>,
     values: Map<String, Value>,
     (area, pulse): (&AreaArguments, &[String]),
@@ -68,15 +78,15 @@ pub(super) fn question<Q: Questions>(
     let files = files_read(options, area);
     let mut question: Raster = parameter::question(values)?;
     if let Some(file) = &area.area {
-        question.area = Some(AreaDocument::of(&read_area("--area", file, scales)?));
+        question.area = Some(AreaDocument::of(&read_area(session, "--area", file, scales)?));
     }
     if !pulse.is_empty() {
         question.pulses = parse_pulses(pulse)?.into_iter().map(Into::into).collect();
     }
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let question = question.resolved(&context()).map_err(refused)?;
+    let question = question.resolved(&context(session)).map_err(refused)?;
     let plan = question.prepared().map_err(refused)?;
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
-    warn_of_idle_pulses(pulse, &pulses, (0.0, plan.duration(0)));
+    warn_of_idle_pulses(session, pulse, &pulses, (0.0, plan.duration(0)));
     Ok((question, plan))
 }

@@ -4,7 +4,7 @@ use crate::commands::finished::{Finished, Parts};
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::message::remark;
+use crate::session::Session;
 use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
@@ -16,6 +16,7 @@ use stickslip_tip::stop;
 /// All lines, on this number of threads (0: one per core), including those of an interrupted raster with the same
 /// output.
 pub(super) fn scan(
+    session: &Session,
     plan: &Plan,
     parameters: &Raster,
     file: Option<&Path>,
@@ -23,7 +24,7 @@ pub(super) fn scan(
     threads: usize,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
     let mut finished: Finished<KeptLine> = match file {
-        Some(file) => Finished::beside(file, parameters, |index| index < plan.lines())?,
+        Some(file) => Finished::beside(session, file, parameters, |index| index < plan.lines())?,
         None => Finished::in_memory(),
     };
     let failed = |error: stickslip_raster::RasterError| Failure::Run(error.to_string());
@@ -32,7 +33,8 @@ pub(super) fn scan(
     let kept: HashSet<usize> = finished.parts().iter().map(|line| line.index).collect();
     let (first, count) = (scanning.lines().len(), plan.lines());
     if let (Some(path), true) = (finished.path(), first > 0) {
-        remark(format_args!("stickslip: {first} of {count} lines are in {}", path.display()));
+        session
+            .remark(format_args!("stickslip: {first} of {count} lines are in {}", path.display()));
     }
     let scanned = Arc::new(AtomicUsize::new(first));
     {
@@ -42,7 +44,7 @@ pub(super) fn scan(
             unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
         });
     }
-    let mut progress = Progress::new(first as f64, count as f64).at_every_call();
+    let mut progress = Progress::new(session, first as f64, count as f64).at_every_call();
     let (mut index, mut unkept) = (first, None);
     let mut take = |line: &Line| {
         if !kept.contains(&index) {

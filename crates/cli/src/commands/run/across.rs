@@ -6,8 +6,8 @@ use crate::arguments::RunArguments;
 use crate::commands::ask::refusal;
 use crate::commands::{summary, verify};
 use crate::failure::Failure;
-use crate::host;
 use crate::made::pictured;
+use crate::session::Session;
 use stickslip::{Order, Physical, RunEnd, became_across, history_across};
 use stickslip_outcome::WatchedAcross;
 use stickslip_tip::planar::{PlanarScenario, Trajectory};
@@ -15,6 +15,7 @@ use stickslip_tip::stop;
 
 /// The run from its start.
 pub(super) fn start(
+    session: &Session,
     arguments: &RunArguments,
     order: &Order,
     scenario: &PlanarScenario,
@@ -23,12 +24,14 @@ pub(super) fn start(
         let failure = order.parameters.refused_across(error);
         refusal(failure, &arguments.options.tip, &super::order::files(arguments))
     })?;
-    let (integrated, target) = super::integrated(arguments, order, &scenario.along, running)?;
-    write(order, scenario, integrated, target)
+    let (integrated, target) =
+        super::integrated(session, arguments, order, &scenario.along, running)?;
+    write(session, order, scenario, integrated, target)
 }
 
 /// Writes the whole document, or the last line; and the figure.
 pub(super) fn write(
+    session: &Session,
     order: &Order,
     scenario: &PlanarScenario,
     mut integrated: Integrated<WatchedAcross>,
@@ -36,11 +39,11 @@ pub(super) fn write(
 ) -> Result<(), Failure> {
     let end = end(scenario, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
-    print_remarks(order, &end);
+    print_remarks(session, order, &end);
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
-            finish_lines(order, integrated.record.sink, &fields, &end)?;
+            finish_lines(session, order, integrated.record.sink, &fields, &end)?;
         }
         Target::Document(job) => {
             let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
@@ -53,7 +56,7 @@ pub(super) fn write(
             let mut document = order.parameters.clone().document(samples, kept, end);
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
-            let found = asked.map(|t| verify::across::of_history(scenario, t)).transpose();
+            let found = asked.map(|t| verify::across::of_history(session, scenario, t)).transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
             // From here on nothing is computed that would be lost: a signal ends the program.
             let interrupt = integrated.interrupt;
@@ -67,7 +70,7 @@ pub(super) fn write(
                 figure.draw(&document)?;
                 document.history.take_if(|_| !order.history);
             }
-            host::give(|| summary.of(pictured(document)));
+            session.give(|| summary.of(pictured(document)));
             failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => {

@@ -4,7 +4,7 @@ use crate::arguments::DisturbanceArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::columns::{read_columns, read_profile};
 use crate::files::distinct::Named;
-use crate::message::remark;
+use crate::session::Session;
 use std::path::Path;
 use stickslip::{ForceTable, KnownScales, NoiseParameters, Profile, Run, SupportPathParameters};
 use stickslip_tip::Pulse;
@@ -14,21 +14,22 @@ use stickslip_tip::Pulse;
 /// # Errors
 /// A file cannot be read, or a pulse is invalid.
 pub(crate) fn disturbed(
+    session: &Session,
     mut run: Run,
     arguments: &DisturbanceArguments,
     support_path: Option<&Path>,
     scales: Option<&KnownScales>,
 ) -> Result<Run, Failure> {
     if let Some(path) = &arguments.initial_surface {
-        let (x, u) = read_profile("--initial-surface", path, scales)?;
+        let (x, u) = read_profile(session, "--initial-surface", path, scales)?;
         run.initial_surface = Some(Profile { x, u });
     }
     if let Some(path) = &arguments.force_file {
-        let (t, force) = read_columns("--force-file", path, "t,force", scales)?;
+        let (t, force) = read_columns(session, "--force-file", path, "t,force", scales)?;
         run.force = Some(ForceTable { t, force });
     }
     if let Some(path) = support_path {
-        let (t, displacement) = read_columns("--support-path", path, "t,R", scales)?;
+        let (t, displacement) = read_columns(session, "--support-path", path, "t,R", scales)?;
         run.support_path = Some(SupportPathParameters { t, displacement });
     }
     if !arguments.pulse.is_empty() {
@@ -61,27 +62,43 @@ const WIDTHS_FELT: f64 = 9.0;
 
 /// Warns of each force that ends before the motion begins, or begins after it has ended. It is not an error, because
 /// runs of several lengths may share their forces.
-pub(crate) fn warn_of_idle(arguments: &DisturbanceArguments, run: &Run, span: (f64, f64)) {
+pub(crate) fn warn_of_idle(
+    session: &Session,
+    arguments: &DisturbanceArguments,
+    run: &Run,
+    span: (f64, f64),
+) {
     let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
-    warn_of_idle_pulses(&arguments.pulse, &pulses, span);
+    warn_of_idle_pulses(session, &arguments.pulse, &pulses, span);
     let table = run.force.as_ref();
     let ends = table.and_then(|table| Some((*table.t.first()?, *table.t.last()?)));
     if let (Some(path), Some(ends)) = (&arguments.force_file, ends) {
-        warn(&format!("--force-file {}", path.display()), ends, ends, span);
+        warn(session, &format!("--force-file {}", path.display()), ends, ends, span);
     }
 }
 
 /// The same for pulses alone, as typed and as parsed.
-pub(crate) fn warn_of_idle_pulses(texts: &[String], pulses: &[Pulse], span: (f64, f64)) {
+pub(crate) fn warn_of_idle_pulses(
+    session: &Session,
+    texts: &[String],
+    pulses: &[Pulse],
+    span: (f64, f64),
+) {
     for (text, pulse) in texts.iter().zip(pulses) {
         let half = WIDTHS_FELT * pulse.width;
         let ends = (pulse.time - half, pulse.time + half);
-        warn(&format!("--pulse {text}"), ends, (pulse.time, pulse.time), span);
+        warn(session, &format!("--pulse {text}"), ends, (pulse.time, pulse.time), span);
     }
 }
 
 /// Warns of a force that acts between the two `ends`, and names what a run needs to cover `core`.
-fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, f64)) {
+fn warn(
+    session: &Session,
+    option: &str,
+    ends: (f64, f64),
+    core: (f64, f64),
+    (start, until): (f64, f64),
+) {
     let advice = if ends.0 >= until {
         let (until, after) = (Typed(until), Typed(core.0));
         format!("it comes after the end at t = {until}: give an --until above {after}")
@@ -90,7 +107,7 @@ fn warn(option: &str, ends: (f64, f64), core: (f64, f64), (start, until): (f64, 
     } else {
         return;
     };
-    remark(format_args!("stickslip: {option} has no effect: {advice}"));
+    session.remark(format_args!("stickslip: {option} has no effect: {advice}"));
 }
 
 /// All values of `--pulse`.

@@ -6,6 +6,7 @@ use super::record::Record;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use std::time::Instant;
 use stickslip_tip::{Scenario, stop};
 
@@ -48,8 +49,12 @@ impl<R: Motion> Integration<R> {
     }
 
     /// Integrates to the end of the scenario.
-    pub(super) fn finish(mut self, scenario: &Scenario) -> Result<Integrated<R>, Failure> {
-        let mut progress = Progress::new(scenario.start_time(), scenario.until);
+    pub(super) fn finish(
+        mut self,
+        session: &Session,
+        scenario: &Scenario,
+    ) -> Result<Integrated<R>, Failure> {
+        let mut progress = Progress::new(session, scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
         let (mut signal, mut is_whole) = (None, true);
         while signal.is_none()

@@ -6,11 +6,12 @@ use crate::commands::ask::context;
 use crate::commands::summary;
 use crate::failure::Failure;
 use crate::made::{Made, pictured};
+use crate::session::Session;
 use std::path::Path;
 use stickslip::{Order, Physical, RunDocument, RunEnd, ask_runs};
 
 /// The order of one of several runs, which keeps nothing but its document.
-pub(crate) fn order_of(arguments: &RunArguments) -> Result<Order, Failure> {
+pub(crate) fn order_of(session: &Session, arguments: &RunArguments) -> Result<Order, Failure> {
     let written = [
         ("--output", arguments.output() != Path::new("-")),
         ("--plot", arguments.plot.is_some()),
@@ -21,14 +22,14 @@ pub(crate) fn order_of(arguments: &RunArguments) -> Result<Order, Failure> {
     if let Some((option, _)) = written.into_iter().find(|(_, given)| *given) {
         return Err(Failure::input(option, "is not available for several runs at once"));
     }
-    order::order(arguments, arguments.options.values()?)
+    order::order(session, arguments, arguments.options.values(session)?)
 }
 
 /// Runs of all these orders, side by side where possible, in the same order.
-pub(crate) fn runs(orders: Vec<Order>) -> Vec<Result<Made, Failure>> {
+pub(crate) fn runs(session: &Session, orders: Vec<Order>) -> Vec<Result<Made, Failure>> {
     let mut made: Vec<Option<Result<Made, Failure>>> = orders.iter().map(|_| None).collect();
     let questions = orders.iter().map(|order| order.parameters.clone()).collect();
-    ask_runs(questions, &context(), |number, answer| {
+    ask_runs(questions, &context(session), |number, answer| {
         made[number] = Some(answer.map(|run| summary(&orders[number], run)).map_err(Failure::from));
     });
     let missing = || Err(Failure::Run("the run was not made".into()));

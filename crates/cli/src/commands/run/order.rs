@@ -10,36 +10,41 @@ use crate::failure::Failure;
 use crate::files::columns::read_surface_table;
 use crate::files::distinct::{Named, distinct};
 use crate::files::paths::resolved;
+use crate::session::Session;
 use serde_json::{Map, Value};
 use std::path::Path;
 use stickslip::{Ask, Order, Run, RunFormat, parameter};
 
 /// The order of the arguments with these values of options, checked as a whole.
 pub(super) fn order(
+    session: &Session,
     arguments: &RunArguments,
     values: Map<String, Value>,
 ) -> Result<Order, Failure> {
-    let format = format(arguments)?;
+    let format = format(session, arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run, _>(options, &values, "a tip on its line, without --walker")?;
     let tip_file = options.tip.tip_file.as_deref();
-    let scales = scales(&arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales =
+        scales(session, &arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let files = files(arguments);
     let question: Run = parameter::question(values)?;
-    let question = disturbed(question, disturbance, support_path.as_deref(), scales.as_ref())?;
+    let question =
+        disturbed(session, question, disturbance, support_path.as_deref(), scales.as_ref())?;
     let question = match &arguments.initial_surface_across {
         None => question,
         Some(path) => {
             let option = "--initial-surface-across";
-            let table = read_surface_table(option, path, scales.as_ref())?;
+            let table = read_surface_table(session, option, path, scales.as_ref())?;
             Run { initial_surface_across: Some(table), ..question }
         }
     };
-    let question =
-        question.resolved(&context()).map_err(|failure| refusal(failure, &options.tip, &files))?;
+    let question = question
+        .resolved(&context(session))
+        .map_err(|failure| refusal(failure, &options.tip, &files))?;
     let scenario = question.prepared().map_err(|failure| refusal(failure, &options.tip, &files))?;
     let span = (scenario.start_time(), scenario.until);
-    warn_of_idle(disturbance, &question, span);
+    warn_of_idle(session, disturbance, &question, span);
     let are_kept = format != RunFormat::Jsonl;
     let samples = question.sampling.times(span, "the run", are_kept)?;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;
@@ -116,7 +121,7 @@ pub(super) fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
     }
 }
 
-pub(super) fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
+pub(super) fn format(session: &Session, arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if let Some(format) = arguments.format {
         return Ok(format);
     }
@@ -124,7 +129,7 @@ pub(super) fn format(arguments: &RunArguments) -> Result<RunFormat, Failure> {
     if extension.is_some_and(|e| e.eq_ignore_ascii_case("jsonl")) {
         return Ok(RunFormat::Jsonl);
     }
-    Ok(match job::format(None, arguments.output(), ", .jsonl")? {
+    Ok(match job::format(session, None, arguments.output(), ", .jsonl")? {
         Format::Json => RunFormat::Json,
         Format::Csv => RunFormat::Csv,
         Format::Npz => RunFormat::Npz,

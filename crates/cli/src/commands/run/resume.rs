@@ -16,14 +16,18 @@ use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
 use crate::files::within::found_from;
 use crate::interrupt::Interrupt;
-use crate::message::remark;
+use crate::session::Session;
 use std::path::{Path, PathBuf};
 use stickslip::{CheckpointHead, Order, RunEnd, RunFormat};
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::Scenario;
 
 /// Resumes the run of a checkpoint.
-pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failure> {
+pub(super) fn resume(
+    session: &Session,
+    path: &Path,
+    arguments: &RunArguments,
+) -> Result<(), Failure> {
     let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
     let checkpoint = file("--resume", path)?;
     let (mut head, state) = checkpoint::read(path)?;
@@ -36,15 +40,15 @@ pub(super) fn resume(path: &Path, arguments: &RunArguments) -> Result<(), Failur
     if let Some(scenario) = across {
         let running = WatchedAcross::resumed(&scenario, &state);
         let running = running.map_err(|error| named(error.to_string()))?;
-        let (integrated, target) = resumed(&head, place, &scenario.along, running)?;
-        return across::write(&head.order, &scenario, integrated, target);
+        let (integrated, target) = resumed(session, &head, place, &scenario.along, running)?;
+        return across::write(session, &head.order, &scenario, integrated, target);
     }
     let scenario = parameters.scenario().map_err(|error| named(error.to_string()))?;
     let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
     let running = Watched::resumed(&scenario, &surface, &state);
     let running = running.map_err(|error| named(error.to_string()))?;
-    let (integrated, target) = resumed(&head, place, &scenario, running)?;
-    write::all(&head.order, &scenario, &surface, integrated, target)
+    let (integrated, target) = resumed(session, &head, place, &scenario, running)?;
+    write::all(session, &head.order, &scenario, &surface, integrated, target)
 }
 
 /// The checkpoint of a run and the file that it wrote before.
@@ -56,6 +60,7 @@ struct Place<'a> {
 
 /// The finished run of a motion that was resumed, and its output.
 fn resumed<R: Motion>(
+    session: &Session,
     head: &CheckpointHead,
     Place { checkpoint, before, arguments }: Place<'_>,
     scenario: &Scenario,
@@ -66,7 +71,7 @@ fn resumed<R: Motion>(
         let path = arguments.resume.as_deref().unwrap_or(checkpoint.path());
         Failure::input(format!("--resume {}", path.display()), message)
     })?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(session)?;
     let (target, record) = if order.format == RunFormat::Jsonl {
         let target = file("--output", &order.output)?;
         // What the run has written may have its name by now, and have kept the one from before.
@@ -76,13 +81,16 @@ fn resumed<R: Motion>(
         record.taken = head.samples;
         (Target::Lines(Fields::asked::<RunEnd>(&arguments.fields.print)?), record)
     } else {
-        let job = job(order, &order.output, order.plot.as_deref(), &arguments.fields)?;
+        let job = job(session, order, &order.output, order.plot.as_deref(), &arguments.fields)?;
         let mut record = record(order, scenario, Sink::Memory);
         record.resume(&journal_of(checkpoint.path()), head.written, running.t())?;
         (Target::Document(job), record)
     };
     let (t, until) = (running.t(), scenario.until);
-    remark(format_args!("stickslip: from t = {t} to {until}, into {}", order.output.display()));
+    session.remark(format_args!(
+        "stickslip: from t = {t} to {until}, into {}",
+        order.output.display()
+    ));
     let (start, every) = (scenario.start_time(), order.checkpoint_every.unwrap_or(f64::INFINITY));
     let checkpoints = Some(Checkpoints::new(checkpoint, order, start, every, t));
     let seconds = head.seconds;
@@ -91,7 +99,7 @@ fn resumed<R: Motion>(
         // From here on it is gone on with at the new places.
         integration.checkpoint()?;
     }
-    Ok((integration.finish(scenario)?, target))
+    Ok((integration.finish(session, scenario)?, target))
 }
 
 /// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from a

@@ -8,13 +8,18 @@ use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::session::Session;
 use serde_json::{Map, Value};
 use std::sync::Arc;
 use stickslip::{Ask, Physical, RunFormat, Walker, WalkerDocument, parameter};
 
 /// The run, up to its end or to a signal.
-pub(super) fn run(arguments: &RunArguments, values: Map<String, Value>) -> Result<(), Failure> {
-    let format = order::format(arguments)?;
+pub(super) fn run(
+    session: &Session,
+    arguments: &RunArguments,
+    values: Map<String, Value>,
+) -> Result<(), Failure> {
+    let format = order::format(session, arguments)?;
     judge(arguments, format)?;
     order::judge_files(arguments)?;
     refuse_strangers::<Walker, _>(&arguments.options, &values, "--walker")?;
@@ -22,16 +27,16 @@ pub(super) fn run(arguments: &RunArguments, values: Map<String, Value>) -> Resul
     let typed = &arguments.disturbance.pulse;
     if !typed.is_empty() {
         let pulses = parse_pulses(typed)?;
-        warn_of_idle_pulses(typed, &pulses, (0.0, question.until));
+        warn_of_idle_pulses(session, typed, &pulses, (0.0, question.until));
         question.pulses = pulses.into_iter().map(Into::into).collect();
     }
-    let scales = scales(&arguments.in_units, None, None)?;
+    let scales = scales(session, &arguments.in_units, None, None)?;
     let (output, plot) = (arguments.output(), arguments.plot.as_deref());
-    let interrupt = Interrupt::listen()?;
-    let context = context_cancelled_by(Arc::clone(interrupt.flag()));
+    let interrupt = Interrupt::listen(session)?;
+    let context = context_cancelled_by(session, Arc::clone(interrupt.flag()));
     let question = question.resolved(&context)?;
     let fields = &arguments.fields;
-    let job = Job::of_format::<WalkerDocument>(format_of(format), output, fields, plot)?;
+    let job = Job::of_format::<WalkerDocument>(session, format_of(format), output, fields, plot)?;
     let found = question.answered(&context);
     let signal = interrupt.signal();
     let document = match (found, signal) {

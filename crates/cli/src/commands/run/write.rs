@@ -6,9 +6,8 @@ use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
 use crate::commands::{summary, verify};
 use crate::failure::Failure;
-use crate::host;
 use crate::made::pictured;
-use crate::message::remark;
+use crate::session::Session;
 use serde::Serialize;
 use std::path::Path;
 use stickslip::{
@@ -53,14 +52,15 @@ fn end(
 }
 
 /// Prints the remarks of a run whose document goes to standard output; beside a file they are printed with the result.
-pub(super) fn print_remarks(order: &Order, end: &RunEnd) {
-    if order.output == Path::new("-") && order.format != RunFormat::Text && !host::is_there() {
-        end.remarks.iter().for_each(|text| remark(format_args!("remark: {text}")));
+pub(super) fn print_remarks(session: &Session, order: &Order, end: &RunEnd) {
+    if order.output == Path::new("-") && order.format != RunFormat::Text && !session.has_host() {
+        end.remarks.iter().for_each(|text| session.remark(format_args!("remark: {text}")));
     }
 }
 
 /// Writes the last line, and prints the summary and the requested fields.
 pub(super) fn finish_lines(
+    session: &Session,
     order: &Order,
     sink: Sink,
     fields: &Fields,
@@ -69,11 +69,12 @@ pub(super) fn finish_lines(
     let Sink::Lines(mut stream) = sink else { unreachable!("lines are written to a stream") };
     stream.line(end)?;
     stream.finish()?;
-    job::after(end, &summary::of_lines(end), fields, order.output != Path::new("-"))
+    job::after(session, end, &summary::of_lines(end), fields, order.output != Path::new("-"))
 }
 
 /// Writes the whole document, or the last line; and the figure.
 pub(super) fn all(
+    session: &Session,
     order: &Order,
     scenario: &Scenario,
     initial: &InitialSurface,
@@ -83,14 +84,14 @@ pub(super) fn all(
     let end = end(scenario, initial, &integrated)?;
     let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
     let reached = signal.map(|_| end.end);
-    print_remarks(order, &end);
+    print_remarks(session, order, &end);
     let steps = integrated.record.steps.take();
     let (wider, support) = (*scenario.model.wider(), scenario.support());
     let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
     let mut failure = None;
     match target {
         Target::Lines(fields) => {
-            finish_lines(order, integrated.record.sink, &fields, &end)?;
+            finish_lines(session, order, integrated.record.sink, &fields, &end)?;
         }
         Target::Document(job) => {
             let samples = &integrated.record.samples;
@@ -99,8 +100,9 @@ pub(super) fn all(
             document.loops = trajectory.as_ref().and_then(|t| RunFound::loops_of(scenario, t));
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
-            let found =
-                asked.map(|t| verify::of_history(scenario, &end.work.memory, t)).transpose();
+            let found = asked
+                .map(|t| verify::of_history(session, scenario, &end.work.memory, t))
+                .transpose();
             document.verification = found.as_ref().ok().cloned().flatten();
             // From here on nothing is computed that would be lost: a signal ends the program.
             let interrupt = integrated.interrupt;
@@ -114,7 +116,7 @@ pub(super) fn all(
                 figure.draw(&document)?;
                 document.history.take_if(|_| !order.history);
             }
-            host::give(|| summary.of(pictured(document)));
+            session.give(|| summary.of(pictured(document)));
             failure = match found {
                 Err(failure) => Some(failure),
                 Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),

@@ -5,6 +5,7 @@ use super::write::{self, SurfaceFormat};
 use crate::arguments::SurfaceArguments;
 use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
+use crate::session::Session;
 use stickslip::{
     AcrossParameters, Document, Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceFound,
     SurfaceImage, SurfaceParameters,
@@ -14,6 +15,7 @@ use stickslip_tip::Trajectory;
 
 /// Curves along the line y = 0, or images.
 pub(super) fn surface(
+    session: &Session,
     arguments: &SurfaceArguments,
     document: &RunDocument,
     format: SurfaceFormat,
@@ -35,13 +37,14 @@ pub(super) fn surface(
     let places = Places::asked(arguments, &along, MOST_PIXELS)?;
     let is_gsf = format == SurfaceFormat::Gsf;
     let scales = scales_of(
+        session,
         &arguments.in_units,
         document.physical.as_ref(),
         scenario.along.model.r(),
         is_gsf,
     )?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
-    let job = format.job(arguments)?;
+    let job = format.job(session, arguments)?;
     let surface = SurfaceAcross::new(&scenario, &trajectory);
     let surface = surface.map_err(|error| Failure::Run(error.to_string()))?;
     let found = found(&surface, &places)?;

@@ -3,7 +3,7 @@
 use super::places::Places;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
-use crate::message::remark;
+use crate::session::Session;
 use ndarray::Array2;
 use stickslip::lines::footprint;
 use stickslip::{AcrossParameters, SurfaceImage};
@@ -44,7 +44,7 @@ impl Images {
 
     /// Warns if the tip might leave its line. It is not an error: y0 = 0 always solves (54), (55), a sufficiently
     /// stiff k' makes it stable, and the paper's tip (48) is an example.
-    pub(super) fn warn(&self) {
+    pub(super) fn warn(&self, session: &Session) {
         let needed = self.stiffness_needed;
         if needed > 0.0 {
             let bound = if needed.is_finite() {
@@ -52,7 +52,7 @@ impl Images {
             } else {
                 "certain for no transverse spring k'".into()
             };
-            remark(format_args!(
+            session.remark(format_args!(
                 "stickslip: the surface is that of a tip on the line y = 0, but f_yy(x,0) > 0 for some x may push it \
                  off this line: in steady motion y0 = 0 is stable for {bound}"
             ));

@@ -13,6 +13,7 @@ use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::{RunOrRaster, read_scanned};
+use crate::session::Session;
 use image::Images;
 use places::Places;
 use stickslip::{
@@ -21,19 +22,21 @@ use stickslip::{
 use stickslip_surface::Surface;
 use write::SurfaceFormat;
 
-pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
-    let format = SurfaceFormat::of(arguments)?;
+pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let format = SurfaceFormat::of(session, arguments)?;
     let read =
         [("RUN.json", Some(&*arguments.run)), ("--units", arguments.in_units.units.as_deref())];
     let written = [("--output", Some(&*arguments.output)), ("--plot", arguments.plot.as_deref())];
     distinct(&written, &read)?;
-    let document = match read_scanned(&arguments.run)? {
+    let document = match read_scanned(session, &arguments.run)? {
         RunOrRaster::Run(document) => document,
-        RunOrRaster::Raster(raster) => return of_raster::surface(arguments, &raster, format),
+        RunOrRaster::Raster(raster) => {
+            return of_raster::surface(session, arguments, &raster, format);
+        }
     };
     format.judge_of_run(arguments)?;
     if document.parameters.stiffness_across.is_some() {
-        return across::surface(arguments, &document, format);
+        return across::surface(session, arguments, &document, format);
     }
     let damaged = |message: String| {
         Failure::input(
@@ -48,21 +51,22 @@ pub(crate) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory, format.most_pixels())?;
     let is_gsf = format == SurfaceFormat::Gsf;
-    let scales = scales_of(&arguments.in_units, document.physical.as_ref(), model.r(), is_gsf)?;
+    let scales =
+        scales_of(session, &arguments.in_units, document.physical.as_ref(), model.r(), is_gsf)?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let images = Images::asked(arguments, &model, &places)?;
     let surface = Surface::new(&model, &initial, &trajectory);
     if let (Some(images), Some(unit), true) = (&images, in_metres, places.is_large(&places.y)) {
-        images.warn();
+        images.warn(session);
         let t = places.t[0];
         let title = write::title(t, model.alpha(), model.r());
         let rows = |y: &[f64]| images.heights(&surface, t, (&places.x, y));
         return write::large(arguments, (&places, &places.y), &title, unit, rows);
     }
-    let job = format.job(arguments)?;
+    let job = format.job(session, arguments)?;
     let found = match &images {
         Some(images) => {
-            images.warn();
+            images.warn(session);
             let images = images.reconstruct(&surface, &places)?;
             SurfaceFound { surfaces: vec![], images }
         }

@@ -7,11 +7,13 @@ use crate::commands::in_units::{in_metres, scales_of};
 use crate::commands::job::Job;
 use crate::commands::raster::field;
 use crate::failure::Failure;
+use crate::session::Session;
 use std::cell::RefCell;
 use stickslip::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
 use stickslip_raster::Scanned;
 
 pub(super) fn surface(
+    session: &Session,
     arguments: &SurfaceArguments,
     raster: &RasterDocument,
     format: SurfaceFormat,
@@ -40,8 +42,13 @@ pub(super) fn surface(
     };
     judge_size(&places, &y, format.most_pixels())?;
     let is_gsf = format == SurfaceFormat::Gsf;
-    let scales =
-        scales_of(&arguments.in_units, raster.physical.as_ref(), plan.law.model.r(), is_gsf)?;
+    let scales = scales_of(
+        session,
+        &arguments.in_units,
+        raster.physical.as_ref(),
+        plan.law.model.r(),
+        is_gsf,
+    )?;
     if places.is_large(&y) {
         let model = &plan.law.model;
         let title = format!("u(x,y) of a raster, alpha {}, r {}", model.alpha(), model.r());
@@ -55,7 +62,8 @@ pub(super) fn surface(
         SurfaceFormat::Gsf => Format::Json,
     };
     let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-    let job = Job::of_format::<RasterSurfaceDocument>(written, output, &arguments.fields, plot)?;
+    let job =
+        Job::of_format::<RasterSurfaceDocument>(session, written, output, &arguments.fields, plot)?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
     let document = document.in_units(scales.as_ref());

@@ -6,6 +6,7 @@ use crate::commands::job::{Job, format};
 use crate::failure::{Failure, Typed};
 use crate::files::gsf::{Frame, gsf, header, pixels};
 use crate::files::output::Output;
+use crate::session::Session;
 use ndarray::Array2;
 use std::io;
 use stickslip::SurfaceDocument;
@@ -39,12 +40,12 @@ impl SurfaceFormat {
     }
 
     /// The format by the extension of the output; rejected if it does not suit the other options.
-    pub(super) fn of(arguments: &SurfaceArguments) -> Result<Self, Failure> {
+    pub(super) fn of(session: &Session, arguments: &SurfaceArguments) -> Result<Self, Failure> {
         let path = &arguments.output;
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let refused = |what: String, advice: &str| Err(Failure::input(what, advice));
         if extension.as_deref() != Some("gsf") || arguments.format.is_some() {
-            return format(arguments.format, path, ", .gsf").map(Self::Document);
+            return format(session, arguments.format, path, ", .gsf").map(Self::Document);
         }
         let named = format!("--output {}", path.display());
         if arguments.y.is_some() {
@@ -66,13 +67,17 @@ impl SurfaceFormat {
 
 impl SurfaceFormat {
     /// The output of surfaces.
-    pub(super) fn job(self, arguments: &SurfaceArguments) -> Result<Job, Failure> {
+    pub(super) fn job(
+        self,
+        session: &Session,
+        arguments: &SurfaceArguments,
+    ) -> Result<Job, Failure> {
         let format = match self {
             Self::Document(format) => format,
             Self::Gsf => Format::Json,
         };
         let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-        Job::of_format::<SurfaceDocument>(format, output, &arguments.fields, plot)
+        Job::of_format::<SurfaceDocument>(session, format, output, &arguments.fields, plot)
     }
 }
 

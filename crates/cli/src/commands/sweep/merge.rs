@@ -8,7 +8,7 @@ use crate::commands::job::{Job, judge_places};
 use crate::failure::Failure;
 use crate::files::distinct::Named;
 use crate::files::input::{format_of, read_document};
-use crate::message::{remark, say};
+use crate::session::Session;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use stickslip::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
@@ -16,20 +16,21 @@ use stickslip::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
 const PART: &str = "PART.json";
 
 /// Combines the parts; the first one determines the kind of document.
-pub(super) fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<(), Failure> {
     let named: Vec<Named> = arguments.parts.iter().map(|part| (PART, Some(&**part))).collect();
     judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
     let first = arguments.parts.iter().find(|part| *part != Path::new("-"));
-    let format = first.map_or(Ok(None), |path| format_of(PART, path, SweepDocument::FORMAT))?;
+    let format =
+        first.map_or(Ok(None), |path| format_of(session, PART, path, SweepDocument::FORMAT))?;
     match format.as_deref() {
-        Some(RasterSweepDocument::FORMAT) => merged::<RasterSweepDocument>(arguments),
-        _ => merged::<SweepDocument>(arguments),
+        Some(RasterSweepDocument::FORMAT) => merged::<RasterSweepDocument>(session, arguments),
+        _ => merged::<SweepDocument>(session, arguments),
     }
 }
 
 /// Combines the parts, which must cover the grid exactly once.
-fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
-    let read = |path: &PathBuf| read::<D>(path).map(|part| (path.clone(), part));
+fn merged<D: Divided>(session: &Session, arguments: &MergeArguments) -> Result<(), Failure> {
+    let read = |path: &PathBuf| read::<D>(session, path).map(|part| (path.clone(), part));
     let mut parts = arguments.parts.iter().map(read);
     let (_, mut whole) = parts
         .next()
@@ -48,7 +49,7 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
         let (part, all) = (part.held(), whole.held());
         if part.arithmetic != all.arithmetic && all.arithmetic.take().is_some() {
             let path = path.display();
-            say(format_args!(
+            session.say(format_args!(
                 "stickslip: {path} was computed by a machine with different rounding: the last digits may differ from \
                  those of one machine"
             ));
@@ -61,8 +62,8 @@ fn merged<D: Divided>(arguments: &MergeArguments) -> Result<(), Failure> {
     if arguments.plot.is_some() {
         whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
     }
-    let scales = scales(&arguments.in_units, None, whole.velocity())?;
-    let job = Job::open::<D>(&arguments.outlet, arguments.plot.as_deref())?;
+    let scales = scales(session, &arguments.in_units, None, whole.velocity())?;
+    let job = Job::open::<D>(session, &arguments.outlet, arguments.plot.as_deref())?;
     job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 
@@ -97,7 +98,12 @@ fn runs(numbers: &[usize]) -> String {
 
 /// Whether a file is a complete document of the requested sweep, whose points have these `indices`. A message
 /// describes any other file.
-pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &[usize]) -> bool {
+pub(super) fn is_done<D: Divided>(
+    session: &Session,
+    path: &Path,
+    asked: &D::Parameters,
+    indices: &[usize],
+) -> bool {
     if !path.exists() {
         return false;
     }
@@ -107,18 +113,18 @@ pub(super) fn is_done<D: Divided>(path: &Path, asked: &D::Parameters, indices: &
             && found.points().indices().eq(indices.iter().copied())
     };
     let name = path.display();
-    match read::<D>(path) {
+    match read::<D>(session, path) {
         Ok(found) if is_asked(&found) => return true,
-        Ok(_) => {
-            remark(format_args!("stickslip: {name} belongs to another sweep: it is computed again"))
-        }
-        Err(error) => remark(format_args!("stickslip: {error}: computed anew")),
+        Ok(_) => session.remark(format_args!(
+            "stickslip: {name} belongs to another sweep: it is computed again"
+        )),
+        Err(error) => session.remark(format_args!("stickslip: {error}: computed anew")),
     }
     false
 }
 
-fn read<D: Divided>(path: &Path) -> Result<D, Failure> {
-    let mut part: D = read_document(PART, path, D::FORMAT)?;
+fn read<D: Divided>(session: &Session, path: &Path) -> Result<D, Failure> {
+    let mut part: D = read_document(session, PART, path, D::FORMAT)?;
     let refused = |message| Err(Failure::input(format!("{PART} {}", path.display()), message));
     let kept = *part.held().crc32;
     match kept {

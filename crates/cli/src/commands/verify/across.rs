@@ -4,11 +4,16 @@ use super::claims::{self, Judged, Summary};
 use super::{begins_as, finish, is_of, job, repeated, samples, samples_alone};
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
+use crate::session::Session;
 use stickslip::{RunDocument, VerificationDocument, sample_across};
 use stickslip_tip::planar::{PlanarScenario, Trajectory};
 use stickslip_verify::{Sample, TOLERANCES_ALLOWED, verify_across, verify_samples_across};
 
-pub(super) fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Result<(), Failure> {
+pub(super) fn of_document(
+    session: &Session,
+    run: RunDocument,
+    arguments: &VerifyArguments,
+) -> Result<(), Failure> {
     let damaged = |message: String| {
         let named = format!("RUN.json {}", arguments.run.display());
         Failure::input(named, format!("damaged: {message}"))
@@ -30,10 +35,10 @@ pub(super) fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Resu
     let first = trajectory.as_ref().map(|of| (of.x0(of.start()), of.y0(of.start())));
     begins_as(along, first.map(|(x0, _)| x0), &sampled).map_err(damaged)?;
     begins_across(&scenario, first.map(|(_, y0)| y0), &sampled).map_err(damaged)?;
-    let job = job(&arguments.outlet)?;
+    let job = job(session, &arguments.outlet)?;
     let verification = match &trajectory {
-        Some(trajectory) => of_history(&scenario, trajectory)?,
-        None => of_samples(&scenario, &sampled)?,
+        Some(trajectory) => of_history(session, &scenario, trajectory)?,
+        None => of_samples(session, &scenario, &sampled)?,
     };
     let (support, wider) = (along.support(), *along.model.wider());
     let summary = trajectory.as_ref().map(|trajectory| {
@@ -43,27 +48,29 @@ pub(super) fn of_document(run: RunDocument, arguments: &VerifyArguments) -> Resu
         (along, move |i: usize, t: f64| sample_across(&trajectory.steps()[i], law, t))
     });
     let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
-    let differences = claims::of_document(&run, Judged::Across(&scenario), summary)?;
-    finish(run, job, verification, differences)
+    let differences = claims::of_document(session, &run, Judged::Across(&scenario), summary)?;
+    finish(session, run, job, verification, differences)
 }
 
 /// Comparison of the dense history of a run with its repetition.
 pub(in crate::commands) fn of_history(
+    session: &Session,
     scenario: &PlanarScenario,
     trajectory: &Trajectory,
 ) -> Result<VerificationDocument, Failure> {
-    let found = repeated(|observe| verify_across(scenario, trajectory, observe))?;
+    let found = repeated(session, |observe| verify_across(scenario, trajectory, observe))?;
     Ok((&found).into())
 }
 
 /// Comparison of samples in the order of time, at least one, with the repetition of their run.
 fn of_samples(
+    session: &Session,
     scenario: &PlanarScenario,
     samples: &[Sample],
 ) -> Result<VerificationDocument, Failure> {
     let until = samples.last().map_or(scenario.along.until, |last| last.t);
     let each = || samples.iter().copied();
-    let found = repeated(|observe| verify_samples_across(scenario, each, until, observe))?;
+    let found = repeated(session, |observe| verify_samples_across(scenario, each, until, observe))?;
     Ok((&found).into())
 }
 

@@ -6,7 +6,7 @@
 
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
-use crate::message::say;
+use crate::session::Session;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -337,6 +337,7 @@ impl<'a> Judged<'a> {
     /// The run cannot be repeated, or was interrupted.
     fn again(
         self,
+        session: &Session,
         until: f64,
         mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
     ) -> Result<RunEnd, Failure> {
@@ -347,7 +348,7 @@ impl<'a> Judged<'a> {
             Self::Along(scenario) => {
                 let surface = scenario.initial_surface().map_err(failed)?;
                 let mut running = Watched::new(scenario, &surface).map_err(failed)?;
-                proceed(scenario, until, || {
+                proceed(session, scenario, until, || {
                     let step = running.step().map_err(failed)?;
                     let seen =
                         step.inspect(|step| witness(step, &|t| SampleLine::of(step, law, t)));
@@ -358,7 +359,7 @@ impl<'a> Judged<'a> {
             }
             Self::Across(scenario) => {
                 let mut running = WatchedAcross::new(scenario).map_err(failed)?;
-                proceed(along, until, || {
+                proceed(session, along, until, || {
                     let step = running.step().map_err(failed)?;
                     let seen =
                         step.inspect(|step| witness(&step.along, &|t| sample_across(step, law, t)));
@@ -378,11 +379,12 @@ fn failed(error: impl Display) -> Failure {
 
 /// Makes steps, of which the ends are given, until the last or until this time.
 fn proceed(
+    session: &Session,
     scenario: &Scenario,
     until: f64,
     mut step: impl FnMut() -> Result<Option<f64>, Failure>,
 ) -> Result<(), Failure> {
-    let mut progress = Progress::new(scenario.start_time(), until);
+    let mut progress = Progress::new(session, scenario.start_time(), until);
     let is_cut = until < scenario.until;
     while let Some(end) = step()? {
         progress.reached(end);
@@ -413,6 +415,7 @@ pub(super) struct Summary<'a> {
 /// # Errors
 /// As [`Judged::again`].
 pub(super) fn of_document(
+    session: &Session,
     run: &RunDocument,
     judged: Judged<'_>,
     history: Option<Summary<'_>>,
@@ -439,7 +442,7 @@ pub(super) fn of_document(
         None => scenario.until,
     };
     let mut due = samples.iter().peekable();
-    let computed = judged.again(until, |step, found| {
+    let computed = judged.again(session, until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
             columns.of_repetition(sample, &found(sample.t), step);
         }
@@ -457,6 +460,7 @@ pub(super) fn of_document(
 /// # Errors
 /// As [`Judged::again`]; or the lines cannot be read.
 pub(super) fn of_lines(
+    session: &Session,
     judged: Judged<'_>,
     (parameters, steady): (&ModelParameters, Option<&SteadyState>),
     samples: impl Iterator<Item = SampleLine>,
@@ -468,7 +472,7 @@ pub(super) fn of_lines(
     let mut columns = Columns::of(scenario);
     let mut due = samples.peekable();
     let until = end.map_or(until, |end| end.end.min(scenario.until));
-    let computed = judged.again(until, |step, found| {
+    let computed = judged.again(session, until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
             columns.of_repetition(&sample, &found(sample.t), step);
         }
@@ -503,10 +507,10 @@ fn end_of(run: &RunDocument) -> RunEnd {
 }
 
 /// A line for each value that differs, and a list of their names.
-pub(super) fn said_of(differences: &[ClaimDocument]) -> Option<String> {
+pub(super) fn said_of(session: &Session, differences: &[ClaimDocument]) -> Option<String> {
     let first = differences.first()?;
     let each = differences.iter().filter(|_| differences.len() > 1);
-    each.for_each(|d| say(format_args!("stickslip: does not follow: {}", said(d))));
+    each.for_each(|d| session.say(format_args!("stickslip: does not follow: {}", said(d))));
     let names: Vec<&str> = differences.iter().map(|d| &*d.field).collect();
     Some(match names.len() {
         1 => format!("a value does not follow from the run: {}", said(first)),

@@ -5,6 +5,7 @@ use super::{claims, job, repeated, said_of};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
+use crate::session::Session;
 use std::cell::RefCell;
 use std::fs::File;
 use std::ops::ControlFlow;
@@ -21,15 +22,20 @@ const FIRST: u64 = 2;
 
 /// First all lines are checked, which takes seconds, so that damage and missing lines are found before the run is
 /// repeated. Then they are compared, one by one, with the repetition.
-pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Result<(), Failure> {
+pub(super) fn verify(
+    session: &Session,
+    path: &Path,
+    file: &File,
+    outlet: &OutletArguments,
+) -> Result<(), Failure> {
     let named = format!("RUN.jsonl {}", path.display());
     let (head, surveyed, extent) = survey(file).map_err(|flaw| refused(flaw, &named))?;
     let judged = surveyed.judged();
     let scenario = judged.along();
     let until = until(scenario, &extent).map_err(|flaw| refused(flaw, &named))?;
-    let job = job(outlet)?;
+    let job = job(session, outlet)?;
     let samples = Samples { file, number: extent.samples, flaw: RefCell::default() };
-    let found = repeated(|observe| {
+    let found = repeated(session, |observe| {
         let observe = |part| match *samples.flaw.borrow() {
             Some(_) => ControlFlow::Break(()),
             None => observe(part),
@@ -53,12 +59,12 @@ pub(super) fn verify(path: &Path, file: &File, outlet: &OutletArguments) -> Resu
     let model = head.parameters.model_parameters();
     let summary = (&model, head.steady_state.as_ref());
     let differences =
-        claims::of_lines(judged, summary, samples.lines(), (until, extent.end.as_ref()))?;
+        claims::of_lines(session, judged, summary, samples.lines(), (until, extent.end.as_ref()))?;
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
     }
     let failure = failure(&verification, &lines, scenario, &named);
-    let failure = match claims::said_of(&differences) {
+    let failure = match claims::said_of(session, &differences) {
         None => failure,
         Some(said) => {
             let before = failure.map_or(String::new(), |failure| format!("{failure}; "));

@@ -33,7 +33,7 @@ pub(super) fn on_cells(
         force: &|t| [plan.disturbance.value(t), free.disturbance.value(t)],
     };
     let points: Vec<[f64; 2]> = y.iter().flat_map(|y| x.iter().map(|x| [*x, *y])).collect();
-    let mut watch = Watch::new(lines.len(), asked.limit);
+    let mut watch = Watch::new(asked.session, lines.len(), asked.limit);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan_plane(&scan, &plane.method, stepping, (times, &points), &mut line);
     let (scanned, seconds) = watch.ended(scanned)?;

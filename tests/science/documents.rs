@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::io::{self, Read};
 use stickslip::{
-    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, SweepDocument, WorkDocument,
+    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, Samples, SweepDocument, WorkDocument,
     dimension, read, read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
@@ -139,7 +139,7 @@ fn a_run_comes_back_from_its_document() {
         },
     };
     let history = Some((&done.trajectory).into());
-    let document = Run::of(&scenario, &[], None).document(&[], history, end);
+    let document = Run::of(&scenario, &[], None).document(Samples::default(), history, end);
     let text = serde_json::to_string(&document).unwrap();
     let back: RunDocument = read(&text, RunDocument::FORMAT).unwrap();
     let again = run(&back.parameters.scenario().unwrap()).unwrap();

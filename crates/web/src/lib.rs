@@ -19,7 +19,7 @@ use asked::Asked;
 use motion::Motion;
 use refusal::Refusal;
 use serde::Serialize;
-use stickslip::RunFound;
+use stickslip::{RunFound, Samples};
 use wasm_bindgen::prelude::*;
 
 fn told(refusal: &Refusal) -> JsError {
@@ -93,7 +93,7 @@ impl Tip {
     pub fn judged(&self) -> Result<String, JsError> {
         let document = self.0.document();
         let mut found = document.answer.clone();
-        (found.history, found.samples) = (None, [][..].into());
+        (found.history, found.samples) = (None, Samples::default());
         json(Ok(Judged { found, remarks: document.remarks.clone() }))
     }
 

@@ -1,6 +1,6 @@
 //! A run of a tip that is free to move across the scan.
 
-use super::run_found::{RunEnd, RunFound, SampleLine};
+use super::run_found::{RunEnd, RunFound, SampleLine, Samples};
 use crate::{
     Context, History, RegimeName, SteadyState, SwingDocument, Times, TransientDocument,
     WorkDocument,
@@ -40,7 +40,7 @@ pub(super) fn found(
     let samples = samples(&trajectory, times, along);
     let (steady_state, remarks) = (SteadyState::of(&along.model), ended.remarks.clone());
     let history = Some(history_across(&trajectory, along.model.wider()));
-    Ok(Some((RunFound::new(steady_state, &samples, history, ended), remarks)))
+    Ok(Some((RunFound::new(steady_state, samples, history, ended), remarks)))
 }
 
 /// The result of a run that took this many seconds and has at least one step.
@@ -117,11 +117,7 @@ fn undisturbed(scenario: &PlanarScenario) -> Option<String> {
 }
 
 /// The motion at these times, as far as it was computed.
-fn samples(
-    trajectory: &Trajectory,
-    times: &Times,
-    along: &stickslip_tip::Scenario,
-) -> Vec<SampleLine> {
+fn samples(trajectory: &Trajectory, times: &Times, along: &stickslip_tip::Scenario) -> Samples {
     let (support, wider, end) = (along.support(), along.model.wider(), trajectory.end());
     let sample = |t: f64| sample_across(trajectory.step_at(t), (&support, wider), t);
     times.all().into_iter().filter(|t| *t <= end).map(sample).collect()

@@ -6,7 +6,7 @@ use super::run_found::{RunFound, became, sampled};
 use crate::parameter::option;
 use crate::{
     Ask, Context, Document, FARTHEST, Failure, History, Indentation, Law, ModelParameters,
-    Question, Refused, RunEnd, SampleLine, Sampling, SteadyState, Tip, Typed, Unusable,
+    Question, Refused, RunEnd, Samples, Sampling, SteadyState, Tip, Typed, Unusable,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -618,12 +618,7 @@ impl Run {
     }
 
     /// The document of a run with the result `end`.
-    pub fn document(
-        self,
-        samples: &[SampleLine],
-        history: Option<History>,
-        end: RunEnd,
-    ) -> RunDocument {
+    pub fn document(self, samples: Samples, history: Option<History>, end: RunEnd) -> RunDocument {
         let steady_state = self.model().ok().and_then(|model| SteadyState::of(&model));
         let remarks = end.remarks.clone();
         Document::new(self, RunFound::new(steady_state, samples, history, end), remarks)
@@ -706,7 +701,7 @@ impl Ask for Run {
         let samples = sampled(&trajectory, &times);
         let remarks = end.remarks.clone();
         let steady_state = SteadyState::of(&scenario.model);
-        let mut found = RunFound::new(steady_state, &samples, Some((&trajectory).into()), end);
+        let mut found = RunFound::new(steady_state, samples, Some((&trajectory).into()), end);
         found.loops = RunFound::loops_of(&scenario, &trajectory);
         Ok((found, remarks))
     }

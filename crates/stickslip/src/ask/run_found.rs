@@ -54,13 +54,13 @@ impl RunFound {
     /// The answer of a run with the result `end`; `samples` are in the order of the request.
     pub fn new(
         steady_state: Option<SteadyState>,
-        samples: &[SampleLine],
+        samples: Samples,
         history: Option<History>,
         end: RunEnd,
     ) -> Self {
         Self {
             steady_state,
-            samples: samples.into(),
+            samples,
             history,
             regime: end.regime,
             oscillation: end.oscillation,
@@ -119,7 +119,7 @@ pub fn observed(
 }
 
 /// The motion at these times, as far as it was computed, in the order of the request.
-pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Vec<SampleLine> {
+pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Samples {
     let (support, wider) = (trajectory.support(), trajectory.wider());
     let (steps, end) = (trajectory.steps(), trajectory.end());
     let all = (0..times.count()).map_while(|i| times.at(i)).filter(|t| *t <= end);
@@ -254,6 +254,14 @@ impl From<Loop> for LoopDocument {
     }
 }
 
+/// Adds an entry to a column; without one the column is removed.
+fn add(column: &mut Option<Vec<f64>>, value: Option<f64>) {
+    match (column.as_mut(), value) {
+        (Some(column), Some(value)) => column.push(value),
+        _ => *column = None,
+    }
+}
+
 /// Columns of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -284,6 +292,53 @@ pub struct Samples {
 }
 
 impl Samples {
+    /// Empty columns with room for this number of samples.
+    pub fn with_capacity(count: usize) -> Self {
+        let room = || Vec::with_capacity(count);
+        Self {
+            t: room(),
+            l: Some(room()),
+            lag: Some(room()),
+            x0: room(),
+            velocity: room(),
+            height: None,
+            weight: None,
+            y0: None,
+            velocity_y: None,
+        }
+    }
+
+    /// Adds a sample. A column that one of the samples lacks is `None`.
+    pub fn push(&mut self, sample: &SampleLine) {
+        let (is_first, room) = (self.t.is_empty(), self.t.capacity());
+        self.t.push(sample.t);
+        self.x0.push(sample.x0);
+        self.velocity.push(sample.velocity);
+        let optional = [sample.height, sample.weight, sample.y0, sample.velocity_y];
+        let columns = [&mut self.height, &mut self.weight, &mut self.y0, &mut self.velocity_y];
+        for (column, value) in columns.into_iter().zip(optional) {
+            if is_first {
+                *column = value.map(|_| Vec::with_capacity(room));
+            }
+            add(column, value);
+        }
+        add(&mut self.l, sample.l);
+        add(&mut self.lag, sample.lag);
+    }
+
+    /// The samples by ascending `places`, of which there is at least one for each sample.
+    #[must_use]
+    pub fn ordered_by(self, places: &[usize]) -> Self {
+        let mut order: Vec<usize> = (0..self.t.len()).collect();
+        order.sort_by_key(|i| places[*i]);
+        let moved = |column: Vec<f64>| order.iter().map(|i| column[*i]).collect::<Vec<f64>>();
+        let Self { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = self;
+        let [t, x0, velocity] = [t, x0, velocity].map(moved);
+        let [l, lag, height, weight, y0, velocity_y] =
+            [l, lag, height, weight, y0, velocity_y].map(|column| column.map(moved));
+        Self { t, l, lag, x0, velocity, height, weight, y0, velocity_y }
+    }
+
     /// The samples row by row, up to the length of the shortest column.
     pub fn lines(&self) -> impl Iterator<Item = SampleLine> {
         let at =
@@ -311,21 +366,24 @@ impl Samples {
     }
 }
 
-impl From<&[SampleLine]> for Samples {
-    fn from(samples: &[SampleLine]) -> Self {
-        let column = |value: fn(&SampleLine) -> f64| samples.iter().map(value).collect();
-        let some = |value: fn(&SampleLine) -> Option<f64>| samples.iter().map(value).collect();
-        Self {
-            t: column(|s| s.t),
-            l: some(|s| s.l),
-            lag: some(|s| s.lag),
-            x0: column(|s| s.x0),
-            velocity: column(|s| s.velocity),
-            height: some(|s| s.height).filter(|height: &Vec<f64>| !height.is_empty()),
-            weight: some(|s| s.weight).filter(|weight: &Vec<f64>| !weight.is_empty()),
-            y0: some(|s| s.y0).filter(|y0: &Vec<f64>| !y0.is_empty()),
-            velocity_y: some(|s| s.velocity_y).filter(|v: &Vec<f64>| !v.is_empty()),
-        }
+impl Default for Samples {
+    /// No samples yet; the first one decides which columns there are.
+    fn default() -> Self {
+        Self::with_capacity(0)
+    }
+}
+
+impl Extend<SampleLine> for Samples {
+    fn extend<I: IntoIterator<Item = SampleLine>>(&mut self, samples: I) {
+        samples.into_iter().for_each(|sample| self.push(&sample));
+    }
+}
+
+impl FromIterator<SampleLine> for Samples {
+    fn from_iter<I: IntoIterator<Item = SampleLine>>(samples: I) -> Self {
+        let mut columns = Self::default();
+        columns.extend(samples);
+        columns
     }
 }
 
@@ -352,5 +410,45 @@ impl Tabular for RunFound {
         let samples = self.columns().into_iter();
         let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
         samples.chain(self.history.iter().flat_map(History::arrays)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(t: f64, height: Option<f64>) -> SampleLine {
+        let x0 = 10.0 * t;
+        SampleLine {
+            t,
+            l: None,
+            lag: Some(-t),
+            x0,
+            velocity: 10.0,
+            height,
+            weight: None,
+            y0: None,
+            velocity_y: None,
+        }
+    }
+
+    #[test]
+    fn columns_are_those_that_all_samples_have() {
+        let samples: Samples =
+            [sample(0.0, Some(1.0)), sample(1.0, Some(2.0))].into_iter().collect();
+        assert_eq!(samples.height, Some(vec![1.0, 2.0]));
+        assert_eq!((&samples.l, &samples.lag), (&None, &Some(vec![-0.0, -1.0])));
+        assert!(samples.are_even());
+        let samples: Samples = [sample(0.0, Some(1.0)), sample(1.0, None)].into_iter().collect();
+        assert_eq!(samples.height, None);
+    }
+
+    #[test]
+    fn an_interrupted_run_has_the_samples_taken_in_the_order_requested() {
+        // Requested: 5, 1, 3, 0; taken in the order of time, as far as t = 3.
+        let taken: Samples = [0.0, 1.0, 3.0].into_iter().map(|t| sample(t, None)).collect();
+        let ordered = taken.ordered_by(&[3, 1, 2, 0]);
+        assert_eq!(ordered.t, [1.0, 3.0, 0.0]);
+        assert_eq!(ordered.x0, [10.0, 30.0, 0.0]);
     }
 }

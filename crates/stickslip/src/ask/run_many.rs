@@ -113,7 +113,7 @@ impl Begun {
         end.interrupted = run.interrupted && end.end < scenario.until;
         let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
         let samples = sampled(&trajectory, times);
-        let mut document = question.clone().document(&samples, Some((&trajectory).into()), end);
+        let mut document = question.clone().document(samples, Some((&trajectory).into()), end);
         document.loops = RunFound::loops_of(scenario, &trajectory);
         Ok(document)
     }

@@ -312,7 +312,6 @@ impl Ask for Walker {
         })?;
         let trajectory = &run.trajectory;
         let sampled = times.all().into_iter().filter(|t| *t <= trajectory.end());
-        let samples: Vec<SampleLine> = sampled.map(|t| sample(trajectory, t)).collect();
         let (regime, speed, circle) = motion(trajectory);
         let found = WalkerFound {
             free_speed: scenario.free_speed(),
@@ -322,7 +321,7 @@ impl Ask for Walker {
             regime,
             speed,
             circle,
-            samples: samples.as_slice().into(),
+            samples: sampled.map(|t| sample(trajectory, t)).collect(),
             interrupted: trajectory.end() < self.until,
             work: WalkerWork {
                 steps: trajectory.steps().len() as u64,

@@ -51,7 +51,7 @@ pub(super) fn write(
             let trajectory = steps.map(|steps| Trajectory::new(wider, support, steps));
             let history = trajectory.as_ref().map(|trajectory| history_across(trajectory, &wider));
             let reached = signal.map(|_| end.end);
-            let samples = &integrated.record.samples;
+            let samples = std::mem::take(&mut integrated.record.samples);
             let kept = history.clone().filter(|_| order.history);
             let mut document = order.parameters.clone().document(samples, kept, end);
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());

@@ -7,7 +7,7 @@ use crate::files::rows::{Rows, journal_of};
 use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip::{Mark, SampleLine, Times};
+use stickslip::{Mark, Samples, Times};
 use stickslip_tip::{MOST_STEPS, Scenario, Step, Support, Wider};
 
 /// The record of a run.
@@ -19,7 +19,7 @@ pub(super) struct Record<S = Step> {
     places: Vec<usize>,
     /// Number of samples taken.
     pub(super) taken: u64,
-    pub(super) samples: Vec<SampleLine>,
+    pub(super) samples: Samples,
     /// The history, if it is kept.
     pub(super) steps: Option<Vec<S>>,
     pub(super) sink: Sink,
@@ -42,8 +42,10 @@ impl<S: Recorded> Record<S> {
     pub(super) fn new(scenario: &Scenario, times: Times, keeps_history: bool, sink: Sink) -> Self {
         let (support, wider) = (scenario.support(), *scenario.model.wider());
         let (times, places) = times.in_order();
+        let kept = if matches!(sink, Sink::Lines(_)) { 0 } else { times.count() };
+        let samples = Samples::with_capacity(usize::try_from(kept).unwrap_or(0));
         let steps = keeps_history.then(Vec::new);
-        Self { support, wider, times, places, taken: 0, samples: vec![], steps, sink }
+        Self { support, wider, times, places, taken: 0, samples, steps, sink }
     }
 
     /// Records a step, and returns whether all its samples were taken before a signal.
@@ -73,10 +75,7 @@ impl<S: Recorded> Record<S> {
             self.sample(last, |t| t <= end, || false)?;
         }
         if !self.places.is_empty() {
-            let places = self.places.iter().copied().zip(self.samples.drain(..));
-            let mut placed: Vec<_> = places.collect();
-            placed.sort_by_key(|(place, _)| *place);
-            self.samples = placed.into_iter().map(|(_, sample)| sample).collect();
+            self.samples = std::mem::take(&mut self.samples).ordered_by(&self.places);
         }
         Ok(())
     }
@@ -96,9 +95,9 @@ impl<S: Recorded> Record<S> {
                 Sink::Lines(stream) => stream.line(&sample)?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
                     S::write_sample(&sample, journal).map_err(|error| failed(path, error))?;
-                    self.samples.push(sample);
+                    self.samples.push(&sample);
                 }
-                _ => self.samples.push(sample),
+                _ => self.samples.push(&sample),
             }
             self.taken += 1;
         }
@@ -143,9 +142,9 @@ impl<S: Recorded> Record<S> {
         } else {
             let (rows, samples) = S::read_samples(path, mark).map_err(unusable)?;
             self.samples.extend(samples);
-            self.taken = self.samples.len() as u64;
-            let due = |(i, sample): (u64, &SampleLine)| self.times.at(i) == Some(sample.t);
-            if !(0..).zip(&self.samples).all(due) {
+            self.taken = self.samples.t.len() as u64;
+            let due = |(i, t): (u64, &f64)| self.times.at(i) == Some(*t);
+            if !(0..).zip(&self.samples.t).all(due) {
                 return Err(unusable(io::Error::other(OTHER_ROWS)));
             }
             rows

@@ -94,7 +94,7 @@ pub(super) fn all(
             finish_lines(session, order, integrated.record.sink, &fields, &end)?;
         }
         Target::Document(job) => {
-            let samples = &integrated.record.samples;
+            let samples = std::mem::take(&mut integrated.record.samples);
             let history = trajectory.as_ref().filter(|_| order.history).map(Into::into);
             let mut document = order.parameters.clone().document(samples, history, end.clone());
             document.loops = trajectory.as_ref().and_then(|t| RunFound::loops_of(scenario, t));

@@ -1,8 +1,7 @@
 //! The bifurcation diagram: the branches of cycles with their period doublings, and the settled motion of runs.
 
-use super::parts::{curve, failed, figure as empty, finished, panel, spaced};
+use super::parts::{Failed, curve, failed, figure as empty, finished, panel, spaced};
 use super::tips::{Tip, beta_1};
-use crate::failed::Failed;
 use std::ops::ControlFlow;
 use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_cycles::{Branch, Continuation, Cycle, SpecialKind};

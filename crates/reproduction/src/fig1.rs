@@ -1,8 +1,7 @@
 //! Fig. 1: the surface at t = 457 below and above onset, and the tip's velocity above.
 
-use super::parts::{curve, figure as figure_with, finished, heights, panel, spaced};
+use super::parts::{Failed, curve, figure as figure_with, finished, heights, panel, spaced};
 use super::tips::beta_1;
-use crate::failed::Failed;
 use stickslip::{FigureDocument, StyleName};
 use stickslip_tip::{Model, Noise, Scenario, Start};
 

@@ -4,23 +4,16 @@
 //! printed in the paper with ours. `docs/findings/reproduction.md` shows them.
 
 mod bifurcation;
-mod criticality;
-mod failed;
+mod boundary;
 mod fig1;
-mod fig2;
-mod fig3;
-mod fig4;
-mod fig5;
-mod fig6;
-mod fig7;
-mod kymograph;
 mod onset;
 mod parts;
+mod surfaces;
 mod table;
 mod tips;
 mod work_precision;
 
-pub use failed::Failed;
+pub use parts::Failed;
 pub use table::{page, table};
 
 use stickslip::FigureDocument;
@@ -31,15 +24,15 @@ pub type Figure = (&'static str, fn() -> Result<FigureDocument, Failed>);
 /// All figures: those of the paper, and four others.
 pub const FIGURES: [Figure; 11] = [
     ("fig1", fig1::figure),
-    ("fig2", fig2::figure),
-    ("fig3", fig3::figure),
-    ("fig4", fig4::figure),
-    ("fig5", fig5::figure),
-    ("fig6", fig6::figure),
-    ("fig7", fig7::figure),
+    ("fig2", onset::fig2),
+    ("fig3", onset::fig3),
+    ("fig4", surfaces::fig4),
+    ("fig5", onset::fig5),
+    ("fig6", boundary::fig6),
+    ("fig7", surfaces::fig7),
     ("bifurcation", bifurcation::figure),
-    ("criticality", criticality::figure),
-    ("kymograph", kymograph::figure),
+    ("criticality", boundary::criticality),
+    ("kymograph", surfaces::kymograph),
     ("work-precision", work_precision::figure),
 ];
 

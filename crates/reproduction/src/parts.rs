@@ -1,10 +1,10 @@
 //! Building blocks of figures.
 
-use crate::failed::Failed;
 use std::fmt::Display;
 use stickslip::{CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName};
 use stickslip_surface::Surface;
 use stickslip_tip::{Model, Run, Scenario, run};
+use thiserror::Error;
 
 /// A figure without panels.
 pub(super) fn figure(name: &str, title: &str, models: &[Model]) -> FigureDocument {
@@ -58,6 +58,17 @@ pub(super) fn line_of_best_fit(x: &[f64], y: &[f64]) -> (f64, f64) {
     let variance: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
     let slope = covariance / variance;
     (mean_y - slope * mean_x, slope)
+}
+
+/// Something that could not be computed.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct Failed(String);
+
+impl Failed {
+    pub(crate) fn new(what: String) -> Self {
+        Self(what)
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The paper's two tips, and their critical points.
 
-use super::parts::failed;
-use crate::failed::Failed;
+use super::parts::{Failed, failed};
 use std::f64::consts::FRAC_1_SQRT_2;
 use stickslip_stability::{Critical, critical, critical_r};
 use stickslip_tip::{Model, TipFunction, Wider};

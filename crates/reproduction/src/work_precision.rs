@@ -1,8 +1,7 @@
 //! Time against error. Times vary between measurements; therefore the figure uses the saved results of `make
 //! work-precision`.
 
-use super::parts::{curve, failed, figure as empty, panel};
-use crate::failed::Failed;
+use super::parts::{Failed, curve, failed, figure as empty, panel};
 use serde::Deserialize;
 use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};

@@ -1,7 +1,7 @@
 //! Critical points, and numbers from formulas.
 
 use super::printed::Printed;
-use crate::failed::Failed;
+use crate::parts::Failed;
 use crate::parts::failed;
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;

@@ -1,8 +1,8 @@
 //! The paper's statements on the oscillations, as numbers.
 
 use super::printed::Printed;
-use crate::failed::Failed;
 use crate::onset::{Onset, solved};
+use crate::parts::Failed;
 use crate::parts::line_of_best_fit;
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;

@@ -17,6 +17,7 @@ use crate::files::input::parse_tip;
 use crate::files::lines::Lines;
 use crate::files::measured::parse_measured;
 use crate::files::sheet::Sheet;
+use crate::files::sheet::Table;
 use crate::session::Session;
 use clap::Parser;
 use proptest::prelude::*;
@@ -160,7 +161,7 @@ fn peak_memory() -> Option<u64> {
 #[test]
 fn any_tip_file_is_taken_or_refused() {
     fuzz("tip", |text| {
-        let Ok(tip) = parse_tip(text).and_then(model::from_file) else { return false };
+        let Ok(tip) = parse_tip(&text.into()).and_then(model::from_file) else { return false };
         assert!(tip.value(0.3).is_finite() && tip.tail(-1.0).is_finite(), "{tip:?}");
         true
     });
@@ -170,7 +171,7 @@ fn any_tip_file_is_taken_or_refused() {
 fn any_columns_are_taken_or_refused() {
     fuzz("columns", |text| {
         // Tables of two columns are read as this does; of three, surfaces alone.
-        let Ok((x, u)) = parse_profile(text, None) else { return false };
+        let Ok((x, u)) = parse_profile(&text.into(), None) else { return false };
         let Ok(force) = Force::new(vec![], Some((x.clone(), u.clone()))) else { return false };
         let Ok(surface) = InitialSurface::flat().with_profile(x, u) else { return false };
         let _ = surface.slope_and_curvature(16.2);
@@ -182,7 +183,7 @@ fn any_columns_are_taken_or_refused() {
 
 /// The table in these bytes, as a command reads it.
 fn table(bytes: Vec<u8>) -> Option<Sheet> {
-    let sheet = decoded(bytes).and_then(|text| parse_measured(&text, &[2, 3])).ok()?;
+    let sheet = decoded(bytes).and_then(|text| parse_measured(&Table::Text(text), &[2, 3])).ok()?;
     assert!(sheet.columns.iter().flatten().all(|value| value.is_finite()), "{sheet:?}");
     Some(sheet)
 }

@@ -297,6 +297,52 @@ mod tests {
         assert!(matches!(refused, Err(Refusal::Input(said)) if said.contains("--tip-file <tap>")));
     }
 
+    /// Columns from memory give the bits of a text with shortest digits, and the same errors.
+    #[test]
+    fn columns_from_memory_are_read_as_a_text_of_them_is() {
+        let pit = |x: f64| -12.5 * (-x * x / (2.0 * 31.7 * 31.7)).exp() + 0.003 * (17.0 * x).sin();
+        let x: Vec<f64> = (-60..=60).map(|i| f64::from(i) * 3.1).collect();
+        let z: Vec<f64> =
+            x.iter().map(|x| if x.abs() < 1.0 { f64::NAN } else { pit(*x) }).collect();
+        let rows = x.iter().zip(&z).map(|(x, z)| format!("{x:?};{z:?}\n"));
+        let text = format!("# \"x (nm)\";\"z (nm)\"\n{}", rows.collect::<String>());
+        let columns = |x: &[f64], z: &[f64]| {
+            Supply::Columns(vec![("x (nm)".into(), x.to_vec()), ("z (nm)".into(), z.to_vec())])
+        };
+        let words = ["tip", "<pit>", "--resamples=5"];
+        let [(typed, left_out), (in_hand, named)] =
+            [Supply::Text(text), columns(&x, &z)].map(|supply| {
+                let host = host([("<pit>", supply)]);
+                let made = call(words, &host).unwrap().unwrap();
+                (
+                    serde_json::to_string(made.document.serialized()).unwrap(),
+                    host.heard().join("\n"),
+                )
+            });
+        assert_eq!(typed, in_hand);
+        assert!(left_out.contains("1 of 121 rows have no value"), "{left_out}");
+        assert!(
+            named.contains("1 of 121 rows have no value") && named.contains("in row 61"),
+            "{named}"
+        );
+        let nothing = vec![f64::NAN; x.len()];
+        let infinite: Vec<f64> =
+            z.iter().map(|z| if *z < -12.0 { f64::INFINITY } else { *z }).collect();
+        let one = Supply::Columns(vec![("x".into(), x.clone())]);
+        for (supply, why) in [
+            (columns(&x, &nothing), "no row of all has all its values"),
+            (columns(&x, &infinite), "a number is infinite"),
+            (columns(&x, &z[1..]), "different numbers of rows"),
+            (columns(&[], &[]), "there is no row of numbers in it"),
+            (one, "1 column of numbers; 2 are needed"),
+        ] {
+            match call(words, &host([("<pit>", supply)])) {
+                Err(Refusal::Input(said)) => assert!(said.contains(why), "{said}"),
+                _ => panic!("{why}"),
+            }
+        }
+    }
+
     #[test]
     fn what_is_said_is_heard_and_what_is_wrong_is_told_in_the_programs_words() {
         let host = host([]);

@@ -35,6 +35,8 @@ pub enum Supply {
     Text(String),
     /// The content of a file that is no text.
     Bytes(Vec<u8>),
+    /// The columns of a table, with their headings; NaN where a value is missing.
+    Columns(Vec<(String, Vec<f64>)>),
     /// The document in the file.
     Document(Arc<dyn Document>),
 }
@@ -105,7 +107,15 @@ impl Session {
     pub(crate) fn document<D: Any + Clone>(&self, path: &Path) -> Option<D> {
         match self.host()?.supplies.get(path)? {
             Supply::Document(document) => document.any().downcast_ref::<D>().cloned(),
-            Supply::Text(_) | Supply::Bytes(_) => None,
+            Supply::Text(_) | Supply::Bytes(_) | Supply::Columns(_) => None,
+        }
+    }
+
+    /// The columns that the host supplies under a name.
+    pub(crate) fn columns(&self, path: &Path) -> Option<&[(String, Vec<f64>)]> {
+        match self.host()?.supplies.get(path)? {
+            Supply::Columns(columns) => Some(columns),
+            Supply::Text(_) | Supply::Bytes(_) | Supply::Document(_) => None,
         }
     }
 
@@ -114,6 +124,7 @@ impl Session {
         match self.host()?.supplies.get(path)? {
             Supply::Text(text) => Some(text.clone().into_bytes()),
             Supply::Bytes(bytes) => Some(bytes.clone()),
+            Supply::Columns(columns) => serde_json::to_vec(columns).ok(),
             Supply::Document(document) => serde_json::to_vec(document.serialized()).ok(),
         }
     }

@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::descriptions::{commands, csv, options};
+    use super::descriptions::{commands, options};
     #[pymodule_export]
     use super::document::Document;
     #[pymodule_export]

@@ -1,7 +1,8 @@
-//! A command, in a thread of its own: other threads of Python run on, and this one listens for Ctrl-C.
+//! Commands in threads of their own: other threads of Python continue, and this one checks for Ctrl-C.
 
 use crate::document::Document;
 use crate::failed::{raised, unusable};
+use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -13,29 +14,30 @@ use std::thread;
 use std::time::Duration;
 use stickslip_cli::hosted::{self, Host, Made, Refusal, Supply};
 
-/// Between two looks at the signals and the progress.
+/// Time between two checks of signals and progress.
 const LOOK: Duration = Duration::from_millis(40);
-/// Time for cancelled work to end; work that takes longer continues by itself, and nobody waits for it.
+/// Time for cancelled work to end. Work that takes longer continues, and nobody waits for it.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// As a main thread has.
+/// Size of the stack, as of a main thread.
 const STACK: usize = 8 << 20;
 
-/// A file from memory: its text or bytes, or the document that it would hold.
+/// A file from memory: its text, its bytes, its document, or its columns with their headings.
 #[derive(FromPyObject)]
-pub(crate) enum Given {
+pub(crate) enum Given<'py> {
     Text(String),
     Bytes(Vec<u8>),
     Document(Py<Document>),
+    Columns(Vec<(String, PyReadonlyArray1<'py, f64>)>),
 }
 
-/// Runs a command with its words and the files that it finds in memory; `progress` is called with the fraction done (None
-/// where the end is not known) and a count. Returns the result, if there is one, and the messages.
+/// Runs a command with its words and the files from memory. `progress` is called with the fraction done, or None if it
+/// is unknown, and a count. Returns the result, if there is one, and the messages.
 #[pyfunction]
 #[pyo3(signature = (words, supplies, progress=None))]
 pub(crate) fn call(
     py: Python<'_>,
     words: Vec<String>,
-    supplies: Vec<(String, Given)>,
+    supplies: Vec<(String, Given<'_>)>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<(Option<Document>, Vec<String>)> {
     let supplies: PyResult<Vec<_>> =
@@ -53,22 +55,22 @@ pub(crate) fn call(
     }
 }
 
-/// A command: its words, and the files that it finds in memory.
-type Command = (Vec<String>, Vec<(String, Given)>);
+/// A command: its words, and the files from memory.
+type Command<'py> = (Vec<String>, Vec<(String, Given<'py>)>);
 
-/// The documents of several runs, or why there is none.
+/// The document of each run, or its error.
 type Runs = Vec<(Option<Document>, Option<String>)>;
 
-/// Carries out several commands `run` together. The document of each, None where its run failed, with why it did; and
-/// the lines that were said, each with the number of its run.
+/// Runs several `run` commands together. Returns the document of each, or None with its error; and the messages, each
+/// with the number of its run.
 #[pyfunction]
 #[pyo3(signature = (commands, progress=None))]
 pub(crate) fn call_runs(
     py: Python<'_>,
-    commands: Vec<Command>,
+    commands: Vec<Command<'_>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<(Runs, Vec<(usize, String)>)> {
-    let command = |(words, supplies): Command| {
+    let command = |(words, supplies): Command<'_>| {
         let supplies = supplies.into_iter();
         let supplies = supplies.map(|(name, given)| Ok((name.into(), supply(py, given)?)));
         Ok((words, Arc::new(Host::new(supplies.collect::<PyResult<Vec<_>>>()?))))
@@ -96,7 +98,7 @@ pub(crate) fn call_runs(
     Ok((runs.into_iter().map(run).collect(), heard.collect()))
 }
 
-/// The refusal with the number of its run.
+/// The error with the number of its run.
 fn of_run(number: usize, refusal: Refusal) -> Refusal {
     let named = |said: String| format!("run {number}: {said}");
     match refusal {
@@ -111,7 +113,7 @@ fn panicked() -> Refusal {
     Refusal::Run(said.into())
 }
 
-fn supply(py: Python<'_>, given: Given) -> PyResult<Supply> {
+fn supply(py: Python<'_>, given: Given<'_>) -> PyResult<Supply> {
     Ok(match given {
         Given::Text(text) => Supply::Text(text),
         Given::Bytes(bytes) => Supply::Bytes(bytes),
@@ -119,12 +121,15 @@ fn supply(py: Python<'_>, given: Given) -> PyResult<Supply> {
             let copy = document.get().whole(py, |document| document.copy())?;
             Supply::Document(Arc::from(copy))
         }
+        Given::Columns(columns) => Supply::Columns(
+            columns.into_iter().map(|(name, column)| (name, column.as_array().to_vec())).collect(),
+        ),
     })
 }
 
 type Work = Box<dyn FnOnce() + Send>;
 
-/// Threads that have nothing to do, and the process that they are of: a fork has none of them.
+/// Idle threads, and the process that they belong to: a fork has none of them.
 static IDLE: Mutex<(u32, Vec<Sender<Work>>)> = Mutex::new((0, vec![]));
 
 fn idle() -> MutexGuard<'static, (u32, Vec<Sender<Work>>)> {
@@ -135,19 +140,18 @@ fn idle() -> MutexGuard<'static, (u32, Vec<Sender<Work>>)> {
     idle
 }
 
-/// Starts the work, in a thread that is there already, if one is: a new one costs half a millisecond, most of it for
-/// memory of its own.
+/// Starts work in an idle thread, if there is one: a new thread costs half a millisecond, mostly for its memory.
 fn begin<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> PyResult<Receiver<T>> {
     let (answer, receiver) = channel();
     let work = move || {
-        // Nobody hears it who has gone.
+        // The receiver is gone if the call was cancelled.
         answer.send(work()).ok();
     };
     let mut work: Work = Box::new(work);
     while let Some(thread) = { idle().1.pop() } {
         match thread.send(work) {
             Ok(()) => return Ok(receiver),
-            // It has ended.
+            // The thread has ended.
             Err(SendError(again)) => work = again,
         }
     }
@@ -157,7 +161,7 @@ fn begin<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> PyResu
     Ok(receiver)
 }
 
-/// One piece of work after another; a thread whose work panics ends.
+/// Does one piece of work after another. A panic ends the thread.
 fn work_on(first: Work) {
     first();
     let (sender, next) = channel();
@@ -168,7 +172,7 @@ fn work_on(first: Work) {
     }
 }
 
-/// Waits for the answer; None if the work panicked. The error is Python's, such as Ctrl-C, and the work is cancelled.
+/// Waits for the answer; None after a panic. An error of Python, such as Ctrl-C, cancels the work.
 fn wait<T: Send>(
     py: Python<'_>,
     answer: &mut Receiver<T>,
@@ -190,7 +194,7 @@ fn wait<T: Send>(
     }
 }
 
-/// The answer, if it comes in time; other threads of Python run on.
+/// The answer, if it comes in time. Other threads of Python continue.
 fn hear<T: Send>(
     py: Python<'_>,
     answer: &mut Receiver<T>,
@@ -206,23 +210,23 @@ fn show(host: &Host, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
     }
 }
 
-/// The error, with what was computed until then as its `result`.
+/// The error with the partial result as its `document`.
 fn with_result(py: Python<'_>, error: PyErr, left: Option<Document>) -> PyErr {
     if let Some(left) = left {
-        // Without it there is less to be seen, and nothing else is lost.
+        // An error without it is still correct.
         error.value(py).setattr("document", left).ok();
     }
     error
 }
 
-/// The document that a file holds.
+/// The document in a file.
 #[pyfunction]
 pub(crate) fn load(py: Python<'_>, path: PathBuf) -> PyResult<Document> {
     let document = py.detach(|| hosted::load(&path)).map_err(raised)?;
     Ok(Document::new(py, Made { document, headline: String::new(), text: String::new() }))
 }
 
-/// The document that a text holds.
+/// The document in a text.
 #[pyfunction]
 pub(crate) fn read(py: Python<'_>, text: &str) -> PyResult<Document> {
     let document = py.detach(|| hosted::read(text.as_bytes())).map_err(unusable)?;

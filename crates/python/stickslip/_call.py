@@ -1,4 +1,4 @@
-"""A command of the program, carried out here."""
+"""Commands of the program in this process."""
 
 import re
 import warnings
@@ -11,7 +11,7 @@ from ._warning import StickslipWarning
 
 
 def call(path, given, progress):
-    """The result of a command; None where the program has written it to a file line by line."""
+    """The result of a command; None if the program has written it to a file line by line."""
     asked = Asked(path, given)
     try:
         with told(progress) as tell:
@@ -19,7 +19,7 @@ def call(path, given, progress):
     except (ValueError, RuntimeError, KeyboardInterrupt) as error:
         error.args = tuple(in_words_of_python(path, str(said)) for said in error.args)
         if hasattr(error, "document"):
-            # What was computed until then.
+            # The partial result.
             error.result = result_of(error.document)
         raise
     said = [line.removeprefix("stickslip: ") for line in said]
@@ -36,11 +36,11 @@ def remarks(document):
 def run_many(questions, *, progress=None):
     """Several runs at once: for each dict of keyword arguments of :func:`run` a :class:`RunResult`, in the same order.
 
-    Motions without noise, profiles, forces and further terms of the law share the lanes of the processor, in half of the time or
-    less; ``work.memory_reason`` says which did. They are as accurate as those of ``run`` but differ in the last digits; the
-    others are those of ``run``. ValueError if one is refused, before the first begins; where one fails a RuntimeError, the
-    others being its ``results``, with None for those that failed. ``output``, ``plot``, ``verify`` and checkpoints are of
-    ``run`` alone.
+    Runs of the basic model without noise, profiles and forces are computed side by side, in half of the time or less, as
+    ``work.memory_reason`` reports. They are as accurate as those of ``run`` but differ in the last digits; the others are
+    equal to those of ``run``. Invalid arguments raise ValueError before the first run begins. If a run fails, the
+    RuntimeError has the ``results`` of the others, with None for each that failed. ``output``, ``plot``, ``verify`` and
+    checkpoints are not available.
 
     >>> runs = stickslip.run_many([{"alpha": alpha, "r": 1, "until": 400} for alpha in (0.9, 1.1, 1.2)])
     """
@@ -67,7 +67,7 @@ def run_many(questions, *, progress=None):
 
 
 def apart(said):
-    """``run 3`` and what is said of it."""
+    """``run 3`` and the message about it."""
     number, _, why = str(said).partition(": ")
     return number, why
 
@@ -76,11 +76,11 @@ MISSING = "the following required arguments were not provided:"
 
 
 def in_words_of_python(path, said):
-    """What the program says of its options, by their names here: ``--depth-limit -1: …`` is ``depth_limit=-1: …``."""
+    """A message of the program with the names of keywords: ``--depth-limit -1: …`` becomes ``depth_limit=-1: …``."""
     if said.startswith(MISSING):
         names = [named(path, line.strip()) for line in said.removeprefix(MISSING).splitlines() if line.strip()]
         return f"missing: {', '.join(names)}"
-    # An image that was given as an array has no file.
+    # An image from an array has no file.
     said = re.sub(r"(<[a-z_]+>)\.gsf", r"\1", said)
     known = {option.name for option in options(path).values()}
 
@@ -90,12 +90,12 @@ def in_words_of_python(path, said):
         return in_python(found["name"]) + ("=" if found["between"] else "")
 
     option = re.compile(r"--(?P<name>[a-z]+(?:-[a-z]+)*)(?: <[^>]*>(?!:))?(?P<between>[ =](?=[^\s:,]+: |[A-Z]\b|\d))?")
-    # What is to be typed in a shell stays as it is.
+    # Commands for a shell stay as they are.
     return "\n".join(line if "stickslip " in line else option.sub(one, line) for line in said.split("\n"))
 
 
 def named(path, usage):
-    """The names of ``--until <T>``, ``<--alpha <A>|--alpha-above <D>>`` or ``<RUN.json>``."""
+    """The keywords for ``--until <T>``, ``<--alpha <A>|--alpha-above <D>>`` or ``<RUN.json>``."""
     found = re.findall(r"--([a-z]+(?:-[a-z]+)*)", usage)
     if found:
         return " or ".join(map(in_python, found))

@@ -6,6 +6,9 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
+# A file from memory: a text, bytes, a document, or columns with their headings.
+Supply = str | bytes | Document | Sequence[tuple[str, npt.NDArray[np.float64]]]
+
 @final
 class Document:
     @property
@@ -40,15 +43,14 @@ class Document:
 
 def call(
     words: Sequence[str],
-    supplies: Sequence[tuple[str, str | bytes | Document]],
+    supplies: Sequence[tuple[str, Supply]],
     progress: Callable[[float | None, str], object] | None = None,
 ) -> tuple[Document | None, list[str]]: ...
 def call_runs(
-    commands: Sequence[tuple[Sequence[str], Sequence[tuple[str, str | Document]]]],
+    commands: Sequence[tuple[Sequence[str], Sequence[tuple[str, Supply]]]],
     progress: Callable[[float | None, str], object] | None = None,
 ) -> tuple[list[tuple[Document | None, str | None]], list[tuple[int, str]]]: ...
 def load(path: str) -> Document: ...
 def read(text: str) -> Document: ...
-def csv(columns: Sequence[npt.NDArray[np.float64]]) -> str: ...
 def options(path: Sequence[str]) -> list[tuple[str, bool, str | None, str | None, bool, str]] | None: ...
 def commands() -> list[tuple[str, str]]: ...

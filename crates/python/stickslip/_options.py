@@ -1,4 +1,4 @@
-"""From keyword arguments to what a shell would be given: the options are the program's, by its own telling."""
+"""From keyword arguments to the words of a command line. The program describes its options itself."""
 
 import inspect
 import json
@@ -12,13 +12,13 @@ from ._results import Result
 
 Option = namedtuple("Option", "name is_positional value delimiter is_repeatable help")
 
-# What may be an image.
+# Names of arguments that may be images.
 IMAGES = {"measured", "image", "retrace_image"}
 
-# A positional argument that may be left out.
+# Optional positional arguments.
 OPTIONAL = {"retrace"}
 
-# What is printed is for a shell: here the document itself is had.
+# Options for output on a terminal; functions return the document.
 FOR_A_SHELL = {"print", "format"}
 
 
@@ -28,19 +28,19 @@ KNOWN: dict = {}
 def options(path):
     """The options of a command by their names in Python."""
     if path not in KNOWN:
-        told = [Option(*told) for told in _native.options(list(path))]
-        KNOWN[path] = {in_python(option.name): option for option in told if option.name not in FOR_A_SHELL}
+        found = [Option(*option) for option in _native.options(list(path))]
+        KNOWN[path] = {in_python(option.name): option for option in found if option.name not in FOR_A_SHELL}
     return KNOWN[path]
 
 
 def in_python(name):
-    """``from`` is a word of Python: it is ``from_``."""
+    """The name of an option in Python: ``from`` is a keyword, and becomes ``from_``."""
     name = name.replace("-", "_")
     return name + "_" if name == "from" else name
 
 
 def signature(path, returns):
-    """What a function of this command takes."""
+    """The signature of the function of a command."""
     Parameter = inspect.Parameter
     found = options(path)
     first = [
@@ -60,7 +60,7 @@ def signature(path, returns):
 
 
 class Asked:
-    """The words of a command, and the files that it finds in memory."""
+    """The words of a command, and the files from memory."""
 
     def __init__(self, path, given):
         self.words = list(path)
@@ -93,25 +93,25 @@ class Asked:
         if isinstance(value, bool):
             raise TypeError(f"{name} has a value, {option.value}: {value!r} is none")
         if is_file(option):
-            # A list is several, where there may be several; columns are a tuple.
+            # A list has several files if the option may be repeated; columns are a tuple.
             several = option.is_repeatable and isinstance(value, list)
             files = [self._file(f"{name}[{i}]", part) for i, part in enumerate(value)] if several else [self._file(name, value)]
             self.words += [f"--{option.name}={file}" for file in files]
         elif name == "tip" and not isinstance(value, str):
-            # A footprint of one's own.
+            # A footprint that has no name.
             self.words.append(f"--tip-file={self._file('tip', value)}")
         else:
             parts = repeated(option, value)
             self.words += [f"--{option.name}={shown(option, part)}" for part in parts]
 
     def _file(self, name, value):
-        """The name of a file, or a name for what is none."""
+        """The name of a file, or a made-up name for data from memory."""
         if isinstance(value, (str, os.PathLike)):
             return os.fspath(value)
         if _scans.is_dataset(value) and name != "area":
             value = _scans.heights(name, value)
         is_image = _scans.is_array(value) and value.ndim > 1 and name in IMAGES
-        # The program knows an image by its ending.
+        # The program recognises an image by its extension.
         place = f"<{name}>.gsf" if is_image else f"<{name}>"
         self.supplies.append((place, _scans.image_file(name, value) if is_image else supplied(name, value)))
         return place
@@ -127,12 +127,12 @@ def repeated(option, value):
     if option.delimiter or not option.is_repeatable or isinstance(value, str):
         return [value]
     entries = list(value)
-    # (A, T, W) is one, [(A, T, W), …] are several.
+    # (A, T, W) is one value, [(A, T, W), …] are several.
     return [value] if entries and all(isinstance(entry, (int, float)) for entry in entries) else entries
 
 
 def shown(option, value):
-    """The value as it would be typed; digits are read back to the last bit."""
+    """The value as typed in a shell, with digits that are read back to the same bits."""
     if isinstance(value, str):
         return value
     if isinstance(value, range):
@@ -149,7 +149,7 @@ def shown(option, value):
 
 
 def number(value):
-    """Shortest digits of a number; whatever else it is, its own words, for the program to judge."""
+    """The shortest digits of a number; the text of anything else, which the program judges."""
     if isinstance(value, (bool, str)):
         return str(value)
     if isinstance(value, Integral):
@@ -164,13 +164,13 @@ def number(value):
 
 
 def supplied(name, value):
-    """What a file would hold: a document, JSON, or columns."""
+    """The content of a file: a document, JSON, or columns with their headings."""
     if isinstance(value, Result):
         return value._document
     if isinstance(value, dict) and not is_columns(value):
         return json.dumps(value, default=plain)
     headings, columns = scanned(name, value) or table(name, value)
-    return heading(headings) + _native.csv(columns)
+    return list(zip(headings, columns))
 
 
 def scanned(name, value):
@@ -188,14 +188,8 @@ def is_columns(value):
     return bool(value) and not {"gaussians", "format"} & value.keys()
 
 
-def heading(names):
-    """The names of columns, as a comment: none of them is taken for a number, and units are read off them."""
-    cleaned = ["".join(c if c.isprintable() else " " for c in name).replace('"', "'") for name in names]
-    return "# " + ";".join(f'"{name}"' for name in cleaned) + "\n" if any(cleaned) else ""
-
-
 def plain(value):
-    """NumPy's values for JSON."""
+    """A value of NumPy for JSON."""
     if hasattr(value, "tolist"):
         return value.tolist()
     raise TypeError(f"{value!r} is no number, text, list or dict")
@@ -208,12 +202,12 @@ def table(name, value):
     found = [numbers(f"{name}, column {i + 1}", column) for i, (_, column) in enumerate(pairs)]
     lengths = [len(column) for column in found]
     if len(set(lengths)) > 1:
-        raise ValueError(f"{name}: columns have {lengths} rows: as many in each will do")
+        raise ValueError(f"{name}: columns have {lengths} rows: all must have the same number")
     return [with_unit(heading, column) for heading, column in pairs], found
 
 
 def named_columns(name, value):
-    """Each column with its name, empty where it has none."""
+    """Each column with its name, which may be empty."""
     import numpy as np
 
     if isinstance(value, dict):
@@ -251,20 +245,20 @@ def with_unit(heading, column):
 
 
 def numbers(name, column):
-    """A column as float64, NaN where it is masked, None or NA."""
+    """A column as float64, with NaN for masked values, None and NA."""
     import numpy as np
 
     mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
     for inner in ("magnitude", "value"):
-        # Of a quantity with a unit.
+        # The numbers of a quantity with a unit.
         column = getattr(column, inner, column) if hasattr(column, "unit") or hasattr(column, "units") else column
     try:
-        # Without a type: text and complex numbers would be made to fit.
+        # Without a type: with one, text and complex numbers would be converted.
         values = np.asarray(column.to_numpy() if hasattr(column, "to_numpy") else column)
     except ValueError as error:
         raise ValueError(f"{name}: no column of numbers: {error}") from None
     if values.ndim != 1:
-        raise ValueError(f"{name}: columns are one after another, such as (x, f), each of one axis")
+        raise ValueError(f"{name}: a column has one axis; give several as (x, f)")
     if values.dtype.kind == "O":
         values = np.array([number_or_nan(name, value) for value in values], dtype=float)
     elif values.dtype.kind not in "iuf":
@@ -276,7 +270,7 @@ def numbers(name, column):
 
 
 def number_or_nan(name, value):
-    """A real number among objects; NaN for None, NaN, NA and what is masked."""
+    """A real number among objects; NaN for None, NaN, NA and masked values."""
     import numpy as np
 
     if value is None or value is np.ma.masked or type(value).__name__ in ("NAType", "NaTType"):
@@ -287,7 +281,7 @@ def number_or_nan(name, value):
 
 
 def _bool():
-    """NumPy's truth values, where there is NumPy already."""
+    """The type of truth values of NumPy if it is imported, else ``bool``."""
     import sys
 
     numpy = sys.modules.get("numpy")

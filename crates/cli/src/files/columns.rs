@@ -2,8 +2,7 @@
 
 use super::heading::Heading;
 use super::in_model_units::in_model_units;
-use super::sheet::{Sheet, parse_sheet};
-use super::text::{LARGEST_TABLE, read_text};
+use super::sheet::{Sheet, Table};
 use crate::failure::Failure;
 use crate::session::Session;
 use std::path::Path;
@@ -21,8 +20,8 @@ pub(crate) fn read_columns(
     heading: &str,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let text = read_text(session, option, path, LARGEST_TABLE)?;
-    parse_columns(&text, heading, scales)
+    let table = Table::open(session, option, path)?;
+    parse_columns(&table, heading, scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
@@ -33,8 +32,8 @@ pub(crate) fn read_area(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Vec<AreaLine>, Failure> {
-    let text = read_text(session, option, path, LARGEST_TABLE)?;
-    let [y, start, length] = parse_table(&text, "y,start,length", scales)
+    let table = Table::open(session, option, path)?;
+    let [y, start, length] = parse_table(&table, "y,start,length", scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
     let columns = y.into_iter().zip(start).zip(length);
     Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
@@ -47,9 +46,9 @@ pub(crate) fn read_surface_table(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<SurfaceTable, Failure> {
-    let text = read_text(session, option, path, LARGEST_TABLE)?;
+    let table = Table::open(session, option, path)?;
     let named = |message: String| Failure::input(format!("{option} {}", path.display()), message);
-    surface_table(parse_table(&text, "x,y,u", scales).map_err(named)?).map_err(named)
+    surface_table(parse_table(&table, "x,y,u", scales).map_err(named)?).map_err(named)
 }
 
 fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
@@ -88,13 +87,16 @@ pub(crate) fn read_profile(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let text = read_text(session, option, path, LARGEST_TABLE)?;
-    parse_profile(&text, scales)
+    let table = Table::open(session, option, path)?;
+    parse_profile(&table, scales)
         .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
 }
 
-pub(crate) fn parse_profile(text: &str, scales: Option<&KnownScales>) -> Result<Columns, String> {
-    let mut sheet = whole(text, &["x,u", "t,x,u"])?;
+pub(crate) fn parse_profile(
+    table: &Table,
+    scales: Option<&KnownScales>,
+) -> Result<Columns, String> {
+    let mut sheet = whole(table, &["x,u", "t,x,u"])?;
     // The time only tells surfaces apart, in whatever unit.
     if sheet.columns.len() == 3 {
         let t = sheet.columns.remove(0);
@@ -111,20 +113,20 @@ pub(crate) fn parse_profile(text: &str, scales: Option<&KnownScales>) -> Result<
 }
 
 fn parse_columns(
-    text: &str,
+    table: &Table,
     heading: &str,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, String> {
-    parse_table::<2>(text, heading, scales).map(|[first, second]| (first, second))
+    parse_table::<2>(table, heading, scales).map(|[first, second]| (first, second))
 }
 
 /// N columns of numbers, converted to the model's units according to their headings.
 fn parse_table<const N: usize>(
-    text: &str,
+    table: &Table,
     names: &str,
     scales: Option<&KnownScales>,
 ) -> Result<[Vec<f64>; N], String> {
-    in_units(whole(text, &[names])?, names, scales)
+    in_units(whole(table, &[names])?, names, scales)
 }
 
 fn in_units<const N: usize>(
@@ -141,18 +143,17 @@ fn in_units<const N: usize>(
 }
 
 /// A table without missing values and with one of these sets of columns, such as `x,u` or `t,x,u`.
-pub(super) fn whole(text: &str, names: &[&str]) -> Result<Sheet, String> {
+pub(super) fn whole(table: &Table, names: &[&str]) -> Result<Sheet, String> {
     let counts: Vec<usize> = names.iter().map(|names| names.split(',').count()).collect();
     let of = names.join("` or `");
-    let mut sheet =
-        parse_sheet(text, &counts).map_err(|error| format!("{error} (columns `{of}`)"))?;
+    let mut sheet = table.sheet(&counts).map_err(|error| format!("{error} (columns `{of}`)"))?;
     if sheet.columns.is_empty() {
         // What has no rows is judged by what is made of it.
         sheet.columns = vec![vec![]; counts[0]];
         sheet.headings = vec![Heading::default(); counts[0]];
     }
-    if let Some(line) = sheet.missing.first() {
-        return Err(format!("line {line}: a value is missing (columns `{of}`)"));
+    if let Some(place) = sheet.missing.first() {
+        return Err(format!("{} {place}: a value is missing (columns `{of}`)", sheet.counted));
     }
     let count = sheet.columns.len();
     let names = names.iter().find(|names| names.split(',').count() == count).copied();
@@ -181,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_grid_is_put_together_from_points_in_any_order() {
-        let table = |text: &str| surface_table(parse_table(text, "x,y,u", None).unwrap());
+        let table = |text: &str| surface_table(parse_table(&text.into(), "x,y,u", None).unwrap());
         let found = table("x,y,u\n1.5,2,6\n0.5,2,5\n0.5,1,3\n1.5,1,4\n").unwrap();
         assert_eq!((found.x, found.y), (vec![0.5, 1.5], vec![1.0, 2.0]));
         assert_eq!(found.u, [[3.0, 4.0], [5.0, 6.0]]);
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_heading_and_comments_are_skipped() {
-        let (x, u) = parse_columns("# measured\nx,u\n0, 1\n2,3e-1\n", "x,u", None).unwrap();
+        let (x, u) = parse_columns(&"# measured\nx,u\n0, 1\n2,3e-1\n".into(), "x,u", None).unwrap();
         assert_eq!(x.len(), 2);
         assert!((u[1] - 0.3).abs() < 1e-16);
     }
@@ -210,7 +211,7 @@ mod tests {
             ("x,u\nO.5,2\n1.5,2\n", 2),
             ("x;u\r1,5;2\r3,5;1.5\r", 3),
         ] {
-            let message = parse_columns(text, "x,u", None).unwrap_err();
+            let message = parse_columns(&text.into(), "x,u", None).unwrap_err();
             assert!(message.contains(&format!("line {line}")), "{message}");
         }
     }
@@ -218,7 +219,7 @@ mod tests {
     #[test]
     fn columns_in_another_order_are_refused() {
         for text in ["u,x\n0,1.5\n", "u_nm;x_nm\n0;1\n"] {
-            let message = parse_columns(text, "x,u", None).unwrap_err();
+            let message = parse_columns(&text.into(), "x,u", None).unwrap_err();
             assert!(message.contains("`x,u` are needed"), "{message}");
         }
     }
@@ -229,16 +230,16 @@ mod tests {
         for text in
             ["0,00\n0,25\n", "0,5\n0,7\n0,9\n1,2\n", "u\n1,5\n2,5\n", "1,05\n2,10\n", "0,-0\n1,5\n"]
         {
-            let message = parse_columns(text, "x,u", None).unwrap_err();
+            let message = parse_columns(&text.into(), "x,u", None).unwrap_err();
             assert!(message.contains("commas may be decimal marks"), "{text}: {message}");
         }
         for text in ["0,1,50\n1,1,48\n", "0,0,1,5\n0,5,1,25\n"] {
-            assert!(parse_profile(text, None).is_err(), "{text}");
+            assert!(parse_profile(&text.into(), None).is_err(), "{text}");
         }
-        assert!(parse_columns("0,1\n1,7\n", "x,u", None).is_ok());
-        assert!(parse_columns("x,u\n0,1\n1,7\n", "x,u", None).is_ok());
+        assert!(parse_columns(&"0,1\n1,7\n".into(), "x,u", None).is_ok());
+        assert!(parse_columns(&"x,u\n0,1\n1,7\n".into(), "x,u", None).is_ok());
         // Or groups of thousands.
-        assert!(parse_columns("x;u\n999;1\n1,001;2\n", "x,u", None).is_err());
-        assert!(parse_columns("x;u\n0,999;1\n1,001;2\n", "x,u", None).is_ok());
+        assert!(parse_columns(&"x;u\n999;1\n1,001;2\n".into(), "x,u", None).is_err());
+        assert!(parse_columns(&"x;u\n0,999;1\n1,001;2\n".into(), "x,u", None).is_ok());
     }
 }

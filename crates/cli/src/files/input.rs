@@ -1,7 +1,8 @@
 //! Input files from users or from a host: tip functions and documents, with all their errors.
 
 use super::columns::{Columns, whole};
-use super::text::{LARGEST_TABLE, read_text, unreadable};
+use super::sheet::Table;
+use super::text::unreadable;
 use crate::failure::Failure;
 use crate::session::Session;
 use serde::Deserialize;
@@ -46,15 +47,15 @@ pub(crate) struct GaussianEntry {
 
 pub(crate) fn read_tip(session: &Session, path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
-    let text = read_text(session, OPTION, path, LARGEST_TABLE)?;
-    parse_tip(&text)
+    parse_tip(&Table::open(session, OPTION, path)?)
         .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
 }
 
-pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
-    if !text.trim_start().starts_with('{') {
-        return table_of(text);
-    }
+pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {
+    let text = match table {
+        Table::Text(text) if text.trim_start().starts_with('{') => text,
+        _ => return table_of(table),
+    };
     let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
     if kind.is_ok_and(|kind| kind.format.is_some()) {
         let measured = documents::read(text, MeasuredTipDocument::FORMAT);
@@ -69,8 +70,8 @@ pub(crate) fn parse_tip(text: &str) -> Result<TipFile, String> {
 }
 
 /// The columns of a tip file, which must be in its own σ.
-fn table_of(text: &str) -> Result<TipFile, String> {
-    let sheet = whole(text, &["x,f", "x,y,f"])?;
+fn table_of(table: &Table) -> Result<TipFile, String> {
+    let sheet = whole(table, &["x,f", "x,y,f"])?;
     let positions = &sheet.headings[..sheet.headings.len() - 1];
     if let Some(heading) = positions.iter().find(|heading| heading.written_unit().is_some()) {
         return Err(format!(
@@ -166,7 +167,7 @@ mod tests {
         let nested = |depth: usize| format!("{}1{}", "[".repeat(depth), "]".repeat(depth));
         for depth in [200, 1_000_000] {
             let tip = format!("{{\"gaussians\":{}}}", nested(depth));
-            assert!(parse_tip(&tip).is_err());
+            assert!(parse_tip(&Table::Text(tip)).is_err());
             let run = format!(
                 "{{\"format\":\"stickslip/run\",\"format_version\":1,\"software\":{}}}",
                 nested(depth)

@@ -1,8 +1,7 @@
 //! Measured columns from instruments, and the common units of several files.
 
 use super::heading::Heading;
-use super::sheet::{Sheet, parse_sheet};
-use super::text::{LARGEST_TABLE, read_text};
+use super::sheet::{Sheet, Table};
 use crate::failure::Failure;
 use crate::session::Session;
 use std::path::Path;
@@ -16,14 +15,15 @@ pub(crate) fn read_measured(
     columns: &[usize],
 ) -> Result<Sheet, Failure> {
     let named = || format!("{option} {}", path.display());
-    let text = read_text(session, option, path, LARGEST_TABLE)?;
+    let table = Table::open(session, option, path)?;
     let sheet =
-        parse_measured(&text, columns).map_err(|message| Failure::input(named(), message))?;
+        parse_measured(&table, columns).map_err(|message| Failure::input(named(), message))?;
     if let Some(first) = sheet.missing.first() {
         let (count, all) = (sheet.missing.len(), sheet.missing.len() + sheet.columns[0].len());
         session.remark(format_args!(
-            "stickslip: {}: {count} of {all} rows have no value and are left out, the first in line {first}",
-            named()
+            "stickslip: {}: {count} of {all} rows have no value and are left out, the first in {} {first}",
+            named(),
+            sheet.counted
         ));
     }
     Ok(sheet)
@@ -32,8 +32,8 @@ pub(crate) fn read_measured(
 /// Names of columns of positions.
 const POSITIONS: [&str; 7] = ["x", "position", "distance", "pos", "way", "displacement", "lateral"];
 
-pub(crate) fn parse_measured(text: &str, columns: &[usize]) -> Result<Sheet, String> {
-    let sheet = parse_sheet(text, columns)?;
+pub(crate) fn parse_measured(table: &Table, columns: &[usize]) -> Result<Sheet, String> {
+    let sheet = table.sheet(columns)?;
     if sheet.columns.is_empty() {
         return Err("there is no row of numbers in it".into());
     }
@@ -141,19 +141,26 @@ mod tests {
             "x_nm;z_nm\r0;1\r2;0,3\r",
             "x_nm,z_nm\n\"0,0\",\"1,0\"\n\"2,0\",\"0,3\"\n",
         ] {
-            let found = parse_measured(text, &[2]).unwrap();
+            let found = parse_measured(&text.into(), &[2]).unwrap();
             assert_eq!(found.columns, [[0.0, 2.0], [1.0, 0.3]], "{text}");
             let headings: Vec<&str> = found.headings.iter().map(Heading::text).collect();
             assert_eq!(headings, ["x_nm", "z_nm"], "{text}");
         }
         assert_eq!(
-            parse_measured("1.5,2,3\n", &[3]).unwrap().headings,
+            parse_measured(
+                &"1.5,2,3
+"
+                .into(),
+                &[3]
+            )
+            .unwrap()
+            .headings,
             vec![Heading::default(); 3]
         );
         for text in
             ["", "x,f\n", "0,1\n2\n", "0,1\nx,f\n", "z,x\n0,1.5\n2,3\n", "n,x\n0,1.5\n2,3\n"]
         {
-            assert!(parse_measured(text, &[2]).is_err(), "{text}");
+            assert!(parse_measured(&text.into(), &[2]).is_err(), "{text}");
         }
     }
 
@@ -162,7 +169,7 @@ mod tests {
     fn a_row_without_any_value_is_one_with_every_separator() {
         for separator in [",", ";", "\t"] {
             let text = "x,z\n-10.5,1.2\n,NaN\n0.5,-3e-1\n5.25,-0.75\n".replace(',', separator);
-            let found = parse_measured(&text, &[2]).unwrap();
+            let found = parse_measured(&(*text).into(), &[2]).unwrap();
             assert_eq!(found.missing, [3], "{text}");
             assert_eq!(found.columns[0], [-10.5, 0.5, 5.25], "{text}");
         }

@@ -1,5 +1,5 @@
-//! Tables of numbers from people and instruments. Each line is a row of numbers, a heading, a comment, or an error:
-//! none is ignored.
+//! Tables of numbers from people and instruments: files of text, or columns that a host supplies. Each line of a text is
+//! a row of numbers, a heading, a comment, or an error: none is ignored.
 //!
 //! Separator and decimal mark are those with which all rows are rows of equally many numbers. Lines before the first
 //! row are headings if they begin with a letter; other lines are errors. Rows with missing values are counted, with
@@ -7,6 +7,10 @@
 
 use super::dialect::{Cell, DIALECTS, Dialect, Separator};
 use super::heading::{Heading, units_of_line, units_of_row};
+use super::text::{LARGEST_TABLE, read_text};
+use crate::failure::Failure;
+use crate::session::Session;
+use std::path::Path;
 
 /// A table as it was read; without columns if the text has no rows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,8 +19,89 @@ pub(crate) struct Sheet {
     pub(crate) headings: Vec<Heading>,
     /// The rows without missing values, as columns.
     pub(crate) columns: Vec<Vec<f64>>,
-    /// Line numbers of the rows with missing values.
+    /// Numbers of the lines or rows with missing values, from 1.
     pub(crate) missing: Vec<usize>,
+    /// What these numbers count: `line` of a text, or `row` of columns.
+    pub(crate) counted: &'static str,
+}
+
+/// A table before it is read.
+pub(crate) enum Table<'a> {
+    Text(String),
+    /// Columns with their headings; NaN where a value is missing.
+    Columns(&'a [(String, Vec<f64>)]),
+}
+
+impl From<&str> for Table<'_> {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl<'a> Table<'a> {
+    /// The table in a file, or the columns that a host supplies.
+    ///
+    /// # Errors
+    /// The file cannot be read as text.
+    pub(crate) fn open(session: &'a Session, option: &str, path: &Path) -> Result<Self, Failure> {
+        match session.columns(path) {
+            Some(columns) => Ok(Self::Columns(columns)),
+            None => read_text(session, option, path, LARGEST_TABLE).map(Self::Text),
+        }
+    }
+
+    /// The sheet of this table, with one of the numbers of columns in `admissible`.
+    ///
+    /// # Errors
+    /// As [`parse_sheet`]; columns of different lengths, or with an infinite value.
+    pub(crate) fn sheet(&self, admissible: &[usize]) -> Result<Sheet, String> {
+        match self {
+            Self::Text(text) => parse_sheet(text, admissible),
+            Self::Columns(columns) => Sheet::of_columns(columns, admissible),
+        }
+    }
+}
+
+impl Sheet {
+    /// The rows of these columns.
+    fn of_columns(columns: &[(String, Vec<f64>)], admissible: &[usize]) -> Result<Self, String> {
+        let rows = columns.first().map_or(0, |(_, column)| column.len());
+        if rows == 0 {
+            return Ok(Self::default());
+        }
+        if !admissible.contains(&columns.len()) {
+            return Err(needed(columns.len(), admissible));
+        }
+        let is_infinite =
+            |row: &usize| columns.iter().any(|(_, column)| column[*row].is_infinite());
+        if columns.iter().any(|(_, column)| column.len() != rows) {
+            return Err("the columns have different numbers of rows".into());
+        }
+        if let Some(row) = (0..rows).find(is_infinite) {
+            return Err(format!("row {}: a number is infinite", row + 1));
+        }
+        let is_whole = |row: &usize| columns.iter().all(|(_, column)| !column[*row].is_nan());
+        let (whole, missing): (Vec<usize>, Vec<usize>) = (0..rows).partition(is_whole);
+        if whole.is_empty() {
+            return Err(NO_WHOLE_ROW.into());
+        }
+        let kept = |column: &[f64]| whole.iter().map(|row| column[*row]).collect();
+        Ok(Self {
+            headings: columns.iter().map(|(heading, _)| Heading::of(heading)).collect(),
+            columns: columns.iter().map(|(_, column)| kept(column)).collect(),
+            missing: missing.iter().map(|row| row + 1).collect(),
+            counted: "row",
+        })
+    }
+}
+
+const NO_WHOLE_ROW: &str = "no row of all has all its values";
+
+/// The error for a table with another number of columns.
+fn needed(count: usize, admissible: &[usize]) -> String {
+    let needed: Vec<String> = admissible.iter().map(usize::to_string).collect();
+    let columns = if count == 1 { "column" } else { "columns" };
+    format!("{count} {columns} of numbers; {} are needed", needed.join(" or "))
 }
 
 /// The lines of a text, with any line end: LF, CR LF, CR, and the separators of Unicode.
@@ -327,25 +412,19 @@ impl<'a> Reading<'a> {
         let (whole, missing): (Vec<usize>, Vec<usize>) = (0..self.lines.len()).partition(is_whole);
         let missing: Vec<usize> = missing.iter().map(|row| self.lines[*row] as usize).collect();
         if whole.is_empty() {
-            return Err(Flaw::at(self.lines[0] as usize, "no row of all has all its values"));
+            return Err(Flaw::at(self.lines[0] as usize, NO_WHOLE_ROW));
         }
         if !missing.is_empty() {
             for column in &mut self.columns {
                 *column = whole.iter().map(|row| column[*row]).collect();
             }
         }
-        Ok(Sheet { headings: self.headings, columns: self.columns, missing })
+        Ok(Sheet { headings: self.headings, columns: self.columns, missing, counted: "line" })
     }
 
     fn of_other_width(&self) -> String {
-        let needed: Vec<String> = self.admissible.iter().map(usize::to_string).collect();
-        let count = self.columns.len();
-        let message = format!(
-            "line {}: {count} column{} of numbers; {} are needed",
-            self.lines[0],
-            if count == 1 { "" } else { "s" },
-            needed.join(" or ")
-        );
+        let message =
+            format!("line {}: {}", self.lines[0], needed(self.columns.len(), self.admissible));
         if self.commas.are_between_integers() { format!("{message}; {AMBIGUOUS}") } else { message }
     }
 

@@ -9,13 +9,14 @@ pub use crate::made::{Document, Made};
 pub use crate::session::{Host, Pace, Supply};
 
 use crate::arguments::{Cli, Command};
+use crate::commands::carried_out;
 use crate::commands::quantities::{Translated, translated};
 use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
+use crate::made;
 use crate::message::harmless;
 use crate::session::Session;
-use crate::{done, made};
 use clap::{ArgAction, CommandFactory, FromArgMatches};
 use serde::Serialize;
 use std::ffi::OsString;
@@ -49,7 +50,7 @@ pub fn call<'a>(
 ) -> Result<Option<Made>, Refusal> {
     let session = Session::of(host);
     let (cli, line) = parse(&session, words)?;
-    match stop::where_asked_by(host.stop(), || done(&session, &cli.command)) {
+    match stop::where_asked_by(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own words for what it did not find.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {

@@ -24,7 +24,7 @@ mod message;
 mod session;
 mod sign_of_life;
 
-use arguments::{Cli, Command, FIRST_SCREEN};
+use arguments::{Cli, FIRST_SCREEN};
 use clap::error::ErrorKind as Misread;
 use clap::{CommandFactory, Parser};
 use commands::quantities::translated;
@@ -62,7 +62,7 @@ pub fn main() -> ExitCode {
     if !cli.quiet {
         sign_of_life::begin();
     }
-    let done = done(&session, &cli.command);
+    let done = commands::carried_out(&session, &cli.command);
     sign_of_life::end();
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -75,30 +75,6 @@ fn failed(failure: &Failure) -> ExitCode {
         say(format_args!("stickslip: {failure}"));
     }
     failure.exit_code()
-}
-
-fn done(session: &Session, command: &Command) -> Result<(), Failure> {
-    match command {
-        Command::Run(arguments) => commands::run::run(session, arguments),
-        Command::Verify(arguments) => commands::verify::verify(session, arguments),
-        Command::Surface(arguments) => commands::surface::surface(session, arguments),
-        Command::Stability(arguments) => commands::stability::stability(session, arguments),
-        Command::Boundary(arguments) => commands::boundary::boundary(session, arguments),
-        Command::Compare(arguments) => commands::compare::compare(session, arguments),
-        Command::Response(arguments) => commands::response::response(session, arguments),
-        Command::Cycle(arguments) => commands::cycle::cycle(session, arguments),
-        Command::Continue(arguments) => commands::continuation::follow(session, arguments),
-        Command::Sweep(arguments) => commands::sweep::sweep(session, arguments),
-        Command::Raster(arguments) => commands::raster::raster(session, arguments),
-        Command::Tip(arguments) => commands::tip::measured_tip(session, arguments),
-        Command::Fit(arguments) => commands::fit::fit(session, arguments),
-        Command::Friction(arguments) => commands::friction::friction(session, arguments),
-        Command::Units(arguments) => commands::units::units(session, arguments),
-        Command::Plot(arguments) => commands::plot::plot(session, arguments),
-        Command::Figures(arguments) => commands::figures::figures(session, arguments),
-        Command::Schema(arguments) => commands::schema::schema(arguments),
-        Command::Completions(arguments) => commands::completions::completions(arguments),
-    }
 }
 
 /// Removes a similar option from the message unless it is as similar as the fields that are suggested.

@@ -12,26 +12,9 @@ in Gamma/k, forces in k sigma, heights in k sigma^2/a.
 ((), (2,))
 """
 
+from . import _commands
 from ._call import run_many
-from ._commands import (
-    boundary,
-    compare,
-    continue_branch,
-    cycle,
-    fit,
-    friction,
-    raster,
-    response,
-    run,
-    stability,
-    surface,
-    sweep,
-    sweep_merge,
-    sweep_raster,
-    tip,
-    units,
-    verify,
-)
+from ._commands import *  # noqa: F403
 from ._instruments import open  # noqa: A004
 from ._picture import Animation, Picture
 from ._records import Record
@@ -58,7 +41,8 @@ from ._warning import StickslipWarning
 __version__ = "0.2.0"
 
 # Without `open`: a star import leaves that of Python alone.
-__all__ = [
+__all__ = sorted([
+    *_commands.__all__,
     "Animation",
     "BoundaryResult",
     "ContinueResult",
@@ -77,24 +61,7 @@ __all__ = [
     "StickslipWarning",
     "SurfaceResult",
     "SweepResult",
-    "boundary",
-    "compare",
-    "continue_branch",
-    "cycle",
-    "fit",
-    "friction",
     "load",
     "loads",
-    "raster",
-    "response",
-    "run",
     "run_many",
-    "stability",
-    "surface",
-    "sweep",
-    "sweep_merge",
-    "sweep_raster",
-    "tip",
-    "units",
-    "verify",
-]
+])

@@ -168,3 +168,6 @@ def units():
 def verify():
     """Whether a saved run keeps its promise, by another memory and a tighter tolerance; RuntimeError if it does not, with
     what was found as its ``result``."""
+
+
+__all__ = [name for name, value in globals().items() if hasattr(value, "__stickslip__")]

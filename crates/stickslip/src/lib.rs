@@ -45,64 +45,7 @@ pub use stickslip_tip as tip;
 pub use stickslip_units as units;
 pub use stickslip_verify as verify;
 
-pub use ask::Ask;
-pub use ask::across::{became_across, history_across, sample_across};
-pub use ask::boundary::{
-    Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
-    SpacingName,
-};
-pub use ask::context::Context;
-pub use ask::continuation::{
-    Continue, ContinueDocument, ContinueFound, CycleBranch, EndName, OverName, SpecialDocument,
-    SpecialName,
-};
-pub use ask::cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
-pub use ask::exponents;
-pub use ask::failure::{Failure, Refused, Typed};
-pub use ask::fit::{
-    AlternativeDocument, DataFitted, Fit, FitDocument, FitFound, FreeName, Measured, NumberFitted,
-    NumberHeld, ScanName,
-};
-pub use ask::fit_image::{
-    FitImage, FitImageDocument, FitImageFound, RetraceDocument, RippleProfileDocument, SlowScanName,
-};
-pub use ask::friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
-pub use ask::lines;
-pub use ask::load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint};
-pub use ask::measured_tip::{
-    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
-    MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
-    SideDocument, SidesDocument,
-};
-pub use ask::points::{Points, each_point};
-pub use ask::raster::{AreaDocument, PathName, Raster, RasterDocument};
-pub use ask::raster_boundary::{
-    RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
-};
-pub use ask::raster_stability::{
-    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterKindName,
-    RasterStability, RasterStabilityDocument, RasterStabilityFound,
-};
-pub use ask::raster_sweep::{RasterSweep, RasterSweepDocument};
-pub use ask::response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
-pub use ask::run::{
-    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
-    SupportPathParameters, SurfaceTable,
-};
-pub use ask::run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became, observed};
-pub use ask::run_many::ask_runs;
-pub use ask::sampling::{Sampling, Times};
-pub use ask::snaking_boundary::{
-    SnakingBoundary, SnakingBoundaryDocument, SnakingBoundaryFound, SnakingCrossing,
-};
-pub use ask::stability::{Stability, StabilityDocument};
-pub use ask::sweep::Sweep;
-pub use ask::units::{
-    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, Units, UnitsDocument,
-};
-pub use ask::walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
-pub use ask::walker_motion::{CircleDocument, WalkerRegime};
-pub use ask::walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
+pub use ask::*;
 pub use document::{Document, Question};
 pub use documents::checkpoint::{CheckpointHead, Mark, Order, RunFormat};
 pub use documents::compare::{
@@ -110,10 +53,6 @@ pub use documents::compare::{
     DifferenceDocument, GridDocument, GridName, GridWork,
 };
 
-pub use ask::model::{
-    GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
-};
-pub use ask::question::{Indentation, NamedTip, Tip, TipName};
 pub use documents::figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
     FigureParameters, MapDocument, NoteDocument, PanelDocument, ScaleName, StyleName,

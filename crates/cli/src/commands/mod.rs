@@ -1,27 +1,27 @@
-//! One file per command.
+//! One file or folder per command, and [the list of them](carried_out).
 
 mod ask;
-pub(crate) mod boundary;
-pub(crate) mod compare;
-pub(crate) mod completions;
-pub(crate) mod continuation;
-pub(crate) mod cycle;
-pub(crate) mod figures;
-pub(crate) mod fit;
-pub(crate) mod friction;
+mod boundary;
+mod compare;
+mod completions;
+mod continuation;
+mod cycle;
+mod figures;
+mod fit;
+mod friction;
 pub(crate) mod model;
-pub(crate) mod plot;
+mod plot;
 pub(crate) mod quantities;
 pub(crate) mod raster;
-pub(crate) mod response;
+mod response;
 pub(crate) mod run;
-pub(crate) mod schema;
-pub(crate) mod stability;
+mod schema;
+mod stability;
 pub(crate) mod surface;
 pub(crate) mod sweep;
-pub(crate) mod tip;
-pub(crate) mod units;
-pub(crate) mod verify;
+mod tip;
+mod units;
+mod verify;
 
 pub(crate) mod fields;
 mod figure;
@@ -32,3 +32,35 @@ mod job;
 mod judged;
 mod progress;
 mod summary;
+
+use crate::arguments::Command;
+use crate::failure::Failure;
+use crate::session::Session;
+
+/// Carries out a command.
+///
+/// # Errors
+/// Those of the command.
+pub(crate) fn carried_out(session: &Session, command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(arguments) => run::run(session, arguments),
+        Command::Verify(arguments) => verify::verify(session, arguments),
+        Command::Surface(arguments) => surface::surface(session, arguments),
+        Command::Stability(arguments) => stability::stability(session, arguments),
+        Command::Boundary(arguments) => boundary::boundary(session, arguments),
+        Command::Compare(arguments) => compare::compare(session, arguments),
+        Command::Response(arguments) => response::response(session, arguments),
+        Command::Cycle(arguments) => cycle::cycle(session, arguments),
+        Command::Continue(arguments) => continuation::follow(session, arguments),
+        Command::Sweep(arguments) => sweep::sweep(session, arguments),
+        Command::Raster(arguments) => raster::raster(session, arguments),
+        Command::Tip(arguments) => tip::measured_tip(session, arguments),
+        Command::Fit(arguments) => fit::fit(session, arguments),
+        Command::Friction(arguments) => friction::friction(session, arguments),
+        Command::Units(arguments) => units::units(session, arguments),
+        Command::Plot(arguments) => plot::plot(session, arguments),
+        Command::Figures(arguments) => figures::figures(session, arguments),
+        Command::Schema(arguments) => schema::schema(arguments),
+        Command::Completions(arguments) => completions::completions(arguments),
+    }
+}

@@ -47,7 +47,67 @@ pub(crate) mod walker;
 pub(crate) mod walker_motion;
 pub(crate) mod walking;
 
-use crate::{Context, Document, Failure, Question};
+pub use across::{became_across, history_across, sample_across};
+pub use boundary::{
+    Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
+    SpacingName,
+};
+pub use context::Context;
+pub use continuation::{
+    Continue, ContinueDocument, ContinueFound, CycleBranch, EndName, OverName, SpecialDocument,
+    SpecialName,
+};
+pub use cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
+pub use failure::{Failure, Refused, Typed};
+pub use fit::{
+    AlternativeDocument, DataFitted, Fit, FitDocument, FitFound, FreeName, Measured, NumberFitted,
+    NumberHeld, ScanName,
+};
+pub use fit_image::{
+    FitImage, FitImageDocument, FitImageFound, RetraceDocument, RippleProfileDocument, SlowScanName,
+};
+pub use friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
+pub use load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint};
+pub use measured_tip::{
+    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
+    MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
+    SideDocument, SidesDocument,
+};
+pub use model::{
+    GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
+};
+pub use points::{Points, each_point};
+pub use question::{Indentation, NamedTip, Tip, TipName};
+pub use raster::{AreaDocument, PathName, Raster, RasterDocument};
+pub use raster_boundary::{
+    RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
+};
+pub use raster_stability::{
+    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterKindName,
+    RasterStability, RasterStabilityDocument, RasterStabilityFound,
+};
+pub use raster_sweep::{RasterSweep, RasterSweepDocument};
+pub use response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
+pub use run::{
+    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
+    SupportPathParameters, SurfaceTable,
+};
+pub use run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became, observed};
+pub use run_many::ask_runs;
+pub use sampling::{Sampling, Times};
+pub use snaking_boundary::{
+    SnakingBoundary, SnakingBoundaryDocument, SnakingBoundaryFound, SnakingCrossing,
+};
+pub use stability::{Stability, StabilityDocument};
+pub use sweep::Sweep;
+pub use units::{
+    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, Units, UnitsDocument,
+};
+pub use walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
+pub use walker_motion::{CircleDocument, WalkerRegime};
+pub use walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};
+
+use crate::{Document, Question};
 
 /// A question that one function answers.
 pub trait Ask: Question {

@@ -1,6 +1,6 @@
 //! Embedding: the history as a state of a few exponentials, which turns (18) into an ordinary differential equation.
 
-use super::{CycleError, lattice};
+use super::{CycleError, TOLERANCES, lattice};
 use std::sync::Arc;
 use stickslip_tip::memory::{Fit, FitError, Retreat, accuracy_needed};
 use stickslip_tip::step::Law;
@@ -170,4 +170,22 @@ impl Embedding {
     pub(super) fn state_len(&self) -> usize {
         1 + 2 * self.short.terms().len() + usize::from(self.wider.inertia.is_some())
     }
+}
+
+/// An error for a tip without a spring, which nothing drags.
+pub(super) fn dragged(model: &Model) -> Result<(), CycleError> {
+    if model.wider().spring { Ok(()) } else { Err(CycleError::NoSpring) }
+}
+
+/// The equations of a model, for this residual.
+pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
+    dragged(model)?;
+    judge(tolerance)?;
+    Embedding::new(model, tolerance)
+}
+
+/// An error for a residual out of range.
+pub(super) fn judge(tolerance: f64) -> Result<(), CycleError> {
+    let usable = (TOLERANCES.0..=TOLERANCES.1).contains(&tolerance);
+    if usable { Ok(()) } else { Err(CycleError::Tolerance(tolerance)) }
 }

@@ -19,7 +19,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod asked;
 mod blocks;
 mod carrying;
 mod carved;
@@ -45,7 +44,6 @@ mod search;
 mod sensitivity;
 mod solve;
 mod start;
-mod steady;
 mod step;
 
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};

@@ -1,18 +1,15 @@
 //! Search for cycles, without a guess or from a motion close to one.
 
-use super::asked::{dragged, embedding, judge};
-use super::embedding::Embedding;
+use super::embedding::{Embedding, dragged, embedding, judge};
 use super::linearisation::Linearisation;
 use super::multipliers::largest_multiplier;
 use super::orbit::{Orbit, Profile};
 use super::solve::{Condition, MOST_WORK, NotClosed, close_if};
 use super::start::{from_onset, from_run, part, small_cycle_exists};
-use super::steady::SteadyMotion;
-use super::{Continuation, End};
-use super::{Cycle, CycleError, Ended, Tried};
+use super::{Continuation, Cycle, CycleError, End, Ended, Tried};
 use std::ops::ControlFlow;
-use stickslip_stability::{Critical, StabilityError, onset_at};
-use stickslip_tip::{Model, Trajectory, stop};
+use stickslip_stability::{Critical, StabilityError, critical, onset_at, unstable_count};
+use stickslip_tip::{Model, TipFunction, Trajectory, stop};
 
 /// Two halves of a cycle with a smaller difference, in σ, are the same.
 const REPEATS_WITHIN: f64 = 1e-7;
@@ -359,4 +356,37 @@ fn solve_if(
     // What swings by no more than its error is steady motion.
     let swings = |cycle: &Cycle| cycle.slips() > 0 && cycle.amplitude_x0() > cycle.error();
     Cycle::new(closed).ok().filter(swings).ok_or(NotClosed::Lost)
+}
+
+/// Linear stability at the parameters of a model.
+pub(super) struct SteadyMotion {
+    /// αc(r); `None` if it does not exist or cannot be found.
+    pub(super) critical: Option<Critical>,
+    /// Whether small deviations from steady motion decay.
+    pub(super) is_stable: bool,
+}
+
+impl SteadyMotion {
+    /// # Errors
+    /// r out of range; in the extended model, roots that cannot be counted.
+    pub(super) fn of(model: &Model) -> Result<Self, StabilityError> {
+        let (wider, tip, r) = (model.wider(), model.tip(), model.r());
+        let critical = match critical(wider, tip, r) {
+            Ok(found) => Some(found),
+            Err(StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. }) => None,
+            Err(error) => return Err(error),
+        };
+        // Under the basic law α alone tells: no roots need be counted.
+        if wider.is_papers() && *tip != TipFunction::Cosine {
+            let is_stable = critical.is_none_or(|at| model.alpha() <= at.alpha);
+            return Ok(Self { critical, is_stable });
+        }
+        let is_stable = match unstable_count(model) {
+            Ok(count) => count == 0,
+            // On the corner of |h| there are no roots to count: small deviations grow from αc on.
+            Err(StabilityError::Corner) => critical.is_some_and(|at| model.alpha() <= at.alpha),
+            Err(error) => return Err(error),
+        };
+        Ok(Self { critical, is_stable })
+    }
 }

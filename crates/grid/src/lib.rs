@@ -44,7 +44,6 @@
 
 mod bell;
 mod cells;
-mod control;
 mod error;
 mod footprint;
 mod marcher;

@@ -1,9 +1,9 @@
 //! The integrator that updates only the cells within reach of the tip.
 
 use crate::cells::Cells;
-use crate::control::{Control, blend, reached, too_small, towards};
 use crate::patch::Patch;
 use crate::scheme::Scheme;
+use crate::stepping::{Control, blend, reached, too_small, towards};
 use crate::tableau::Tableau;
 use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 

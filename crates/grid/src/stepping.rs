@@ -1,4 +1,4 @@
-//! Tolerances and step sizes.
+//! Tolerances and step sizes, and their control.
 
 use crate::GridError;
 
@@ -47,4 +47,59 @@ impl Stepping {
             Err(GridError::Stepping)
         }
     }
+}
+
+/// Hairer, Nørsett and Wanner's elementary controller: a step of error e (1 is allowed) is followed by one 0.9
+/// e^{-1/p} times as long; the factor is limited to the range from 1/5 to 10, and to 1 after a rejection.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Control {
+    /// p
+    order: i32,
+    max_step: f64,
+    rejected: bool,
+    /// The step to try next.
+    pub(crate) step: f64,
+}
+
+impl Control {
+    pub(crate) fn new(order: i32, stepping: &Stepping) -> Self {
+        let step = stepping.first_step.min(stepping.max_step);
+        Self { order, max_step: stepping.max_step, rejected: false, step }
+    }
+
+    /// Whether a step of length `tried`, possibly shortened to end at a requested time, is accepted. The error may be
+    /// infinite but not NaN.
+    pub(crate) fn judge(&mut self, tried: f64, error: f64) -> bool {
+        let mut factor = (0.9 * error.powf(-1.0 / f64::from(self.order))).clamp(0.2, 10.0);
+        let accepted = error <= 1.0;
+        if accepted && self.rejected {
+            factor = factor.min(1.0);
+        }
+        self.rejected = !accepted;
+        let cut_short = tried < self.step;
+        let proposed = (tried * factor).min(self.max_step);
+        self.step = if accepted && cut_short { self.step.max(proposed) } else { proposed };
+        accepted
+    }
+}
+
+/// Whether `t` equals `target` up to round-off.
+pub(crate) fn reached(t: f64, target: f64) -> bool {
+    target - t <= 4.0 * f64::EPSILON * target.abs()
+}
+
+/// The step to take from `t`: `proposed`, or less to end exactly at `target`, also if the rest would only be
+/// round-off.
+pub(crate) fn towards(target: f64, t: f64, proposed: f64) -> f64 {
+    if target - t <= proposed * (1.0 + 1e-9) { target - t } else { proposed }
+}
+
+/// Whether a step is lost in the round-off of t.
+pub(crate) fn too_small(step: f64, t: f64) -> bool {
+    step <= 4.0 * f64::EPSILON * t.abs().max(1e-3)
+}
+
+/// Hairer, Nørsett and Wanner's e5²/√(e5² + 0.01 e3²); without a second estimate e5.
+pub(crate) fn blend(fifth: f64, third: f64) -> f64 {
+    if third > 0.0 { fifth * fifth / fifth.hypot(0.1 * third) } else { fifth }
 }

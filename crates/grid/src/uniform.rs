@@ -1,8 +1,8 @@
 //! The paper's discretisation: N + 1 ordinary differential equations, all advanced at every stage.
 
-use crate::control::{reached, too_small, towards};
 use crate::patch::Patch;
 use crate::scheme::Scheme;
+use crate::stepping::{reached, too_small, towards};
 use crate::three_point::ThreePoint;
 use crate::unknowns::Unknowns;
 use crate::{GridError, Observer, Problem, Request, Run, Stepping, Work};

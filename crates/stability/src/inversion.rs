@@ -10,7 +10,6 @@
 //! on a line right of all roots has a short range, and the trapezoidal rule converges exponentially. With a step of
 //! 2π/P it adds the response at t + nP times e^{-σnP}, n ≥ 1; the truncation of the range is negligible.
 
-use super::pulse::transform;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::Pulse;
@@ -69,4 +68,10 @@ impl Inversion {
     pub fn at(&self, t: f64) -> f64 {
         self.nodes.iter().map(|(lambda, value)| ((lambda * t).exp() * value).re).sum()
     }
+}
+
+/// F̃ext(λ) = ∫ Fext e^{-λt}dt = A W √(2π) exp(λ²W²/2 - λT).
+pub(super) fn transform(pulse: &Pulse, lambda: Complex64) -> Complex64 {
+    let exponent = lambda * (lambda * (0.5 * pulse.width * pulse.width) - pulse.time);
+    exponent.exp() * (pulse.amplitude * pulse.width * (2.0 * PI).sqrt())
 }

@@ -39,7 +39,6 @@ mod newton;
 mod one_sided;
 mod onset;
 mod orbits;
-mod pulse;
 mod raster;
 mod response;
 mod roots;

@@ -1,7 +1,7 @@
 //! Linear response to a weak pulse: the residue sum (A.9).
 
 use super::characteristic::Characteristic;
-use super::pulse::transform;
+use super::inversion::transform;
 use super::scaled_erfc::scaled_erfc;
 use super::{Inversion, Spectrum, StabilityError, leading_roots};
 use num_complex::Complex64;

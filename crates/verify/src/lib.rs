@@ -5,7 +5,6 @@ mod across;
 mod compare;
 mod growth;
 mod repeat;
-mod spread;
 
 pub use across::{verify_across, verify_samples_across};
 pub use compare::{ComparedSamples, Difference, Sample};

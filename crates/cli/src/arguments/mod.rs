@@ -1,6 +1,5 @@
 //! The command line. Arguments are only parsed here; values are checked where they are used.
 
-mod answer;
 mod boundary;
 mod compare;
 mod continuation;
@@ -10,7 +9,6 @@ mod examples;
 mod figures;
 mod fit;
 mod friction;
-mod in_units;
 mod interval;
 mod model;
 mod named;
@@ -30,7 +28,6 @@ mod tip;
 mod units;
 mod verify;
 
-pub(crate) use answer::AnswerArguments;
 pub(crate) use boundary::BoundaryArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use continuation::ContinueArguments;
@@ -39,9 +36,10 @@ pub(crate) use disturbance::DisturbanceArguments;
 pub(crate) use figures::{FigureName, FiguresArguments};
 pub(crate) use fit::FitArguments;
 pub(crate) use friction::FrictionArguments;
-pub(crate) use in_units::InUnitsArguments;
 pub(crate) use interval::Interval;
 pub(crate) use model::{Length, TipArguments};
+pub(crate) use outlet::AnswerArguments;
+pub(crate) use outlet::InUnitsArguments;
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
 pub(crate) use question::{Either, Options, Questions};

@@ -95,7 +95,23 @@ fn no_zeros(text: String) -> Result<String, String> {
 
 /// The number of the next line.
 fn lines_in(text: &str) -> usize {
-    1 + super::sheet::lines(text).count().saturating_sub(usize::from(!text.ends_with(['\n', '\r'])))
+    1 + lines(text).count().saturating_sub(usize::from(!text.ends_with(['\n', '\r'])))
+}
+
+/// The lines of a text, with any line end: LF, CR LF, CR, and the separators of Unicode.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.find(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}']);
+        let (line, end) = end.map_or((rest, ""), |end| rest.split_at(end));
+        let end_of_line =
+            if end.starts_with("\r\n") { 2 } else { end.chars().next().map_or(0, char::len_utf8) };
+        rest = &end[end_of_line..];
+        Some(line)
+    })
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 //! row, as little-endian single-precision numbers.
 //! <http://gwyddion.net/documentation/user-guide-en/gsf.html>
 
-use super::decode::decoded;
-use super::sheet::lines;
+use super::decode::{decoded, lines};
 use super::text::read_bytes;
 use crate::failure::Failure;
 use crate::session::Session;

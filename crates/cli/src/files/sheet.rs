@@ -5,6 +5,7 @@
 //! row are headings if they begin with a letter; other lines are errors. Rows with missing values are counted, with
 //! their line numbers.
 
+use super::decode::lines;
 use super::dialect::{Cell, DIALECTS, Dialect, Separator};
 use super::heading::{Heading, units_of_line, units_of_row};
 use super::text::{LARGEST_TABLE, read_text};
@@ -102,22 +103,6 @@ fn needed(count: usize, admissible: &[usize]) -> String {
     let needed: Vec<String> = admissible.iter().map(usize::to_string).collect();
     let columns = if count == 1 { "column" } else { "columns" };
     format!("{count} {columns} of numbers; {} are needed", needed.join(" or "))
-}
-
-/// The lines of a text, with any line end: LF, CR LF, CR, and the separators of Unicode.
-pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
-    let mut rest = text;
-    std::iter::from_fn(move || {
-        if rest.is_empty() {
-            return None;
-        }
-        let end = rest.find(['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}']);
-        let (line, end) = end.map_or((rest, ""), |end| rest.split_at(end));
-        let end_of_line =
-            if end.starts_with("\r\n") { 2 } else { end.chars().next().map_or(0, char::len_utf8) };
-        rest = &end[end_of_line..];
-        Some(line)
-    })
 }
 
 /// The table in a text, with one of the numbers of columns in `admissible`.

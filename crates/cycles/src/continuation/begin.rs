@@ -2,8 +2,8 @@
 
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
-use crate::asked::embedding;
 use crate::change::Direction;
+use crate::embedding::embedding;
 use crate::orbit::{Orbit, Profile, even_mesh};
 use crate::solve::{Closed, Condition, close};
 use crate::start::{mode, steps_of_mode};

@@ -1,7 +1,7 @@
 //! Figure of the stability boundary, and of the oscillation at onset.
 
+use super::axes::{ALPHA, R};
 use super::drawn::{Drawn, View};
-use super::labels::{ALPHA, R};
 use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;

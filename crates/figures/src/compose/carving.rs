@@ -1,7 +1,7 @@
 //! A run as a scene: the tip on its spring, the surface that it carves, and the spring force.
 
+use super::axes::{LAG, NATURAL, SURFACE, VELOCITY};
 use super::dense::Part;
-use super::labels::{LAG, NATURAL, SURFACE, VELOCITY};
 use super::tip::run_title;
 use crate::axis::extremes;
 use crate::error::FigureError;

@@ -1,7 +1,7 @@
 //! Figure of a comparison: both motions, and their difference.
 
+use super::axes::{LAG, LAG_OF_STEADY_SUPPORT};
 use super::drawn::{Drawn, View};
-use super::labels::{LAG, LAG_OF_STEADY_SUPPORT};
 use super::tip::model_name;
 use crate::error::FigureError;
 use stickslip::{

@@ -1,7 +1,7 @@
 //! The bifurcation diagram: branches of cycles over a parameter.
 
+use super::axes::{ALPHA, R, WIDE};
 use super::drawn::{Drawn, View};
-use super::labels::{ALPHA, R, WIDE};
 use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;

@@ -1,8 +1,8 @@
 //! Figure of a limit cycle: spring, velocity, and the ripple far behind the tip.
 
+use super::axes::{L, NATURAL, SURFACE, VELOCITY};
 use super::dense::Part;
 use super::drawn::{Drawn, View};
-use super::labels::{L, NATURAL, SURFACE, VELOCITY};
 use super::quantity::Quantity;
 use super::run::{against, steady_level, support_level};
 use super::tip::model_name;

@@ -1,7 +1,7 @@
 //! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
+use super::axes::OF_DATA;
 use super::drawn::{Drawn, View};
-use super::labels::OF_DATA;
 use super::measured_tip::with_error;
 use crate::error::FigureError;
 use stickslip::{

@@ -1,7 +1,7 @@
 //! Figure of a fit to an image of ripples: the image with its crests, and the mean ripple beside that of the model.
 
+use super::axes::OF_DATA;
 use super::drawn::{Drawn, View};
-use super::labels::OF_DATA;
 use super::measured_tip::with_error;
 use super::raster::crest_lines;
 use crate::error::FigureError;

@@ -1,7 +1,7 @@
 //! A raster as a scene: the surface line by line with the tip, and the lag along the line.
 
-use super::height_scale::heights_within;
-use super::labels::{LAG, NATURAL};
+use super::axes::heights_within;
+use super::axes::{LAG, NATURAL};
 use super::tip::raster_title;
 use crate::axis::extremes;
 use crate::error::FigureError;

@@ -2,8 +2,8 @@
 
 use super::View;
 #[cfg(feature = "animation")]
-use super::labels::L;
-use super::labels::{ALPHA, EXTENSION, LAG, LAG_OF_STEADY_SUPPORT, N, R, SPRING, SPRING_FORCE, V0};
+use super::axes::L;
+use super::axes::{ALPHA, EXTENSION, LAG, LAG_OF_STEADY_SUPPORT, N, R, SPRING, SPRING_FORCE, V0};
 use super::quantity::settle;
 use crate::error::FigureError;
 #[cfg(feature = "animation")]

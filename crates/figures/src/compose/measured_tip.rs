@@ -1,7 +1,7 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
+use super::axes::OF_DATA;
 use super::drawn::{Drawn, View};
-use super::labels::OF_DATA;
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
 use stickslip::{

@@ -1,5 +1,6 @@
 //! Figures as data, from documents.
 
+mod axes;
 mod boundary;
 #[cfg(feature = "animation")]
 mod carving;
@@ -13,9 +14,7 @@ mod fit_image;
 mod friction;
 #[cfg(feature = "animation")]
 mod growing;
-mod height_scale;
 mod in_units;
-mod labels;
 mod load_map;
 mod measured_tip;
 mod quantity;
@@ -30,7 +29,6 @@ mod surface;
 mod sweep;
 mod tip;
 mod walker;
-mod walking;
 
 use crate::axis::is_range;
 use crate::error::FigureError;

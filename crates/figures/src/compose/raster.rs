@@ -1,10 +1,10 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
+use super::axes::SPRING;
+use super::axes::heights_within;
 use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
-use super::height_scale::heights_within;
-use super::labels::SPRING;
 use super::quantity::Quantity;
 use super::tip::raster_title;
 use crate::error::FigureError;

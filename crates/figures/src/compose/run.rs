@@ -2,11 +2,11 @@
 
 mod ground;
 
+use super::axes::{EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
 #[cfg(feature = "animation")]
 use super::carving::Carving;
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
-use super::labels::{EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
 use super::quantity::Quantity as Said;
 use super::tip::run_title;
 use crate::error::FigureError;

@@ -1,7 +1,7 @@
 //! Figure of the threshold of snaking.
 
+use super::axes::R;
 use super::drawn::{Drawn, View};
-use super::labels::R;
 use super::tip::tip_name;
 use crate::error::FigureError;
 use crate::number::short;

@@ -1,13 +1,14 @@
 //! Figure of growth exponents in the complex plane.
 
 use super::drawn::{Drawn, View};
+use super::quantity::Quantity;
 use super::tip::model_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
     ColourName, ComplexDocument, CurveDocument, FigureDocument, PanelDocument, StabilityDocument,
-    StyleName,
+    StyleName, WalkDocument, WalkingDocument,
 };
 
 /// Smallest fraction of the width for the unstable half-plane.
@@ -78,4 +79,26 @@ fn axes(roots: &[ComplexDocument]) -> ([f64; 2], [f64; 2]) {
     };
     let (x, y) = (of(|root| root.re), of(|root| root.im));
     ([x[0], x[1].max(-UNSTABLE_PART * x[0])], y)
+}
+
+impl Drawn for WalkingDocument {
+    /// A panel for each walk.
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        if self.walks.is_empty() {
+            return Err(FigureError::Nothing("there is no steady walk to draw".into()));
+        }
+        let model = &self.parameters.model_parameters();
+        let title = format!("Steady walks, {}", model_name(model));
+        let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
+        let panel = |walk: &WalkDocument| {
+            let state = if walk.stable { "stable" } else { "unstable" };
+            let name = format!(
+                "v = {}: {state}",
+                Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed))
+            );
+            exponents(&name, &walk.roots, walk.certificate.largest_error)
+        };
+        figure.panels = self.walks.iter().map(panel).collect();
+        Ok(figure)
+    }
 }

@@ -1,7 +1,7 @@
 //! Figures of surfaces and images.
 
+use super::axes::{NATURAL, SURFACE};
 use super::drawn::{Drawn, View};
-use super::labels::{NATURAL, SURFACE};
 use super::quantity::Quantity;
 use super::tip::model_name;
 use crate::axis::extremes;

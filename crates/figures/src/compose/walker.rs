@@ -1,7 +1,7 @@
 //! Figure of a walker: its path with the circular orbits of theory, its speed, and its distance from the origin.
 
+use super::axes::NATURAL;
 use super::drawn::{Drawn, View};
-use super::labels::NATURAL;
 use super::quantity::Quantity;
 use crate::error::FigureError;
 

@@ -3,8 +3,8 @@
 use super::problem::PlaneProblem;
 use super::sheet::Sheet;
 use super::tensor::{PlaneMethod, Stencils, Tensor};
-use crate::control::{Control, blend, reached, too_small, towards};
 use crate::patch::Patch;
+use crate::stepping::{Control, blend, reached, too_small, towards};
 use crate::tableau::Tableau;
 use crate::{GridError, Stepping, Work};
 use std::ops::ControlFlow;

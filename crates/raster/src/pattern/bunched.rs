@@ -12,11 +12,11 @@ use super::sheet::Sheet;
 use super::vector::{MOST_ANGLE, Vector};
 use super::wave::Wave;
 use super::window::Window;
-use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, depth, felt, growth};
+use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, felt, growth};
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::Scanned;
+use crate::surface::{Scanned, carved_depth};
 use ndarray::Array2;
 use std::f64::consts::PI;
 
@@ -74,7 +74,7 @@ pub(super) fn growing(plan: &Plan, lines: &[Line]) -> Option<Doubt> {
 /// Mean carved depth, and the fraction of the relief of the first half of the lines that remains after the second half was
 /// scanned.
 fn depth_and_healing(plan: &Plan, lines: &[Line], window: &Window) -> (f64, f64) {
-    let carved = depth::carved(plan, &lines[window.first..window.end], window.pitch);
+    let carved = carved_depth(plan, &lines[window.first..window.end], window.pitch);
     let left = plan.law.model.wider().left_after(plan.duration(window.first));
     (carved, left.powf(0.5 * (window.end - window.first) as f64))
 }

@@ -1,7 +1,6 @@
 //! The pattern of the lines: ripples and their wave vector, pits, or disorder.
 
 mod bunched;
-mod depth;
 mod doubt;
 mod estimate;
 #[cfg(test)]
@@ -19,7 +18,7 @@ pub use regime::Regime;
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::{Scanned, own_grooves};
+use crate::surface::{Scanned, carved_depth, own_grooves};
 use estimate::Estimate;
 use local::Local;
 use regime::{FLAT, Measures, PITTED};
@@ -192,7 +191,7 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     let heights = Scanned::new(plan, felt(plan, lines, (y[0], y[y.len() - 1]))).heights(&x, &y);
     let own = own_grooves(plan, &lines[first..end], &x);
     let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
-    let depth = depth::carved(plan, &lines[first..end], pitch);
+    let depth = carved_depth(plan, &lines[first..end], pitch);
     let left = plan.law.model.wider().left_after(plan.duration(first));
     let healed = left.powf(0.5 * (end - first) as f64);
     let sheets = Sheets { surface: sheet(heights), own: sheet(own), depth, healed };

@@ -4,18 +4,13 @@ mod axis;
 mod ensemble;
 mod point;
 mod points;
-mod shard;
-mod start;
 
+use crate::documents::table::{Array, Column, Named, Rows, Tabular};
+use crate::{Document, InUnits, Law, Question, StartName, Tip};
 pub use axis::{AxisDocument, AxisName};
 pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
 pub use point::{SourceName, SweepPoint};
 pub use points::SweepPoints;
-pub use shard::ShardDocument;
-pub use start::SweepRunParameters;
-
-use crate::documents::table::{Array, Column, Named, Rows, Tabular};
-use crate::{Document, InUnits, Law, Question, Tip};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
@@ -180,4 +175,53 @@ impl Tabular for SweepDocument {
         let columns = self.columns().into_iter();
         Box::new(columns.filter_map(|(name, column)| Some((name, column.array()?))))
     }
+}
+
+/// Part `index` of `of`: the points whose index is `index` - 1 modulo `of`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShardDocument {
+    /// Index of the part, from 1 to `of`.
+    pub index: usize,
+    /// Number of parts.
+    pub of: usize,
+}
+
+impl ShardDocument {
+    /// The single part of a grid that is not divided.
+    pub const WHOLE: Self = Self { index: 1, of: 1 };
+
+    /// Whether the point with this index belongs to this part.
+    #[must_use]
+    pub fn has(self, index: usize) -> bool {
+        index.checked_rem(self.of).is_some_and(|rest| rest + 1 == self.index)
+    }
+
+    /// The indices of the points in this part, for the given total number.
+    pub fn indices(self, points: usize) -> impl Iterator<Item = usize> + use<> {
+        (self.index.saturating_sub(1)..points).step_by(self.of.max(1))
+    }
+}
+
+/// Runs from a given initial condition, instead of the motion that the tip settles into; parameters of it that vary
+/// are among the axes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepRunParameters {
+    /// Time at which the runs end, in Γ/k.
+    pub until: f64,
+    /// Initial condition.
+    pub start: StartName,
+    /// Start position X, in σ.
+    pub start_position: f64,
+    /// Kick D, in σ.
+    pub kick: f64,
+    /// Start velocity V, in kσ/Γ, if given.
+    pub start_velocity: Option<f64>,
+    /// Amplitude of the noise, in kσ²/a, if given.
+    pub noise: Option<f64>,
+    /// Spacing of the grid of the noise, in σ, if given.
+    pub noise_spacing: Option<f64>,
+    /// Seed of the noise, if given.
+    pub seed: Option<f64>,
 }

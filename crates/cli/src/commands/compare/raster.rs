@@ -1,6 +1,5 @@
-//! `stickslip compare --lines`: a raster against the full equations on rows of cells.
-
-mod across;
+//! `stickslip compare --lines`: a raster against the full equations on rows of cells, or on a plane of
+//! cells if the tip is free to move across the lines.
 
 use super::grid::{grid_work, stepping};
 use super::pace::{PATIENCE, stopped, timed};
@@ -22,8 +21,10 @@ use stickslip::{
     Document, GridName, Physical, Raster, RasterCompareDocument, RasterCompareFound,
     RasterCompareParameters, RasterCompared,
 };
-use stickslip_grid::{GridError, Layer, RowMethod, Scan, ScanLine, Stepping, scan};
-use stickslip_raster::{Line, Path, Plan, RasterError, Scanning};
+use stickslip_grid::{
+    GridError, Layer, PlaneScan, RowMethod, Scan, ScanLine, Stepping, scan, scan_plane,
+};
+use stickslip_raster::{Free, Line, Path, Plan, RasterError, Scanning};
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 
 /// Number of heights compared on each row.
@@ -51,7 +52,7 @@ pub(super) fn compare(session: &Session, arguments: &CompareArguments) -> Result
     let (lines, seconds) = closed(&plan, limit)?;
     let asked = Asked { session, plan: &plan, stepping, times, x, limit };
     let compared = match (&plan.free, &cells.plane) {
-        (Some(free), Some(plane)) => across::on_cells(&asked, free, plane)?,
+        (Some(free), Some(plane)) => on_cells(&asked, free, plane)?,
         _ => on_rows(&asked, (cells.rows, cells.spacing))?,
     };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
@@ -256,4 +257,37 @@ fn explain(error: GridError) -> Failure {
     let advice = "another --step or --grid-tolerance, or fewer lines, may help: a deep groove is stiff, and the grid \
     is explicit";
     Failure::Run(format!("grid: {error}; {advice}"))
+}
+
+/// The raster on cells of a plane.
+fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared, Failure> {
+    let Asked { plan, stepping, times, x, .. } = asked;
+    let (model, wider) = (&plan.law.model, plan.law.model.wider());
+    let lines = scan_lines(plan);
+    let mut y: Vec<f64> = lines.iter().map(|line| line.y).collect();
+    y.sort_by(f64::total_cmp);
+    y.dedup();
+    plane.fit(x[x.len() - 1] - x[0], (y[0], y[y.len() - 1]))?;
+    let scan = PlaneScan {
+        model: (model.alpha(), model.r()),
+        law: (wider.depth_limit, wider.healing_time, wider.inertia),
+        stiffness_across: free.stiffness,
+        products: &plane.products,
+        lines: &lines,
+        zigzag: plan.path == Path::Zigzag,
+        kick: free.kick,
+        force: &|t| [plan.disturbance.value(t), free.disturbance.value(t)],
+    };
+    let points: Vec<[f64; 2]> = y.iter().flat_map(|y| x.iter().map(|x| [*x, *y])).collect();
+    let mut watch = Watch::new(asked.session, lines.len(), asked.limit);
+    let mut line = |done: f64| watch.reached(done);
+    let scanned = scan_plane(&scan, &plane.method, stepping, (times, &points), &mut line);
+    let (scanned, seconds) = watch.ended(scanned)?;
+    let at_times = |at: &Vec<[f64; 2]>| times.iter().copied().zip(at.iter().copied()).collect();
+    let motions = match times.is_empty() {
+        true => scanned.steps,
+        false => scanned.position.iter().map(at_times).collect(),
+    };
+    let u = scanned.u.chunks(x.len()).map(<[f64]>::to_vec).collect();
+    Ok(RasterCompared { x: x.clone(), motions, y, u, work: grid_work(&scanned.work, seconds) })
 }

@@ -1,9 +1,6 @@
 //! `stickslip raster`.
 
-mod heights;
 mod scan;
-
-pub(in crate::commands) use heights::field;
 
 use super::ask::{context, refusal};
 use super::job::{Job, format};
@@ -14,10 +11,13 @@ use crate::commands::in_units::{in_metres, scales};
 use crate::failure::Failure;
 use crate::files::columns::read_area;
 use crate::files::distinct::{Named, distinct};
+use crate::files::gsf::{Frame, gsf};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
-use stickslip::{AreaDocument, Ask, KnownScales, Physical, Raster, RasterDocument, parameter};
+use stickslip::{
+    AreaDocument, Ask, HeightMap, KnownScales, Physical, Raster, RasterDocument, parameter,
+};
 use stickslip_raster::Plan;
 use stickslip_tip::Pulse;
 
@@ -89,4 +89,26 @@ pub(super) fn question<Q: Questions>(
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
     warn_of_idle_pulses(session, pulse, &pulses, (0.0, plan.duration(0)));
     Ok((question, plan))
+}
+
+/// An evenly spaced map, in σ and kσ²/a times these factors.
+pub(in crate::commands) fn field(
+    parameters: &Raster,
+    map: &HeightMap,
+    (length, height, unit): (f64, f64, &str),
+) -> Vec<u8> {
+    let spacing = |v: &[f64]| match v {
+        [first, .., last] => length * (last - first) / (v.len() - 1) as f64,
+        _ => length,
+    };
+    let first = |v: &[f64]| length * v.first().copied().unwrap_or(0.0);
+    let model = parameters.model_parameters();
+    let frame = Frame {
+        title: &format!("u(x,y) of a raster, alpha {}, r {}", model.alpha, model.r),
+        counts: [map.x.len(), map.y.len()],
+        first: [first(&map.x), first(&map.y)],
+        spacing: [spacing(&map.x), spacing(&map.y)],
+        unit,
+    };
+    gsf(&frame, &map.u, height)
 }

@@ -6,9 +6,7 @@ mod measured;
 mod others;
 mod raster;
 mod run;
-mod verify;
 mod walker;
-mod walking;
 
 pub(in crate::commands) use run::{of_across, of_lines, of_run};
 

@@ -1,7 +1,7 @@
 //! The surface after a run, with the tip.
 
 use crate::axis::extremes;
-use crate::compose::labels::{NATURAL, SURFACE};
+use crate::compose::axes::{NATURAL, SURFACE};
 use crate::compose::quantity::Quantity;
 use crate::error::FigureError;
 use crate::number::short;

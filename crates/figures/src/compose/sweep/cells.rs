@@ -2,7 +2,7 @@
 
 use super::varied::{Phase, Varied};
 use crate::cells::ascending;
-use crate::compose::labels::{ALPHA, R};
+use crate::compose::axes::{ALPHA, R};
 use stickslip::{
     CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument,
 };

@@ -3,7 +3,7 @@
 
 use super::varied::{Phase, Varied};
 use crate::axis::extremes;
-use crate::compose::labels::WIDE;
+use crate::compose::axes::WIDE;
 use stickslip::{
     ColourName, CurveDocument, EnsembleDocument, PanelDocument, ScaleName, StatisticsDocument,
     StyleName, SweepDocument, SweepPoint,

@@ -1,6 +1,6 @@
 //! Parameters that a sweep varies, and regimes of its points.
 
-use crate::compose::labels::{ALPHA, R};
+use crate::compose::axes::{ALPHA, R};
 use stickslip::{AxisName, ColourName, RegimeName, SweepParameters, SweepPoint};
 
 /// A parameter that varies.

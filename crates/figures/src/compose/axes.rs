@@ -1,4 +1,7 @@
-//! Labels of axes, and the criterion for a logarithmic axis.
+//! Labels and ranges of axes: the criterion for a logarithmic axis, and the heights that colours cover.
+
+use crate::axis::extremes;
+use stickslip::HeightMap;
 
 /// r, (12).
 pub(super) const R: &str = "r = Γv₀/(kσ)";
@@ -36,3 +39,18 @@ pub(super) const NATURAL: Option<f64> = Some(1.0);
 
 /// Ratio of largest to smallest value above which an axis is logarithmic.
 pub(super) const WIDE: f64 = 30.0;
+
+/// The colour scale covers the heights between these fractions of the length, because pits at the ends are deeper.
+const COLOURED: (f64, f64) = (0.2, 0.85);
+
+/// The lowest and the highest height away from the ends of the lines.
+pub(super) fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
+    let (low, high) = (map.x.first()?, map.x.last()?);
+    let (from, to) = (low + COLOURED.0 * (high - low), low + COLOURED.1 * (high - low));
+    let inside = |x: &f64| (from..=to).contains(x);
+    let of = |row: &Vec<f64>| -> Vec<f64> {
+        map.x.iter().zip(row).filter(|(x, _)| inside(x)).map(|(_, u)| *u).collect()
+    };
+    let (low, high) = extremes(map.u.iter().flat_map(of))?;
+    (low < high).then_some([low, high])
+}

@@ -170,7 +170,6 @@ fn what_has_no_cells_in_a_plane_is_refused_by_name() {
     for (options, words) in [
         ("--grid uniform", ["--grid uniform", "across"]),
         ("--spacing 1e-4", ["--spacing 0.0001", "memory"]),
-        ("--memory fft", ["--stiffness-across 0.25", "the memory fft"]),
         ("--grid windowed --spacing 0.02 --time-limit 0.1", ["--time-limit 0.1", "--spacing"]),
     ] {
         folder.refuses(&format!("{CASE} {options}"), &words);

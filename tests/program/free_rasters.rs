@@ -89,12 +89,10 @@ fn a_sweep_of_free_rasters_knows_trenches() {
 #[test]
 fn what_a_free_raster_does_not_know_is_refused_by_name() {
     let folder = Folder::new("free_refusals");
-    let free = format!("{LINES} --stiffness-across 1");
     for (line, words) in [
         (format!("{LINES} --stiffness-across 0"), ["--stiffness-across 0", "above 0"]),
         (format!("{LINES} --stiffness-across -2"), ["--stiffness-across -2", "above 0"]),
         (format!("{LINES} --kick-across 1"), ["--kick-across 1", "--stiffness-across"]),
-        (format!("{free} --memory fft"), ["--stiffness-across 1", "the memory fft"]),
         (
             "sweep raster --tip gaussian --r 1 --pitch 2 --alpha 1 --lines 9 --length 20 --stiffness-across 0".into(),
             ["--stiffness-across 0", "above 0"],

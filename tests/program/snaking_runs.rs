@@ -205,6 +205,33 @@ fn surfaces_of_runs_across_are_those_that_their_tip_left() {
     folder.refuses("surface damaged.json", &["damaged", "y0 of step"]);
 }
 
+/// Other memories make other errors; each run is resumed, and verified by the lattice.
+#[test]
+fn each_memory_follows_a_tip_across_the_scan() {
+    let folder = Folder::new("memories_across");
+    let line = "run --alpha 1.2 --r 1 --stiffness-across 0.25 --kick-across 0.3 --until 40";
+    let times = "--sample-at 20,30,40";
+    let by_modes = folder.prints_json(&format!("{line} {times}"));
+    assert_eq!(by_modes["work"]["memory"], "modes");
+    for memory in ["direct", "fft"] {
+        let line = format!("{line} --memory {memory}");
+        folder.prints(&format!("{line} {times} --verify -o run.json"));
+        let run = folder.json("run.json");
+        assert_eq!(run["work"]["memory"], memory);
+        assert_eq!(run["verification"]["kept"], true);
+        for name in ["l", "y0"] {
+            for i in 0..3 {
+                let [a, b] = [&run, &by_modes].map(|run| number(&run["samples"][name][i]));
+                assert!((a - b).abs() < 5e-9 && (a - b).abs() > 0.0, "{memory} {name}: {a} {b}");
+            }
+        }
+        folder.prints(&format!("{line} -o whole.json --checkpoint run.ck --checkpoint-every 17"));
+        let whole = timeless(folder.json("whole.json"));
+        folder.prints("run --resume run.ck");
+        assert!(whole == timeless(folder.json("whole.json")), "{memory}");
+    }
+}
+
 #[test]
 fn what_is_not_there_across_the_scan_is_refused_by_name() {
     let folder = Folder::new("across_refused");

@@ -93,6 +93,12 @@ impl<'a> WatchedAcross<'a> {
         self.running.work()
     }
 
+    /// Name of the memory in use, and the reason for it.
+    #[must_use]
+    pub fn memory(&self) -> (&'static str, String) {
+        self.running.memory()
+    }
+
     /// Number of layers so far, and their error.
     #[must_use]
     pub fn layers(&self) -> Layers {

@@ -12,7 +12,7 @@ use super::{
 };
 use std::ops::ControlFlow;
 use stickslip_tip::planar::{PlanarRunning, PlanarScenario, Step, Trajectory};
-use stickslip_tip::{MOST_STEPS, RunError, Scenario};
+use stickslip_tip::{MOST_STEPS, MemoryChoice, RunError, Scenario};
 
 /// Memory of the second run.
 const MEMORY: &str = "lattice";
@@ -88,7 +88,8 @@ struct Second<O> {
 impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
     fn of(run: &PlanarScenario, until: f64, observe: O) -> Self {
         let with = |tolerance: f64| {
-            let along = Scenario { tolerance, ..run.along.clone() };
+            let memory = MemoryChoice::Auto;
+            let along = Scenario { tolerance, memory, ..run.along.clone() };
             PlanarScenario { along, ..run.clone() }
         };
         let can_be_met = |tolerance: f64| with(tolerance).validate().is_ok();

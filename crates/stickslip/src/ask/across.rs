@@ -53,8 +53,7 @@ pub fn became_across(
     seconds: f64,
 ) -> Result<RunEnd, PlanarError> {
     let along = &scenario.along;
-    let reason = format!("the only one across the scan; up to {} layers", running.layers().most);
-    let work = WorkDocument::of(&running.work(), ("modes", reason), seconds);
+    let work = WorkDocument::of(&running.work(), running.memory(), seconds);
     let across = running.across();
     let has_died_out = across.largest_late(LATE) <= DIED_OUT * along.tolerance;
     let swing = across.snaking(along.tolerance).filter(|_| !has_died_out);

@@ -275,7 +275,8 @@ impl Raster {
             RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
                 Refused::number("tolerance", *tolerance, RunError::Tolerance(*tolerance))
             }
-            RasterError::Line { error: RunError::Modes(error), .. } => {
+            RasterError::Line { error: RunError::Modes(error), .. }
+            | RasterError::Free { error: PlanarError::Fit(error), .. } => {
                 let value = Some("modes".into());
                 Refused { parameter: "memory".into(), value, why: error.to_string() }
             }

@@ -537,6 +537,10 @@ impl Run {
             PlanarError::NoFootprint => Refused::whole("width_y", error).into(),
             PlanarError::TwoSides => Refused::whole("tip", error).into(),
             PlanarError::Products(_) => Refused::whole("tip", error).into(),
+            PlanarError::Fit(_) => {
+                let value = Some("modes".into());
+                Refused { parameter: "memory".into(), value, why: error.to_string() }.into()
+            }
             error => Failure::Failed(error.to_string()),
         }
     }

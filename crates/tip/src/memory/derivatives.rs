@@ -1,5 +1,7 @@
 //! The groove near the tip as a power series of the position.
 
+use crate::TipFunction;
+
 /// Largest number of derivatives.
 pub const ROOM: usize = 32;
 
@@ -31,6 +33,22 @@ pub struct SteadyPast {
     pub healing: f64,
     /// w0, multiplied by its undecayed part.
     pub weight: f64,
+}
+
+impl SteadyPast {
+    /// Its groove with slope and curvature at a displacement from the tip: φ/v of the profile of steady motion φ, by
+    /// φ' = sφ - f with s = 1/(vT).
+    pub(crate) fn groove(&self, tip: &TipFunction, displacement: f64) -> [f64; 3] {
+        let (x, s) = (displacement + self.distance, self.healing / self.velocity);
+        if tip.reach().is_some_and(|reach| x >= reach) {
+            return [0.0; 3];
+        }
+        let density = self.weight / self.velocity;
+        let profile = tip.fading_tail(x, s);
+        let (value, slope) = tip.value_and_slope(x);
+        let steep = s * profile - value;
+        [profile, steep, s * steep - slope].map(|told| density * told)
+    }
 }
 
 impl Derivatives {

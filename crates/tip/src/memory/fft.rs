@@ -16,7 +16,7 @@ use stickslip_convolution::{Convolver, Density, Field, Kernel};
 /// within reach. [`forgotten`](Self::forgotten) reports whether the tip returned to positions that were dropped. For
 /// a footprint without reach (J0) the window contains all positions and grows with them; the newest steps are then
 /// summed directly for a while, so that several steps share each of the longer transforms.
-pub(super) struct Fft {
+pub(crate) struct Fft {
     tip: TipFunction,
     convolver: Convolver,
     density: Density,
@@ -42,7 +42,7 @@ struct Heights {
 
 /// Change of the lattice when nodes were added.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Lattice {
+pub(crate) enum Lattice {
     /// No change.
     Same,
     /// Its origin moved by this much.
@@ -68,7 +68,7 @@ const CELLS_PER_DIRECT_STEP: usize = 512;
 
 impl Fft {
     /// A lattice with a past: displacements from the present position of the tip, and times spent there.
-    pub(super) fn new(tip: &TipFunction, past: impl Iterator<Item = (f64, f64)>) -> Self {
+    pub(crate) fn new(tip: &TipFunction, past: impl Iterator<Item = (f64, f64)>) -> Self {
         let pending: Vec<_> = past.collect();
         let look = longest_look(tip);
         let extent = pending.iter().fold(0.0, |m: f64, (x, _)| m.max(x.abs()));
@@ -94,7 +94,7 @@ impl Fft {
     }
 
     /// As [`Memory::remember`](super::groove::Memory::remember).
-    pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) -> Lattice {
+    pub(crate) fn remember(&mut self, position: &[f64], weight: &[f64]) -> Lattice {
         let Some(moved) = position.last() else { return Lattice::Same };
         let here = self.position;
         self.pending.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
@@ -120,12 +120,79 @@ impl Fft {
     }
 
     /// Multiplies all weights by a factor.
-    pub(super) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale(&mut self, factor: f64) {
         self.pending.iter_mut().for_each(|(_, weight)| *weight *= factor);
         self.density.scale(factor);
         let first = self.field.first_cell();
         self.convolver.convolve(&self.density, first, &mut self.field);
         self.heights.iter_mut().for_each(|heights| heights.current = false);
+    }
+
+    /// Height, slope and curvature at a displacement from the tip, after [`prepare`](Self::prepare).
+    pub(crate) fn jet(&self, at: f64) -> [f64; 3] {
+        let x = self.position + at;
+        let (slope, curvature) = self.field.value_and_derivative(x);
+        let height = self.heights.as_ref().map_or(0.0, |heights| heights.field.value(x));
+        let mut jet = [height, slope, curvature];
+        for (position, weight) in &self.pending {
+            let distance = x - position;
+            let (slope, curvature) = self.tip.slope_and_curvature(distance);
+            let of_node = [self.tip.value(distance), slope, curvature];
+            jet.iter_mut().zip(of_node).for_each(|(sum, of_node)| *sum += weight * of_node);
+        }
+        jet
+    }
+
+    /// Brings the field of heights up to date.
+    pub(crate) fn prepare(&mut self) {
+        self.heights();
+    }
+
+    /// A lattice without a past, for a tip at the same position about the same origin.
+    pub(crate) fn empty_copy(&self) -> Self {
+        let mut copy = Self::new(&self.tip, std::iter::empty());
+        (copy.position, copy.known) = (self.position, self.known.clone());
+        copy.convolver.convolve(&copy.density, self.field.first_cell(), &mut copy.field);
+        copy
+    }
+
+    /// Changes the densities of lattices for the same nodes with different weights: `change` gets for each cell the
+    /// densities of all of them.
+    pub(crate) fn mix(all: &mut [Self], change: impl FnOnce(&mut [f64])) {
+        all.iter_mut().for_each(|fft| {
+            fft.fold();
+        });
+        let ranges = all.iter().map(|fft| fft.density.range()).filter(|range| !range.is_empty());
+        let union = |a: Range<i64>, b: Range<i64>| a.start.min(b.start)..a.end.max(b.end);
+        let Some(cells) = ranges.reduce(union) else { return };
+        let (count, length) = (all.len(), (cells.end - cells.start) as usize);
+        let mut table = vec![0.0; count * length];
+        let mut column = vec![0.0; length];
+        for (m, fft) in all.iter().enumerate() {
+            fft.density.copy_window(cells.start, &mut column);
+            table.iter_mut().skip(m).step_by(count).zip(&column).for_each(|(to, from)| *to = *from);
+        }
+        change(&mut table);
+        for (m, fft) in all.iter_mut().enumerate() {
+            let sums: Vec<f64> = table.iter().skip(m).step_by(count).copied().collect();
+            let spacing = fft.convolver.spacing();
+            let density = Density::from_parts(spacing, cells.start, sums, vec![0.0; length]);
+            fft.density = density.unwrap_or_else(|| Density::new(spacing));
+            fft.scale(1.0);
+        }
+    }
+
+    /// Distance behind the farthest point within which no position is dropped.
+    pub(crate) fn retreat(&self) -> f64 {
+        (self.kept() - self.convolver.length() as i64) as f64 * self.convolver.spacing()
+    }
+
+    /// Number of real numbers in the lattice and its fields.
+    pub(crate) fn size(&self) -> usize {
+        let range = self.density.range();
+        2 * (range.end - range.start) as usize
+            + 2 * self.convolver.length()
+            + 2 * self.pending.len()
     }
 
     /// Adds pending nodes to the density, and moves the field to the present position of the tip.

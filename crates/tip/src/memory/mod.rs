@@ -11,6 +11,7 @@
 mod choice;
 mod derivatives;
 mod direct;
+mod fading;
 mod fft;
 mod groove;
 mod modes;
@@ -20,9 +21,12 @@ mod report;
 
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use derivatives::{Derivatives, ROOM, SteadyPast};
+pub(crate) use fading::Fading;
+pub(crate) use fft::Fft;
 pub use groove::{Groove, Memory, longest_look};
 pub(crate) use modes::Powers;
 pub use modes::{Fit, FitCertificate, FitError, Retreat, Term, accuracy_needed, displacement};
 pub(crate) use modes::{HIGHEST_DEGREE, LOWEST_DEGREE, expansion_lengths};
 pub use policy::Policy;
+pub(crate) use record::Record;
 pub use report::{MemoryReport, Sum};

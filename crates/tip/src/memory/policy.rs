@@ -1,19 +1,18 @@
 //! Choice between `direct`, `fft` and `modes`, in this file only.
 
-mod fading;
 mod retreats;
 mod saved;
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 use super::derivatives::{Derivatives, SteadyPast};
 use super::direct;
+use super::fading::Fading;
 use super::fft::{Fft, Lattice};
 use super::groove::{Groove, Memory, range};
 use super::modes::{Fit, FitError, Modes, Retreat};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
-use fading::Fading;
 use retreats::Retreats;
 use std::sync::Arc;
 
@@ -207,6 +206,22 @@ impl Policy {
                 }
             }
             (Now::Direct | Now::Modes(..), None) => unreachable!("they have a record"),
+        }
+    }
+}
+
+impl Policy {
+    /// All sums times a factor.
+    #[cold]
+    fn scale(&mut self, factor: f64) {
+        self.record.iter_mut().for_each(|record| record.scale(factor));
+        match &mut self.now {
+            Now::Direct => {}
+            Now::Fft(fft, _) => fft.scale(factor),
+            Now::Modes(modes, retreats) => {
+                modes.scale(factor);
+                retreats.fft.iter_mut().for_each(|fft| fft.scale(factor));
+            }
         }
     }
 }

@@ -12,6 +12,7 @@ mod saved;
 use crate::TipFunction;
 use crate::collocation::STAGES;
 use bins::Bins;
+use std::ops::Range;
 
 /// Number of nodes kept unchanged in a buffer of bounded size: for a tip that moves on, twice as many as lie within
 /// the distance kept, so that most are dropped without compression.
@@ -21,7 +22,7 @@ const ORIGIN_STEP: f64 = 64.0;
 
 /// Positions with the times spent there.
 #[derive(Debug, Clone)]
-pub(super) struct Record {
+pub(crate) struct Record {
     reach: f64,
     /// Position of the tip, relative to an origin that moves with it: positions remain small, so that their
     /// differences keep full precision however far the tip travels.
@@ -51,7 +52,7 @@ struct Block {
 
 impl Record {
     /// An unbounded buffer.
-    pub(super) fn whole(tip: &TipFunction) -> Self {
+    pub(crate) fn whole(tip: &TipFunction) -> Self {
         Self::new(tip, Kept::All(vec![]), vec![])
     }
 
@@ -72,12 +73,12 @@ impl Record {
     }
 
     /// Position of the tip, about the origin of the nodes.
-    pub(super) fn position(&self) -> f64 {
+    pub(crate) fn position(&self) -> f64 {
         self.position
     }
 
     /// Nodes that have not been compressed, about their origin.
-    pub(super) fn nodes(&self) -> &[(f64, f64)] {
+    pub(crate) fn nodes(&self) -> &[(f64, f64)] {
         &self.nodes
     }
 
@@ -94,7 +95,7 @@ impl Record {
     }
 
     /// As [`Memory::remember`](super::groove::Memory::remember).
-    pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
+    pub(crate) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(moved) = position.last() else { return };
         match &self.kept {
             Kept::All(_) => self.push_blocks(position, weight),
@@ -188,7 +189,7 @@ impl Record {
     }
 
     /// Multiplies all weights by a factor.
-    pub(super) fn scale(&mut self, factor: f64) {
+    pub(crate) fn scale(&mut self, factor: f64) {
         self.nodes.iter_mut().for_each(|(_, weight)| *weight *= factor);
         if let Kept::Gathered(bins) = &mut self.kept {
             bins.moments.iter_mut().flatten().for_each(|moment| *moment *= factor);
@@ -222,12 +223,21 @@ impl Record {
         low: f64,
         high: f64,
     ) -> impl Iterator<Item = &[(f64, f64)]> + Clone {
+        self.places_near(low, high).map(|places| &self.nodes[places])
+    }
+
+    /// The same as places in [`nodes`](Self::nodes).
+    pub(crate) fn places_near(
+        &self,
+        low: f64,
+        high: f64,
+    ) -> impl Iterator<Item = Range<usize>> + Clone {
         let seen = move |b: &Block| b.high >= low - self.reach && b.low <= high + self.reach;
         let mut start = 0;
         self.blocks().iter().filter_map(move |block| {
-            let nodes = &self.nodes[start..block.end];
+            let places = start..block.end;
             start = block.end;
-            seen(block).then_some(nodes)
+            seen(block).then_some(places)
         })
     }
 

@@ -68,6 +68,13 @@ impl Frame {
         }
     }
 
+    /// A frame for a memory that has no layers: any position is within it.
+    pub(super) fn without_layers(width: f64, reach: f64) -> Self {
+        let radii = Radii { tip: f64::INFINITY, visits: f64::INFINITY };
+        let frame = Self::new((width, false), reach, 0.0);
+        Self { radii, known: vec![radii], ..frame }
+    }
+
     /// η of a position y.
     pub(super) fn eta(&self, y: f64) -> f64 {
         (y - self.center) / self.width
@@ -105,7 +112,9 @@ impl Frame {
         while self.known.len() < groups {
             self.know_next().ok_or(Damaged::OutOfRange)?;
         }
-        self.radii = self.known[groups - 1];
+        if groups > 0 {
+            self.radii = self.known[groups - 1];
+        }
         Ok(())
     }
 

@@ -12,6 +12,7 @@
 
 use super::layers::{LANES, Lanes, recenter};
 use super::modes::Jet;
+use super::past::Layered;
 use crate::elementary::exp;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
@@ -75,122 +76,6 @@ impl Lattice {
         })
     }
 
-    /// Largest allowed distance of the tip behind its farthest point.
-    pub(super) fn retreat(&self) -> f64 {
-        self.kept - self.reach
-    }
-
-    /// Distance of the tip behind its farthest point.
-    pub(super) fn behind(&self) -> f64 {
-        self.farthest
-    }
-
-    /// Number of groups of lanes that contain the layers.
-    pub(super) fn groups(&self) -> usize {
-        self.groups
-    }
-
-    /// Number of real numbers in the lattice.
-    pub(super) fn size(&self) -> usize {
-        self.nodes.len() * LANES
-    }
-
-    /// Writes the lattice points.
-    pub(super) fn save(&self, state: &mut State) {
-        state.number(self.first);
-        state.number(self.farthest);
-        state.numbers(self.nodes.as_flattened().iter().copied());
-    }
-
-    /// Reads lattice points with this number of groups of layers.
-    pub(super) fn restore(&mut self, state: &mut Reader, groups: usize) -> Result<(), Damaged> {
-        (self.first, self.farthest) = (state.finite()?, state.number()?);
-        let nodes = state.numbers()?;
-        if !nodes.len().is_multiple_of(groups * LANES) {
-            return Err(Damaged::OutOfRange);
-        }
-        self.nodes = nodes.as_chunks::<LANES>().0.to_vec();
-        self.groups = groups;
-        Ok(())
-    }
-
-    /// Changes the number of layers; new layers are 0.
-    pub(super) fn resize(&mut self, groups: usize) {
-        let kept = groups.min(self.groups);
-        let mut nodes = vec![[0.0; LANES]; self.count() * groups];
-        if kept > 0 {
-            let old = self.nodes.chunks_exact(self.groups);
-            for (new, old) in nodes.chunks_exact_mut(groups).zip(old) {
-                new[..kept].copy_from_slice(&old[..kept]);
-            }
-        }
-        (self.nodes, self.groups) = (nodes, groups);
-    }
-
-    /// Moves the center of the layers by a number of widths.
-    pub(super) fn recenter(&mut self, distance: f64) {
-        recenter(distance, &mut self.nodes, self.groups);
-    }
-
-    /// Multiplies the whole past by a factor.
-    pub(super) fn fade(&mut self, factor: f64) {
-        self.nodes.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
-    }
-
-    /// Adds a steady past on a line with these layers.
-    pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
-        let end = -past.distance;
-        self.hold(end - self.kept, end + NOTHING * self.spread);
-        for (j, node) in self.nodes.chunks_exact_mut(self.groups).enumerate() {
-            let x = self.first + j as f64 * self.spacing;
-            let left = self.left.fading_tail(x - end, past.healing / past.velocity);
-            let weight = past.weight * left / past.velocity;
-            add(node, phi, weight);
-        }
-        self.farthest = self.farthest.max(end);
-    }
-
-    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
-    /// layers of each node multiplied by its weight.
-    pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
-        let Some(moved) = position.last() else { return };
-        let near = NOTHING * self.spread;
-        for (position, weighted) in position.iter().zip(weighted.chunks_exact(self.groups)) {
-            self.hold(position - near, position + near);
-            let from = index((position - near - self.first) / self.spacing);
-            let nodes = self.nodes.chunks_exact_mut(self.groups).enumerate().skip(from);
-            for (j, node) in nodes.take(index(2.0 * near / self.spacing) + 2) {
-                let z = (self.first + j as f64 * self.spacing - position) / self.spread;
-                add(node, weighted, exp(-0.5 * z * z));
-            }
-            self.farthest = self.farthest.max(*position);
-        }
-        self.first -= moved;
-        self.farthest -= moved;
-        self.forget();
-    }
-
-    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    pub(super) fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
-        jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
-        let from = index((displacement - self.reach - self.first) / self.spacing);
-        let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);
-        for (j, node) in nodes.take(index(2.0 * self.reach / self.spacing) + 2) {
-            let distance = displacement - (self.first + j as f64 * self.spacing);
-            let mut sums = [0.0; 3];
-            for [amplitude, center, q] in &self.terms {
-                let z = (distance - center) / q;
-                let value = amplitude * exp(-0.5 * z * z);
-                sums[0] += value;
-                sums[1] -= z / q * value;
-                sums[2] += (z * z - 1.0) / (q * q) * value;
-            }
-            for (told, sum) in jet.iter_mut().zip(sums) {
-                add(told, node, sum);
-            }
-        }
-    }
-
     fn count(&self) -> usize {
         self.nodes.len().checked_div(self.groups).unwrap_or(0)
     }
@@ -221,6 +106,111 @@ impl Lattice {
             let dropped = index(behind - kept).min(self.count());
             self.nodes.drain(..dropped * self.groups);
             self.first += dropped as f64 * self.spacing;
+        }
+    }
+}
+
+impl Layered for Lattice {
+    fn retreat(&self) -> f64 {
+        self.kept - self.reach
+    }
+
+    fn behind(&self) -> f64 {
+        self.farthest
+    }
+
+    fn groups(&self) -> usize {
+        self.groups
+    }
+
+    fn size(&self) -> usize {
+        self.nodes.len() * LANES
+    }
+
+    fn save(&self, state: &mut State) {
+        state.number(self.first);
+        state.number(self.farthest);
+        state.numbers(self.nodes.as_flattened().iter().copied());
+    }
+
+    fn restore(&mut self, state: &mut Reader, groups: Option<usize>) -> Result<(), Damaged> {
+        (self.first, self.farthest) = (state.finite()?, state.number()?);
+        let (nodes, groups) = (state.numbers()?, groups.ok_or(Damaged::OutOfRange)?);
+        if !nodes.len().is_multiple_of(groups * LANES) {
+            return Err(Damaged::OutOfRange);
+        }
+        self.nodes = nodes.as_chunks::<LANES>().0.to_vec();
+        self.groups = groups;
+        Ok(())
+    }
+
+    fn resize(&mut self, groups: usize) {
+        let kept = groups.min(self.groups);
+        let mut nodes = vec![[0.0; LANES]; self.count() * groups];
+        if kept > 0 {
+            let old = self.nodes.chunks_exact(self.groups);
+            for (new, old) in nodes.chunks_exact_mut(groups).zip(old) {
+                new[..kept].copy_from_slice(&old[..kept]);
+            }
+        }
+        (self.nodes, self.groups) = (nodes, groups);
+    }
+
+    fn recenter(&mut self, distance: f64) {
+        recenter(distance, &mut self.nodes, self.groups);
+    }
+
+    fn fade(&mut self, factor: f64) {
+        self.nodes.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
+    }
+
+    fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
+        let end = -past.distance;
+        self.hold(end - self.kept, end + NOTHING * self.spread);
+        for (j, node) in self.nodes.chunks_exact_mut(self.groups).enumerate() {
+            let x = self.first + j as f64 * self.spacing;
+            let left = self.left.fading_tail(x - end, past.healing / past.velocity);
+            let weight = past.weight * left / past.velocity;
+            add(node, phi, weight);
+        }
+        self.farthest = self.farthest.max(end);
+    }
+
+    fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
+        let Some(moved) = position.last() else { return };
+        let near = NOTHING * self.spread;
+        for (position, weighted) in position.iter().zip(weighted.chunks_exact(self.groups)) {
+            self.hold(position - near, position + near);
+            let from = index((position - near - self.first) / self.spacing);
+            let nodes = self.nodes.chunks_exact_mut(self.groups).enumerate().skip(from);
+            for (j, node) in nodes.take(index(2.0 * near / self.spacing) + 2) {
+                let z = (self.first + j as f64 * self.spacing - position) / self.spread;
+                add(node, weighted, exp(-0.5 * z * z));
+            }
+            self.farthest = self.farthest.max(*position);
+        }
+        self.first -= moved;
+        self.farthest -= moved;
+        self.forget();
+    }
+
+    fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+        jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
+        let from = index((displacement - self.reach - self.first) / self.spacing);
+        let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);
+        for (j, node) in nodes.take(index(2.0 * self.reach / self.spacing) + 2) {
+            let distance = displacement - (self.first + j as f64 * self.spacing);
+            let mut sums = [0.0; 3];
+            for [amplitude, center, q] in &self.terms {
+                let z = (distance - center) / q;
+                let value = amplitude * exp(-0.5 * z * z);
+                sums[0] += value;
+                sums[1] -= z / q * value;
+                sums[2] += (z * z - 1.0) / (q * q) * value;
+            }
+            for (told, sum) in jet.iter_mut().zip(sums) {
+                add(told, node, sum);
+            }
         }
     }
 }

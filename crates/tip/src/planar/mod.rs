@@ -19,6 +19,7 @@ mod bells;
 mod chain;
 mod earlier;
 mod extent;
+mod fields;
 mod frame;
 mod ground;
 mod history;
@@ -34,6 +35,7 @@ mod scenario;
 mod spline;
 mod stages;
 mod texture;
+mod visits;
 mod weighing;
 
 pub use earlier::{EarlierGrooves, GrooveJet, GrooveRows, RowLattice};

@@ -1,22 +1,26 @@
 //! The memory of one product g(x) h(y) of the footprint: its past, and the layers of it.
 
 use super::bells::Bells;
+use super::fields::Fields;
 use super::frame::Frame;
 use super::lattice::Lattice;
 use super::layers::{LANES, Lanes, dot, values};
 use super::modes::Modes;
-use super::past::Past;
+use super::past::{Layered, Past};
 use super::products::Product;
+use super::visits::Visits;
 use crate::TipFunction;
 use crate::memory::{Fit, FitError, Retreat, SteadyPast};
+use crate::state::{Damaged, Reader, State};
 
 /// g, h, and what all positions of the tip left of them.
-#[derive(Debug, Clone)]
 pub(super) struct Part {
     pub(super) along: TipFunction,
     pub(super) bells: Bells,
     pub(super) past: Past,
     pub(super) frame: Frame,
+    /// All positions, instead of layers of them.
+    visits: Option<Visits>,
     /// Factor from the error of the layers of a single Gaussian to that of f.
     size: f64,
 }
@@ -32,12 +36,17 @@ pub(super) enum Storage {
     Modes(Retreat, bool),
     /// The lattice alone.
     Lattice,
+    /// Densities, convolved by FFT.
+    Fft,
+    /// All positions.
+    Direct,
 }
 
 impl Part {
     /// An empty memory.
     pub(super) fn new(product: &Product, storage: Storage) -> Result<Self, FitError> {
         let Product { along, bells, size, slope_error, layer_error } = product;
+        let lattice = || Lattice::new(along).map(|lattice| Box::new(lattice) as Box<dyn Layered>);
         let past = match storage {
             Storage::Modes(back, with_lattice) => {
                 let fit = Fit::cached(along, *slope_error, back).or_else(|error| match error {
@@ -47,14 +56,36 @@ impl Part {
                     }
                     error => Err(error),
                 });
-                let modes = Modes::new(fit?);
-                Past::new(modes, if with_lattice { Lattice::new(along) } else { None })
+                Past::new(Modes::new(fit?), lattice().filter(|_| with_lattice))
             }
-            Storage::Lattice => Past::of_lattice(Lattice::new(along).ok_or(FitError::NeverFades)?),
+            Storage::Lattice => Past::without_modes(Some(lattice().ok_or(FitError::NeverFades)?)),
+            Storage::Fft => Past::without_modes(Some(Box::new(Fields::new(along)))),
+            Storage::Direct => Past::without_modes(None),
         };
+        let visits = matches!(storage, Storage::Direct).then(|| Visits::new(along));
         let reach = along.reach().ok_or(FitError::NeverFades)?;
-        let frame = Frame::new((bells.width(), !bells.is_single()), reach, *layer_error);
-        Ok(Self { along: along.clone(), bells: bells.clone(), past, frame, size: *size })
+        let frame = match visits {
+            Some(_) => Frame::without_layers(bells.width(), reach),
+            None => Frame::new((bells.width(), !bells.is_single()), reach, *layer_error),
+        };
+        Ok(Self { along: along.clone(), bells: bells.clone(), past, frame, visits, size: *size })
+    }
+
+    pub(super) fn save(&self, state: &mut State) {
+        self.past.save(state);
+        self.visits.iter().for_each(|visits| visits.save(state));
+        self.frame.save(state);
+    }
+
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        self.past.restore(state)?;
+        self.visits.iter_mut().try_for_each(|visits| visits.restore(state))?;
+        self.frame.restore(state, self.past.groups())
+    }
+
+    /// Number of real numbers in the memory.
+    pub(super) fn memory_size(&self) -> usize {
+        self.past.size() + self.visits.as_ref().map_or(0, Visits::size) + self.frame.size()
     }
 
     /// Bound on the error of f and v `f_y` due to the layers.
@@ -64,6 +95,9 @@ impl Part {
 
     /// Adds a steady past on the line y = 0.
     pub(super) fn remember_steady(&mut self, past: &SteadyPast) {
+        if let Some(visits) = &mut self.visits {
+            return visits.remember_steady(past);
+        }
         let mut phi = vec![[0.0; LANES]; self.past.groups()];
         values(self.frame.eta(0.0), 1.0, &mut phi);
         self.past.remember_steady(past, &phi);
@@ -78,6 +112,10 @@ impl Part {
         (y, left): (f64, f64),
         room: &mut Vec<Lanes>,
     ) {
+        if let Some(visits) = &mut self.visits {
+            visits.fade(left);
+            return visits.remember((along, across), weights, y);
+        }
         let groups = self.past.groups();
         room.resize(groups * along.len(), [0.0; LANES]);
         for ((layers, e), weight) in room.chunks_exact_mut(groups).zip(across).zip(weights) {
@@ -91,6 +129,10 @@ impl Part {
 
     /// ∫ g h over the past at a displacement d from the tip along the scan, at y across it.
     pub(super) fn at(&self, d: f64, y: f64, room: &mut Room) -> Jet {
+        if let Some(visits) = &self.visits {
+            let of_past = |past: &SteadyPast| self.of_line(past.groove(&self.along, d), y);
+            return visits.at((d, y), |x, y| self.of_visit(x, y), of_past);
+        }
         let groups = self.past.groups();
         let Room { layers, scratch } = room;
         layers.resize(5 * groups, [0.0; LANES]);
@@ -112,6 +154,11 @@ impl Part {
     /// g h and derivatives at this distance.
     pub(super) fn of_visit(&self, x: f64, y: f64) -> Jet {
         let (g, (g1, g2)) = (self.along.value(x), self.along.slope_and_curvature(x));
+        self.of_line([g, g1, g2], y)
+    }
+
+    /// The same for a function of x with its derivatives, instead of g.
+    fn of_line(&self, [g, g1, g2]: [f64; 3], y: f64) -> Jet {
         let [h, h1, h2] = self.bells.jet(y);
         Jet { value: g * h, push: [g1 * h, g * h1], bend: [g2 * h, g1 * h1, g * h2] }
     }
@@ -125,6 +172,7 @@ pub(super) struct Room {
 }
 
 /// An integral over f, or f itself, with first and second derivatives.
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Jet {
     pub(super) value: f64,
     pub(super) push: [f64; 2],
@@ -132,14 +180,17 @@ pub(super) struct Jet {
 }
 
 impl Jet {
+    /// Adds another one times a factor.
+    pub(super) fn add(&mut self, factor: f64, jet: &Self) {
+        self.value += factor * jet.value;
+        self.push.iter_mut().zip(jet.push).for_each(|(sum, push)| *sum += factor * push);
+        self.bend.iter_mut().zip(jet.bend).for_each(|(sum, bend)| *sum += factor * bend);
+    }
+
     /// The sum over all products of the footprint.
-    pub(super) fn sum(parts: &[Part], mut of: impl FnMut(&Part) -> Self) -> Self {
-        let add = |sum: Self, jet: Self| Self {
-            value: sum.value + jet.value,
-            push: std::array::from_fn(|i| sum.push[i] + jet.push[i]),
-            bend: std::array::from_fn(|i| sum.bend[i] + jet.bend[i]),
-        };
-        let none = Self { value: 0.0, push: [0.0; 2], bend: [0.0; 3] };
-        parts.iter().map(&mut of).fold(none, add)
+    pub(super) fn sum(parts: &[Part], of: impl FnMut(&Part) -> Self) -> Self {
+        let mut sum = Self::default();
+        parts.iter().map(of).for_each(|jet| sum.add(1.0, &jet));
+        sum
     }
 }

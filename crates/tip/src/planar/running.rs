@@ -109,6 +109,12 @@ impl<'a> PlanarRunning<'a> {
         self.integrator.work()
     }
 
+    /// Name of the memory in use, and the reason for it.
+    #[must_use]
+    pub fn memory(&self) -> (&'static str, String) {
+        self.integrator.memory()
+    }
+
     /// Number of layers so far, and their error.
     #[must_use]
     pub fn layers(&self) -> Layers {

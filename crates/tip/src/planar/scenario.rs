@@ -2,7 +2,7 @@
 
 use super::products::{Products, ProductsError};
 use super::texture::{HeightTable, Texture, TextureError};
-use crate::memory::{FitError, MemoryChoice, accuracy_needed};
+use crate::memory::{FitError, accuracy_needed};
 use crate::run::{RunError, Scenario};
 use crate::{Force, IntegrationError};
 use std::sync::Arc;
@@ -86,21 +86,11 @@ pub enum PlanarError {
         y: f64,
     },
     /// Exponentials do not fit f'.
-    #[error("{}", without_fft(.0))]
+    #[error(transparent)]
     Fit(#[from] FitError),
     /// An error that also applies to one coordinate.
     #[error(transparent)]
     Along(#[from] RunError),
-}
-
-/// A remedy that there is in two coordinates, too.
-fn without_fft(error: &FitError) -> String {
-    match error {
-        FitError::NotMet { wanted, reached } => format!(
-            "f(x,y) cannot be fitted by exponentials along the scan to {wanted:.1e}, at best to {reached:.1e}: allow a larger tolerance, or smooth its table"
-        ),
-        error => error.to_string(),
-    }
 }
 
 /// Finest accuracy of exponentials with the retreat of a tip that swings back: of use below a tolerance of 1e-11.
@@ -171,15 +161,9 @@ impl PlanarScenario {
         if self.profile_across.is_some() {
             along.validate_rounding(along.start_position.abs().max(along.farthest()))?;
         }
-        let wider = along.model.wider();
-        let unavailable = [
-            (!wider.spring, "a tip without a spring"),
-            (along.memory == MemoryChoice::Direct, "the memory direct"),
-            (along.memory == MemoryChoice::Fft, "the memory fft"),
-        ];
-        match unavailable.into_iter().find(|(asked, _)| *asked) {
-            Some((_, what)) => Err(PlanarError::Unavailable(what)),
-            None => Ok(()),
+        if !along.model.wider().spring {
+            return Err(PlanarError::Unavailable("a tip without a spring"));
         }
+        Ok(())
     }
 }

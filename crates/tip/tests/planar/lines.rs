@@ -157,7 +157,7 @@ fn a_tip_that_wanders_is_followed() {
 }
 
 /// A support on a path through these knots, from where steady motion has it.
-fn on_a_path(path: &[(f64, f64)], wider: Wider) -> PlanarScenario {
+pub(crate) fn on_a_path(path: &[(f64, f64)], wider: Wider) -> PlanarScenario {
     let (t, displacement): (Vec<f64>, _) = path.iter().copied().unzip();
     let mut scenario = line((tip(1.0, 1.0), wider), 1.2, 0.25, [0.1, 0.2], t[t.len() - 1]);
     scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
@@ -165,7 +165,7 @@ fn on_a_path(path: &[(f64, f64)], wider: Wider) -> PlanarScenario {
 }
 
 /// R(t) of the reference likewise: X and the steady lag r + α f(0)/r, and the displacement.
-fn support_on(path: &[(f64, f64)], problem: &Problem, t: f64) -> f64 {
+pub(crate) fn support_on(path: &[(f64, f64)], problem: &Problem, t: f64) -> f64 {
     let last = path[path.len() - 2].0;
     let piece = path.windows(2).find(|ends| t <= ends[1].0 || ends[0].0 >= last).unwrap();
     let [from, to] = [piece[0], piece[1]];

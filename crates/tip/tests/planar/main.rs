@@ -8,6 +8,7 @@ mod footprints;
 mod lattice;
 mod limits;
 mod lines;
+mod memories;
 mod reference;
 mod surfaces;
 mod theory;

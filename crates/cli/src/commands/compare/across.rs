@@ -36,15 +36,16 @@ pub(super) fn sides(asked: &Asked, scenario: &PlanarScenario) -> Result<Sides, F
 struct Closed {
     trajectory: Trajectory,
     work: Work,
+    memory: &'static str,
     seconds: f64,
 }
 
 impl Closed {
     fn of(asked: &Asked, scenario: &PlanarScenario) -> Result<Self, Failure> {
-        let ((steps, work), seconds) = timed(|| steps(asked, scenario))?;
+        let ((steps, work, memory), seconds) = timed(|| steps(asked, scenario))?;
         let along = &scenario.along;
         let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
-        Ok(Self { trajectory, work, seconds })
+        Ok(Self { trajectory, work, memory, seconds })
     }
 
     /// The document: x0 and y0 at the times t, u at the positions x on the line y = 0 at the time `end`.
@@ -55,7 +56,7 @@ impl Closed {
         end: f64,
         x: &[f64],
     ) -> Result<ClosedDocument, Failure> {
-        let Self { trajectory, work, seconds } = self;
+        let Self { trajectory, work, memory, seconds } = self;
         let failed = |error: String| Failure::Run(error);
         let surface = SurfaceAcross::new(scenario, trajectory);
         let surface = surface.map_err(|error| failed(error.to_string()))?;
@@ -64,13 +65,16 @@ impl Closed {
             x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
             y0: Some(t.iter().map(|t| trajectory.y0(*t)).collect()),
             u: u.map_err(|error| failed(error.to_string()))?.into_iter().collect(),
-            work: closed_work(work, "modes".into(), *seconds),
+            work: closed_work(work, (*memory).into(), *seconds),
         })
     }
 }
 
-/// The steps of a run with their counts, and its time in seconds.
-fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<((Vec<Step>, Work), f64), Failure> {
+/// The steps of a run with their counts and the memory.
+type Made = (Vec<Step>, Work, &'static str);
+
+/// A run and its time in seconds.
+fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<(Made, f64), Failure> {
     let refused = |error| asked.question.refused_across(error);
     let span = (scenario.along.start_time(), scenario.along.until);
     let pace = Pace::new("--until", span, asked.time_limit);
@@ -84,7 +88,7 @@ fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<((Vec<Step>, Work),
         let failure = if is_time_to_look { pace.too_slow(step.end()) } else { stopped() };
         failure.map_or(Ok(()), Err)?;
     }
-    Ok(((steps, running.work()), pace.seconds()))
+    Ok(((steps, running.work(), running.memory().0), pace.seconds()))
 }
 
 /// Runs the grid from the scenario's initial condition.

@@ -4,7 +4,7 @@
 
 use super::reference::{Law, Reference, Terms, Way};
 use stickslip_raster::{Area, AreaLine, Free, Line, Path, Plan, Scanned, Scanning};
-use stickslip_tip::{Footprint, Force, Gaussian2d, Model, Pulse, TipFunction, Wider};
+use stickslip_tip::{Footprint, Force, Gaussian2d, MemoryChoice, Model, Pulse, TipFunction, Wider};
 
 pub(crate) fn scanned(plan: &Plan) -> Vec<Line> {
     let mut scanning = Scanning::new(plan).unwrap();
@@ -156,6 +156,21 @@ fn lines_under_the_wider_law_are_those_of_the_direct_sum() {
     let all = Wider { depth_limit: Some(3.0), ..both };
     judge(&case("limited", limited, Path::OneWay), 100);
     judge(&case("all, there and back", all, Path::Zigzag), 100);
+}
+
+#[test]
+fn lines_of_each_memory_are_those_of_the_direct_sum() {
+    let zigzag = Case { name: "zigzag", path: Path::Zigzag, size: (0.5, 4, 8.0), ..plain() };
+    let mut all = vec![];
+    for memory in [MemoryChoice::Direct, MemoryChoice::Fft, MemoryChoice::Modes] {
+        let (mut plan, law) = zigzag.plan();
+        plan.law.memory = memory;
+        let (worst, lines) = differences(&plan, law, 80);
+        println!("{memory:?}: {worst:?}");
+        assert!(worst.iter().all(|miss| *miss < 3e-8), "{memory:?}: {worst:?}");
+        all.push(lines[3].x0(5.0).to_bits());
+    }
+    assert!(all[0] != all[2] && all[1] != all[2], "{all:?}");
 }
 
 /// Lines of several lengths that begin at several x, one of them twice, and one that goes back.

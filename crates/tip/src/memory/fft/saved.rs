@@ -9,7 +9,7 @@ use stickslip_convolution::Density;
 
 impl Fft {
     /// Writes the lattice. `visited` is the whole past, if the lattice may have to be built anew from it.
-    pub(in crate::memory) fn save(&self, visited: Option<&Record>, state: &mut State) {
+    pub(crate) fn save(&self, visited: Option<&Record>, state: &mut State) {
         state.number(self.position);
         state.number(self.convolver.plan().separation);
         state.pairs(self.pending.iter());
@@ -24,10 +24,7 @@ impl Fft {
     }
 
     /// Restores the lattice, and returns the history buffer that was saved with it.
-    pub(in crate::memory) fn restore(
-        &mut self,
-        state: &mut Reader,
-    ) -> Result<Option<Record>, Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<Option<Record>, Damaged> {
         self.position = state.finite()?;
         let separation = state.finite()?;
         if separation.to_bits() != self.convolver.plan().separation.to_bits() {

@@ -8,7 +8,7 @@ use crate::state::{Damaged, Reader, State};
 
 impl Record {
     /// Blocks one by one, or nodes and bins. What is kept on a lattice is written with the lattice.
-    pub(in crate::memory) fn save(&self, state: &mut State) {
+    pub(crate) fn save(&self, state: &mut State) {
         state.number(self.position);
         match &self.kept {
             Kept::All(blocks) => {
@@ -31,7 +31,7 @@ impl Record {
         }
     }
 
-    pub(in crate::memory) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let steps = match &self.kept {
             Kept::All(_) => ORIGIN_STEP,
             Kept::Gathered(bins) => bins.origin_step(),

@@ -24,7 +24,7 @@ use crate::integrator::landing::leaves;
 use crate::integrator::taylor::switch::Switch;
 use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
-use crate::memory::{Retreat, SteadyPast};
+use crate::memory::{FitError, MemoryChoice, Retreat, SteadyPast};
 use crate::tip_function::BAND_OF_A_GAUSSIAN;
 use crate::{Force, Model, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
@@ -33,6 +33,9 @@ use std::sync::Arc;
 /// The state of a tip in motion, and all forces on it.
 pub(super) struct Integrator<'a> {
     model: &'a Model,
+    /// The memory in use, and the reason if exponentials were considered and are not used.
+    storage: Storage,
+    instead_of_modes: Option<FitError>,
     /// The products of the footprint with the past of each.
     parts: Vec<Part>,
     products: Arc<Products>,
@@ -94,7 +97,20 @@ impl<'a> Integrator<'a> {
         earlier: Option<&'a EarlierGrooves>,
     ) -> Result<Self, PlanarError> {
         let goes_back = earlier.is_some() || may_go_back(scenario);
-        Self::with(scenario, Storage::Modes(retreat(&scenario.along), goes_back), earlier)
+        let modes =
+            || Self::with(scenario, Storage::Modes(retreat(&scenario.along), goes_back), earlier);
+        let fft = || Self::with(scenario, Storage::Fft, earlier);
+        match scenario.along.memory {
+            MemoryChoice::Direct => Self::with(scenario, Storage::Direct, earlier),
+            MemoryChoice::Fft => fft(),
+            MemoryChoice::Modes => modes(),
+            MemoryChoice::Auto => match modes() {
+                Err(PlanarError::Fit(why @ FitError::NotMet { .. })) => {
+                    Ok(Self { instead_of_modes: Some(why), ..fft()? })
+                }
+                made => made,
+            },
+        }
     }
 
     /// The integrator without exponentials, and so without series.
@@ -117,6 +133,8 @@ impl<'a> Integrator<'a> {
         let (x, y) = (along.start_position - along.kick, scenario.kick_across);
         let order = length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT);
         let mut integrator = Self {
+            storage,
+            instead_of_modes: None,
             parts: parts.collect::<Result<_, _>>()?,
             chain: Chain::new(order, products.all().len()),
             products,
@@ -184,8 +202,22 @@ impl<'a> Integrator<'a> {
         self.parts.iter().map(of).fold(none, add)
     }
 
+    /// Name of the memory in use, and the reason for it.
+    pub(super) fn memory(&self) -> (&'static str, String) {
+        let (name, reason) = match (self.storage, self.instead_of_modes) {
+            (Storage::Modes(..), _) => ("modes", "exponentials fit f'".into()),
+            (Storage::Lattice, _) => ("lattice", "requested".into()),
+            (Storage::Direct, _) => return ("direct", "requested".into()),
+            (Storage::Fft, Some(FitError::NotMet { wanted, .. })) => {
+                ("fft", format!("modes do not fit f' to {wanted:.1e}"))
+            }
+            (Storage::Fft, _) => ("fft", "requested".into()),
+        };
+        (name, format!("{reason}; up to {} layers", self.layers().most))
+    }
+
     pub(super) fn memory_size(&self) -> usize {
-        self.parts.iter().map(|part| part.past.size() + part.frame.size()).sum()
+        self.parts.iter().map(Part::memory_size).sum()
     }
 
     /// The next step; `None` at the end.

@@ -1,7 +1,6 @@
 //! Saved states of the integrator between two steps.
 
 use super::super::history::Step;
-use super::super::part::Part;
 use super::Integrator;
 use crate::collocation::Stages;
 use crate::integrator::Work;
@@ -23,10 +22,7 @@ impl Saved for Integrator<'_> {
         }
         self.control.save(state);
         self.switch.save(state);
-        for Part { past, frame, .. } in &self.parts {
-            past.save(state);
-            frame.save(state);
-        }
+        self.parts.iter().for_each(|part| part.save(state));
     }
 
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
@@ -51,11 +47,7 @@ impl Saved for Integrator<'_> {
         };
         self.control.restore(state)?;
         self.switch.restore(state)?;
-        for Part { past, frame, .. } in &mut self.parts {
-            past.restore(state)?;
-            frame.restore(state, past.groups())?;
-        }
-        Ok(())
+        self.parts.iter_mut().try_for_each(|part| part.restore(state))
     }
 }
 

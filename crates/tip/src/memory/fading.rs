@@ -4,55 +4,38 @@
 //! correspondingly larger weights, and results are multiplied by the factor. Only when the factor leaves the range of
 //! floating point are the sums themselves multiplied.
 
-use super::{Now, Policy};
 use crate::state::{Damaged, Reader, State};
 
 /// The factor by which the first nodes have decayed; `None` without healing.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Fading(Option<f64>);
+pub(crate) struct Fading(Option<f64>);
 
 /// Smallest factor before the sums are multiplied.
 const LEAST: f64 = 1e-60;
 
 impl Fading {
-    pub(super) fn left(self) -> Option<f64> {
+    pub(crate) fn left(self) -> Option<f64> {
         self.0
     }
 
     /// Applies a decay by this factor; returns the factor for the sums when they must be multiplied.
-    pub(super) fn by(&mut self, factor: f64) -> Option<f64> {
+    pub(crate) fn by(&mut self, factor: f64) -> Option<f64> {
         let left = self.0.unwrap_or(1.0) * factor;
         let due = left < LEAST;
         self.0 = Some(if due { 1.0 } else { left });
         due.then_some(left)
     }
 
-    pub(super) fn save(self, state: &mut State) {
+    pub(crate) fn save(self, state: &mut State) {
         state.number(self.0.unwrap_or(1.0));
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let left = state.within(1.0)?;
         if left < LEAST {
             return Err(Damaged::OutOfRange);
         }
         self.0 = (left < 1.0).then_some(left);
         Ok(())
-    }
-}
-
-impl Policy {
-    /// All sums times a factor.
-    #[cold]
-    pub(super) fn scale(&mut self, factor: f64) {
-        self.record.iter_mut().for_each(|record| record.scale(factor));
-        match &mut self.now {
-            Now::Direct => {}
-            Now::Fft(fft, _) => fft.scale(factor),
-            Now::Modes(modes, retreats) => {
-                modes.scale(factor);
-                retreats.fft.iter_mut().for_each(|fft| fft.scale(factor));
-            }
-        }
     }
 }

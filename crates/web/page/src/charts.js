@@ -63,7 +63,8 @@ export function charts(picked) {
       columns = found;
       for (const chart of CHARTS) host(chart).hidden = Boolean(chart.ofFree) && !isFree;
       if (plots.length === 0) make();
-      else CHARTS.forEach((chart, n) => plots[n].setData(data(chart.column)));
+      // A hidden chart takes as long to draw as one that is seen.
+      else CHARTS.forEach((chart, n) => host(chart).hidden || plots[n].setData(data(chart.column)));
     },
     now(t) {
       for (const plot of plots) plot.mark.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;

@@ -7,8 +7,12 @@ let busy = false;
 let mapping = 0; // number of the latest map asked for
 
 const say = (message, transfer = []) => self.postMessage(message, transfer);
-/** Lets messages in that have come meanwhile. */
-const pause = (time = 0) => new Promise((go) => setTimeout(go, time));
+let wake = () => {};
+/** Receives messages for some time; a request for a run ends it at once. */
+const pause = (time = 0) => new Promise((go) => {
+  wake = go;
+  setTimeout(go, time);
+});
 /** While a slider moves, wishes come faster than this: nothing is begun then that the next would wait for. */
 const PATIENCE = 40; // ms
 
@@ -45,10 +49,8 @@ async function judge(id, asked) {
     judged: () => JSON.parse(tip.judged()),
     cycle: () => without(JSON.parse(cycle(held(asked)))),
   };
-  for (let waited = 0; waited < PATIENCE; waited += 8) {
-    await pause(8);
-    if (waiting) return;
-  }
+  await pause(PATIENCE);
+  if (waiting) return;
   for (const [kind, make] of Object.entries(parts)) {
     await pause();
     if (waiting) return;
@@ -122,7 +124,8 @@ self.onmessage = ({ data }) => {
   if (data.kind === 'begin') initSync({ module: data.bytes });
   else if (data.kind === 'run') {
     waiting = data;
-    if (!busy) follow();
+    if (busy) wake();
+    else follow();
   } else if (data.kind === 'frame') tried(() => frame(data));
   else if (data.kind === 'document') say({ kind: 'document', ...tried(() => tip.document()) });
   else if (data.kind === 'cycle-document') say({ kind: 'document', ...tried(() => cycle(data.asked)) });

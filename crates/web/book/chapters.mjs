@@ -1,5 +1,5 @@
-// The chapters of the book, from docs as it stands: `node chapters.mjs TARGET`. Equations become HTML here, so that
-// the book needs no network; links to what is not in the book become the name of the file.
+// Makes the chapters of the book from docs: `node chapters.mjs TARGET`. Equations become HTML here, so that the book needs no
+// network; links to files outside of the book become file names.
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, normalize, relative, resolve } from 'node:path';
 import katex from 'katex';
@@ -27,24 +27,24 @@ for (const name of chapters.values()) if (!listed.includes(`(${name})`)) throw n
 
 function equation(tex, displayMode) {
   const html = katex.renderToString(tex.replaceAll('\\|', '|').trim(), { displayMode, strict: false, output: 'htmlAndMathml' });
-  // Markdown must leave it alone.
+  // Characters that Markdown would interpret.
   return html.replaceAll(/\s*\n\s*/g, ' ').replaceAll('|', '&#124;').replaceAll('*', '&#42;').replaceAll('_', '&#95;').replaceAll('\\', '&#92;').replaceAll('`', '&#96;').replaceAll('~', '&#126;');
 }
 
-/** Equations of a text without code. `$$` may go over lines, `$` over one line break. */
+/** Typesets equations of a text without code. `$$` may span lines, `$` one line break. */
 function typeset(text) {
   return text
     .replaceAll(/\$\$([\s\S]+?)\$\$/g, (_, tex) => `<div>${equation(tex, true)}</div>`)
     .replaceAll(/(?<![\\$])\$(?!\s)((?:[^$\n]|\n(?!\n))+?)(?<!\s)\$/g, (_, tex) => equation(tex, false));
 }
 
-/** Where the book has a picture that a file of the project shows. */
+/** Path in the book of a picture that a file of the project shows. */
 function place(file, picture) {
   const there = normalize(join(dirname(file), picture));
   return relative(dirname(chapters.get(file)), there.slice('docs/'.length));
 }
 
-/** Where a link leads, seen from a file of the project. */
+/** The link of a file of the project, as a link of the book. */
 function link(file, [whole, mark, label, target]) {
   if (/^(https?:|mailto:|#)/.test(target)) return whole;
   const [path, anchor] = target.split('#');
@@ -61,14 +61,14 @@ function chapter(file) {
   const text = readFileSync(join(root, file), 'utf8');
   const code = /(^```[\s\S]*?^```$|^(?: {4}.*\n)+|`[^`\n]+`)/m;
   const parts = text.split(new RegExp(code.source, 'gm'));
-  // Code stands at odd places; a link may hold some, and is set before.
+  // Parts with odd numbers are code.
   return parts.map((part, n) => (n % 2 ? part : typeset(part))).join('')
     .replaceAll(/(<img src=")([^"]+)/g, (_, tag, picture) => tag + place(file, picture))
     .replaceAll(/(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)/g, (...found) => link(file, found));
 }
 
 for (const file of Object.keys(STATES)) if (!chapters.has(file)) throw new Error(`${file} is no chapter`);
-/** Below the title of a chapter that the page shows in motion, a link to that. */
+/** Adds below the title a link to the state of the page that shows the chapter in motion. */
 function moving(file, text) {
   if (!STATES[file]) return text;
   const [words, state] = STATES[file];
@@ -81,7 +81,7 @@ for (const [file, name] of chapters) {
   writeFileSync(join(src, name), moving(file, chapter(file)));
 }
 
-/** The libraries by what their manifests say. */
+/** The libraries with the descriptions in their manifests. */
 function libraries() {
   const rows = readdirSync(join(root, 'crates')).sort().flatMap((name) => {
     const manifest = join(root, 'crates', name, 'Cargo.toml');
@@ -99,7 +99,7 @@ const style = join(here, '../node_modules/katex/dist');
 mkdirSync(join(src, 'katex'), { recursive: true });
 const fonts = readdirSync(join(style, 'fonts')).filter((name) => name.endsWith('.woff2'));
 for (const name of fonts) cpSync(join(style, 'fonts', name), join(src, 'katex/fonts', name));
-// Of each font the newest form alone, which every browser knows.
+// Only the newest format of each font, which every browser reads.
 const css = readFileSync(join(style, 'katex.min.css'), 'utf8').replaceAll(/,url\([^)]*\.(?:woff|ttf)\) format\("[a-z]*"\)/g, '');
 writeFileSync(join(src, 'katex/katex.min.css'), css);
 mkdirSync(join(book, 'theme'), { recursive: true });

@@ -1,5 +1,5 @@
-// One file of everything: `node build.mjs OUT.html`. The module and its JavaScript are those that `wasm-bindgen` has
-// written to target/site-build/web; beside them, in declared.json, is what examples/declared.rs prints.
+// Builds the page as one file: `node build.mjs OUT.html`. `wasm-bindgen` has written the module and its JavaScript to
+// target/site-build/web; declared.json beside them is the output of examples/declared.rs.
 import { build } from 'esbuild';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
@@ -19,13 +19,13 @@ async function script(entry) {
     write: false,
     format: 'iife',
     target: 'es2022',
-    // The module is handed over as bytes, never looked for beside the script.
+    // The module is passed as bytes, not loaded from beside the script.
     define: { 'import.meta.url': '""', DECLARED: questions },
   });
   return outputFiles[0].text;
 }
 
-/** A text within <script> must not end it. */
+/** Escapes the end tag in a text within <script>. */
 const within = (text) => text.replaceAll('</script', '<\\/script');
 
 const bytes = await readFile(join(made, 'stickslip_web_bg.wasm'));
@@ -38,7 +38,7 @@ const parts = {
   worker: within(await script('worker.js')),
   main: within(await script('main.js')),
 };
-/** Nothing is loaded from anywhere, and no script runs but this one, its workers, and the module. */
+/** Nothing is loaded, and only this script, its workers and the module run. */
 const main = createHash('sha256').update(parts.main).digest('base64');
 parts.policy = [
   "default-src 'none'",

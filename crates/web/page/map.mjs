@@ -1,4 +1,4 @@
-// The precomputed map, from a sweep of the paper's tip: stickslip sweep --r 0.05:2:79 --alpha 0.05:4:80 -o sweep.json,
+// Makes the precomputed map from a sweep of the default tip: stickslip sweep --r 0.05:2:79 --alpha 0.05:4:80 -o sweep.json,
 // then node map.mjs sweep.json > map.json. Classes as in ../src/map.rs.
 import { readFileSync } from 'node:fs';
 

@@ -1,4 +1,4 @@
-//! The parameters that the page's questions declare: names, meanings with unit and range, and defaults.
+//! The parameters of the page's questions: names, descriptions with unit and range, and defaults.
 
 use serde::Serialize;
 use serde_json::Value;

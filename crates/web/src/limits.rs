@@ -4,21 +4,21 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use stickslip::Context;
 
-/// Time to which a page runs: the history of a fast motion takes some 100 MB then.
+/// Largest end time of a run: the history of a fast motion then takes some 100 MB.
 pub(crate) const MOST_TIME: f64 = 20_000.0;
-/// Lines that a page has the patience for.
+/// Largest number of lines of a raster.
 pub(crate) const MOST_LINES: usize = 400;
-/// Milliseconds that a run may take: then it is cut off, and says so.
+/// Computing time in milliseconds after which a run is cut off.
 const MOST_MILLISECONDS: f64 = 4_000.0;
 
 /// A clock in milliseconds, and the time at which it was started.
 #[derive(Clone, Copy)]
-pub(crate) struct Patience {
+pub(crate) struct Stopwatch {
     now: fn() -> f64,
     began: f64,
 }
 
-impl Patience {
+impl Stopwatch {
     pub(crate) fn from(now: fn() -> f64) -> Self {
         Self { now, began: now() }
     }
@@ -27,7 +27,7 @@ impl Patience {
         ((self.now)() - self.began) / 1e3
     }
 
-    /// A context that cuts a run off when the patience ends.
+    /// A context that cuts a run off at the limit of computing time.
     pub(crate) fn context(self) -> Context {
         let cut_off = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&cut_off);

@@ -1,14 +1,14 @@
-//! Command lines that do the same.
+//! Command lines of the program that compute what the page shows.
 
-use crate::asked::Asked;
+use crate::parameters::Parameters;
 use crate::scan::Scan;
 use serde_json::{Map, Value};
 use stickslip::parameter::typed;
 use stickslip::{PathName, StartName};
 
-/// Options of the model; what is the program's default is left out.
-fn model(asked: &Asked) -> String {
-    let Asked { alpha, r, beta, width, depth_limit, healing_time, inertia, .. } = *asked;
+/// Options of the model, without those that equal the program's defaults.
+fn model(parameters: &Parameters) -> String {
+    let Parameters { alpha, r, beta, width, depth_limit, healing_time, inertia, .. } = *parameters;
     let differs = |value: f64, usual: f64| (value - usual).abs() > 0.0;
     let is_round = !differs(beta, 0.0);
     [
@@ -19,22 +19,29 @@ fn model(asked: &Asked) -> String {
         depth_limit.map(|b| format!(" --depth-limit {b}")),
         healing_time.map(|time| format!(" --healing-time {time}")),
         inertia.map(|mass| format!(" --inertia {mass}")),
-        asked.stiffness_across.map(|stiffness| format!(" --stiffness-across {stiffness}")),
-        asked.pushed_across().map(|kick| format!(" --kick-across {kick}")),
+        parameters.stiffness_across.map(|stiffness| format!(" --stiffness-across {stiffness}")),
+        parameters.pushed_across().map(|kick| format!(" --kick-across {kick}")),
     ]
     .into_iter()
     .flatten()
     .collect()
 }
 
-pub(crate) fn run(asked: &Asked) -> String {
-    let kick =
-        if asked.kick.abs() > 0.0 { format!(" --kick {}", asked.kick) } else { String::new() };
-    let start = if asked.start == StartName::Flat { " --start flat" } else { "" };
-    format!("stickslip run{}{start}{kick} --until {} -o run.json", model(asked), asked.until)
+pub(crate) fn run(parameters: &Parameters) -> String {
+    let kick = if parameters.kick.abs() > 0.0 {
+        format!(" --kick {}", parameters.kick)
+    } else {
+        String::new()
+    };
+    let start = if parameters.start == StartName::Flat { " --start flat" } else { "" };
+    format!(
+        "stickslip run{}{start}{kick} --until {} -o run.json",
+        model(parameters),
+        parameters.until
+    )
 }
 
-pub(crate) fn raster(asked: &Asked, scan: &Scan) -> String {
+pub(crate) fn raster(parameters: &Parameters, scan: &Scan) -> String {
     let Scan { pitch, lines, length, .. } = scan;
     let pitch = match scan.path {
         PathName::Repeat => String::new(),
@@ -43,12 +50,12 @@ pub(crate) fn raster(asked: &Asked, scan: &Scan) -> String {
     let path = scan.path_option();
     format!(
         "stickslip raster{}{pitch} --lines {lines} --length {length}{path} --tolerance {:e} -o raster.json",
-        model(asked),
+        model(parameters),
         crate::scan::TOLERANCE
     )
 }
 
-/// Of the parameters of a walker those that are given.
+/// The command line of a walker, from the parameters that are not null.
 pub(crate) fn walker(given: &Map<String, Value>) -> String {
     let given = given.iter().filter(|(_, value)| !value.is_null());
     let options =

@@ -1,6 +1,6 @@
-//! Linear theory: where steady motion becomes unstable, and how fast small deviations grow.
+//! Linear theory: the onset of instability, and growth rates of small deviations.
 
-use crate::asked::Asked;
+use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use serde::Serialize;
 use stickslip::{
@@ -8,34 +8,34 @@ use stickslip::{
     Stability, SteadyState, Tip,
 };
 
-/// Exponents that the page lists.
+/// Number of exponents that the page lists.
 const ROOTS: usize = 6;
 
-/// What linear theory says at the parameters.
+/// Results of linear theory.
 #[derive(Debug, Serialize)]
 pub(crate) struct Linear {
-    /// Where the first exponent reaches the imaginary axis at this r.
+    /// The point at this r at which the first exponent reaches the imaginary axis.
     critical: Option<CriticalDocument>,
-    /// Above this α some motions end in a pit.
+    /// Trapping threshold: above this α some motions end in a pit.
     trapping: Option<f64>,
-    /// Whether all deviations die out; null where no linear law decides.
+    /// Whether all small deviations decay; null where linear theory does not decide.
     stable: Option<bool>,
     /// λ by falling real part, in k/Γ.
     roots: Vec<ComplexDocument>,
     steady: Option<SteadyState>,
-    /// Where a tip that can leave its line begins to snake; null if it never does, or is held.
+    /// Onset of snaking; null without such an onset, or if the tip is held on its line.
     snaking: Option<SnakingDocument>,
-    /// Why something is null.
+    /// The reasons for null fields.
     remarks: Vec<String>,
 }
 
-pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {
+pub(crate) fn linear(parameters: &Parameters) -> Result<Linear, Refusal> {
     let question = Stability {
-        indentation: Indentation::given(asked.alpha),
-        law: asked.wider().into(),
+        indentation: Indentation::given(parameters.alpha),
+        law: parameters.wider().into(),
         roots: Some(ROOTS),
-        stiffness_across: asked.stiffness_across,
-        ..Stability::new(Tip(asked.tip()?), asked.r)
+        stiffness_across: parameters.stiffness_across,
+        ..Stability::new(Tip(parameters.tip()?), parameters.r)
     };
     let found = question.ask(&Context::default())?;
     let kind = found.critical.as_ref().and_then(|critical| critical.kind);
@@ -43,7 +43,7 @@ pub(crate) fn linear(asked: &Asked) -> Result<Linear, Refusal> {
         trapping: found.trapping.alpha,
         stable: (kind != Some(OnsetKindName::NonSmooth)).then_some(found.stable),
         roots: found.roots.clone(),
-        steady: SteadyState::of(&asked.model()?),
+        steady: SteadyState::of(&parameters.model()?),
         snaking: found.snaking.flatten(),
         remarks: found.remarks.clone(),
         critical: found.answer.critical,

@@ -1,25 +1,25 @@
-//! The phase map: what the tip settles into at points of the plane of r and α.
+//! The phase diagram: classes of the motions at points of the plane of r and α.
 
-use crate::asked::Asked;
+use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use stickslip_cycles::CycleError;
 use stickslip_outcome::{Motion, Regime, motion};
 use stickslip_stability::Boundary;
 use stickslip_tip::Model;
 
-/// Residual asked of cycles, as in a sweep.
+/// Tolerance of cycles, as in a sweep.
 const TOLERANCE: f64 = 1e-6;
 
-/// Classes: 0 steady, 1 one slip in a period, 2 two, 3 more, 4 trapped, 5 none of these within thousands of time
-/// units, 6 not to be had.
+/// Classes: 0 steady; 1, 2, 3 for one, two and more slips per period; 4 trapped; 5 none of these within thousands of time
+/// units; 6 failed.
 const STEADY: u8 = 0;
 const MOST_SLIPS: u8 = 3;
 const TRAPPED: u8 = 4;
 const TRANSIENT: u8 = 5;
 const FAILED: u8 = 6;
 
-pub(crate) fn row(asked: &Asked, r: f64, alphas: &[f64]) -> Result<Vec<u8>, Refusal> {
-    let (tip, wider) = (asked.tip()?, asked.wider());
+pub(crate) fn row(parameters: &Parameters, r: f64, alphas: &[f64]) -> Result<Vec<u8>, Refusal> {
+    let (tip, wider) = (parameters.tip()?, parameters.wider());
     let model = |alpha: &f64| Model::under(wider, tip.clone(), *alpha, r);
     let models = alphas.iter().map(model).collect::<Result<Vec<_>, _>>()?;
     Ok(models.iter().map(|model| motion(model, TOLERANCE)).map(class).collect())
@@ -40,8 +40,8 @@ fn class(found: Result<Motion, CycleError>) -> u8 {
     }
 }
 
-pub(crate) fn boundary(asked: &Asked, velocities: &[f64]) -> Result<Vec<f64>, Refusal> {
-    let (tip, wider) = (asked.tip()?, asked.wider());
+pub(crate) fn boundary(parameters: &Parameters, velocities: &[f64]) -> Result<Vec<f64>, Refusal> {
+    let (tip, wider) = (parameters.tip()?, parameters.wider());
     let boundary = Boundary::new(&wider, &tip);
     Ok(velocities.iter().map(|r| boundary.at(*r).map_or(f64::NAN, |at| at.alpha)).collect())
 }

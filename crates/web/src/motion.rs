@@ -1,7 +1,7 @@
 //! The run: its samples, the surface at any time of it, and its document.
 
-use crate::asked::Asked;
-use crate::limits::{MOST_TIME, Patience};
+use crate::limits::{MOST_TIME, Stopwatch};
+use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use stickslip::{Ask, RunDocument};
 use stickslip_surface::{Surface, SurfaceAcross};
@@ -11,48 +11,48 @@ use stickslip_tip::{InitialSurface, Scenario, Trajectory};
 /// A run with its history.
 pub(crate) struct Motion {
     document: RunDocument,
-    way: Way,
+    path: Path,
 }
 
-/// The motion of a tip that is held on its line, or of one that is not.
-enum Way {
+/// The motion of a tip that is held on its line, or of one that can leave it.
+enum Path {
     Along { scenario: Box<Scenario>, initial: InitialSurface, trajectory: Trajectory },
     Across { scenario: Box<PlanarScenario>, trajectory: planar::Trajectory },
 }
 
 impl Motion {
     /// Computes the run up to the page's limit of computing time; `now` is the time in milliseconds.
-    pub(crate) fn of(asked: &Asked, now: fn() -> f64) -> Result<Self, Refusal> {
-        if asked.until > MOST_TIME {
-            return Err(Refusal::TooLong(asked.until));
+    pub(crate) fn of(parameters: &Parameters, now: fn() -> f64) -> Result<Self, Refusal> {
+        if parameters.until > MOST_TIME {
+            return Err(Refusal::TooLong(parameters.until));
         }
-        let patience = Patience::from(now);
-        let mut document = asked.run()?.ask(&patience.context())?;
-        document.work.seconds = patience.seconds();
-        let way = Way::of(&document)?;
-        Ok(Self { document, way })
+        let stopwatch = Stopwatch::from(now);
+        let mut document = parameters.run()?.ask(&stopwatch.context())?;
+        document.work.seconds = stopwatch.seconds();
+        let path = Path::of(&document)?;
+        Ok(Self { document, path })
     }
 
     /// The time reached by a run that was cut off.
     pub(crate) fn cut_off(&self) -> Option<f64> {
-        self.document.interrupted.then(|| self.way.span().1)
+        self.document.interrupted.then(|| self.path.span().1)
     }
 
-    /// t, l, x0', the lag, x0 and y0 of the samples, one column after the other.
+    /// Columns t, l, x0', lag, x0 and y0 of the samples, one after the other.
     pub(crate) fn columns(&self) -> Vec<f64> {
         let samples = &self.document.samples;
-        let there = |column: &Option<Vec<f64>>, missing: f64| {
+        let filled = |column: &Option<Vec<f64>>, missing: f64| {
             column.clone().unwrap_or_else(|| vec![missing; samples.t.len()])
         };
-        let (l, lag) = (there(&samples.l, f64::NAN), there(&samples.lag, f64::NAN));
-        [&samples.t, &l, &samples.velocity, &lag, &samples.x0, &there(&samples.y0, 0.0)]
+        let (l, lag) = (filled(&samples.l, f64::NAN), filled(&samples.lag, f64::NAN));
+        [&samples.t, &l, &samples.velocity, &lag, &samples.x0, &filled(&samples.y0, 0.0)]
             .into_iter()
             .flatten()
             .copied()
             .collect()
     }
 
-    /// u at `count` points along the scan, at the y of the tip.
+    /// Heights u at `count` points along the scan, at the y of the tip.
     pub(crate) fn heights(
         &self,
         t: f64,
@@ -61,17 +61,17 @@ impl Motion {
     ) -> Result<Vec<f64>, Refusal> {
         let spacing = (to - from) / count.max(2).saturating_sub(1) as f64;
         let x: Vec<f64> = (0..count).map(|i| from + spacing * i as f64).collect();
-        let (start, end) = self.way.span();
-        self.way.heights(t.clamp(start, end), &x)
+        let (start, end) = self.path.span();
+        self.path.heights(t.clamp(start, end), &x)
     }
 
-    /// x0, the position of the support, and y0.
+    /// The positions x0 of the tip and R of the support, and y0.
     pub(crate) fn positions(&self, t: f64) -> [f64; 3] {
-        match &self.way {
-            Way::Along { trajectory, .. } => {
+        match &self.path {
+            Path::Along { trajectory, .. } => {
                 [trajectory.x0(t), trajectory.support().position(t), 0.0]
             }
-            Way::Across { trajectory, .. } => {
+            Path::Across { trajectory, .. } => {
                 [trajectory.x0(t), trajectory.support().position(t), trajectory.y0(t)]
             }
         }
@@ -82,7 +82,7 @@ impl Motion {
     }
 }
 
-impl Way {
+impl Path {
     fn of(document: &RunDocument) -> Result<Self, Refusal> {
         if document.parameters.stiffness_across.is_some() {
             let (scenario, trajectory) = document.trajectory_across()?;

@@ -1,4 +1,4 @@
-//! The parameters of the page's sliders, as questions of the libraries.
+//! The parameters of the page's sliders, and the questions of the libraries that they make.
 
 use crate::refusal::Refusal;
 use serde::Deserialize;
@@ -8,10 +8,10 @@ use stickslip_tip::{Model, TipFunction, Wider};
 /// Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Asked {
+pub(crate) struct Parameters {
     pub(crate) alpha: f64,
     pub(crate) r: f64,
-    /// Of the triple Gaussian, 0 for a Gaussian.
+    /// Side-lobe weight of the triple Gaussian; 0 for a Gaussian.
     pub(crate) beta: f64,
     pub(crate) width: f64,
     /// b
@@ -21,10 +21,10 @@ pub(crate) struct Asked {
     /// M
     #[serde(default)]
     pub(crate) inertia: Option<f64>,
-    /// κ_y; absent for a tip that is held on its line.
+    /// κ_y; absent if the tip is held on its line.
     #[serde(default)]
     pub(crate) stiffness_across: Option<f64>,
-    /// Counts only with κ_y.
+    /// Initial distance from the line; used only with κ_y.
     #[serde(default)]
     pub(crate) kick_across: f64,
     pub(crate) start: StartName,
@@ -32,13 +32,13 @@ pub(crate) struct Asked {
     pub(crate) until: f64,
 }
 
-impl Asked {
+impl Parameters {
     pub(crate) fn read(text: &str) -> Result<Self, Refusal> {
         serde_json::from_str(text).map_err(Refusal::Json)
     }
 
     pub(crate) fn tip(&self) -> Result<TipFunction, Refusal> {
-        // As the program has it: without side lobes it is the Gaussian itself, not a sum with terms of weight 0.
+        // As in the program, a tip without side lobes is a Gaussian, not a sum with terms of weight 0.
         Ok(match self.beta {
             0.0 => TipFunction::gaussian(self.width)?,
             beta => TipFunction::triple_gaussian(beta, self.width)?,
@@ -54,13 +54,13 @@ impl Asked {
         Ok(Model::under(self.wider(), self.tip()?, self.alpha, self.r)?)
     }
 
-    /// The initial distance from the line, of a tip that can leave it.
+    /// The initial distance from the line, if the tip can leave it.
     pub(crate) fn pushed_across(&self) -> Option<f64> {
         let is_pushed = self.stiffness_across.is_some() && self.kick_across.abs() > 0.0;
         is_pushed.then_some(self.kick_across)
     }
 
-    /// The run to these parameters.
+    /// The run with these parameters.
     pub(crate) fn run(&self) -> Result<Run, Refusal> {
         let (start, kick, law) = (Some(self.start), self.kick, self.wider().into());
         let (stiffness_across, kick_across) = (self.stiffness_across, self.pushed_across());

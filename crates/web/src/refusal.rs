@@ -1,4 +1,4 @@
-//! Why there is no result, in words for the page.
+//! Errors, with messages for the page.
 
 use stickslip::Unusable;
 use stickslip_cycles::CycleError;
@@ -9,10 +9,10 @@ use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{ModelError, RunError, TipFunctionError};
 use thiserror::Error;
 
-/// Whose words they are.
+/// An error, by its origin.
 #[derive(Debug, Error)]
 pub(crate) enum Refusal {
-    #[error("these are not parameters: {0}")]
+    #[error("not a set of parameters: {0}")]
     Json(serde_json::Error),
     #[error("the page computes up to t = {most}, not {0}: use the program for longer runs", most = crate::limits::MOST_TIME)]
     TooLong(f64),

@@ -1,7 +1,7 @@
 //! A raster, line by line.
 
-use crate::asked::Asked;
 use crate::limits::MOST_LINES;
+use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use stickslip::{
@@ -9,15 +9,15 @@ use stickslip::{
 };
 use stickslip_raster::{Plan, Scanned, Scanning, pattern};
 
-/// Error of each line. A picture needs less, but transforms round differently here and there, and a step that one takes and the
-/// other repeats changes a pattern by a part of it: to 1e-9 no more than this.
+/// Tolerance of each line. A picture needs less, but transforms round differently in the browser, and a step that is accepted
+/// here and repeated there changes the pattern by a part of the tolerance. With 1e-8 the patterns agree to 1e-9.
 pub(crate) const TOLERANCE: f64 = 1e-8;
-/// Heights in a width of the tip along a line; two rows to a pitch.
+/// Heights per tip width along a line, and rows per pitch.
 const COLUMNS: f64 = 4.0;
 const ROWS: usize = 2;
-/// Distance in widths across within which a line changes rows: e^{-18} of its depth is left there.
+/// Distance across, in tip widths, beyond which a line changes no rows: its depth is below e^{-18} there.
 const REACH: f64 = 6.0;
-/// A tip that can leave its line stays within so many widths of it while a spring holds it, as far as a picture shows.
+/// Distance, in tip widths, within which a tip on a spring stays of its line, to the accuracy of a picture.
 const AWAY: f64 = 4.0;
 
 /// Lengths in σ.
@@ -44,23 +44,23 @@ impl Scan {
     }
 }
 
-/// What the lines have written.
+/// The pattern of the lines.
 #[derive(Debug, Serialize)]
-pub(crate) struct Written {
+pub(crate) struct Found {
     regime: RasterRegimeName,
     pattern: Option<PatternDocument>,
     remarks: Vec<String>,
 }
 
-fn plan(asked: &Asked, scan: &Scan) -> Result<Plan, Refusal> {
+fn plan(parameters: &Parameters, scan: &Scan) -> Result<Plan, Refusal> {
     if scan.lines > MOST_LINES {
         return Err(Refusal::TooManyLines(scan.lines));
     }
     let question = Raster {
-        tip: Tip(asked.tip()?),
-        indentation: Indentation::given(asked.alpha),
-        r: asked.r,
-        law: asked.wider().into(),
+        tip: Tip(parameters.tip()?),
+        indentation: Indentation::given(parameters.alpha),
+        r: parameters.r,
+        law: parameters.wider().into(),
         width_y: None,
         path: scan.path,
         pitch: (scan.path != PathName::Repeat).then_some(scan.pitch),
@@ -70,41 +70,41 @@ fn plan(asked: &Asked, scan: &Scan) -> Result<Plan, Refusal> {
         pulses: vec![],
         tolerance: TOLERANCE,
         memory: MemoryName::Auto,
-        stiffness_across: asked.stiffness_across,
-        kick_across: asked.pushed_across(),
+        stiffness_across: parameters.stiffness_across,
+        kick_across: parameters.pushed_across(),
         sampling: Sampling::default(),
     };
     Ok(question.prepared()?)
 }
 
-/// Scans; hands over, after each line, its number from 1, the first row that it changed, the columns and the heights.
+/// Scans, and calls `on_line` after each line with its number from 1, the first row that it changed, the columns and the heights.
 pub(crate) fn raster(
-    asked: &Asked,
+    parameters: &Parameters,
     scan: &Scan,
     mut on_line: impl FnMut(usize, usize, usize, &[f64]),
-) -> Result<Written, Refusal> {
-    let plan = plan(asked, scan)?;
+) -> Result<Found, Refusal> {
+    let plan = plan(parameters, scan)?;
     let mut scanning = Scanning::new(&plan)?;
-    let view = View::new(asked, scan);
+    let view = View::new(parameters, scan);
     while scanning.next_line()?.is_some() {
         let lines = scanning.lines();
-        // Of these alone anything is to be seen in the rows that the last has changed.
+        // Only these lines contribute to the rows that the last line has changed.
         let near = &lines[lines.len().saturating_sub(view.lines_that_count())..];
         let (first, y) = view.rows(lines.len());
         let heights = Scanned::new(&plan, near).heights(&view.x, &y);
         on_line(lines.len(), first, view.x.len(), heights.as_slice().unwrap_or_default());
     }
     let found = pattern(&plan, scanning.lines());
-    Ok(Written {
+    Ok(Found {
         regime: found.regime.into(),
         pattern: found.pattern.map(Into::into),
         remarks: found.doubts.iter().map(ToString::to_string).collect(),
     })
 }
 
-/// What is shown of the surface.
+/// The points of the surface that are shown.
 struct View {
-    /// Of lines that coincide each gives one row: the groove after it.
+    /// Lines that coincide give one row each: the groove after the line.
     is_repeated: bool,
     x: Vec<f64>,
     row: f64,
@@ -112,22 +112,22 @@ struct View {
 }
 
 impl View {
-    fn new(asked: &Asked, scan: &Scan) -> Self {
-        let columns = (COLUMNS * scan.length / asked.width).ceil().clamp(2.0, 600.0);
+    fn new(parameters: &Parameters, scan: &Scan) -> Self {
+        let columns = (COLUMNS * scan.length / parameters.width).ceil().clamp(2.0, 600.0);
         let x = (0..=columns as usize).map(|i| scan.length * i as f64 / columns).collect();
-        let away = asked.stiffness_across.map_or(0.0, |_| AWAY);
+        let away = parameters.stiffness_across.map_or(0.0, |_| AWAY);
         let within =
-            ((REACH + away) * asked.width / scan.pitch).ceil().clamp(1.0, MOST_LINES as f64);
+            ((REACH + away) * parameters.width / scan.pitch).ceil().clamp(1.0, MOST_LINES as f64);
         let is_repeated = scan.path == PathName::Repeat;
         Self { is_repeated, x, row: scan.pitch / ROWS as f64, lines_within_reach: within as usize }
     }
 
-    /// How many of the latest lines are to be seen in rows that the last has changed.
+    /// Number of latest lines that contribute to the rows that the last line has changed.
     fn lines_that_count(&self) -> usize {
         if self.is_repeated { MOST_LINES } else { 2 * self.lines_within_reach }
     }
 
-    /// Those that a line, counted from 1, changes behind it: number of the first, and where they lie.
+    /// The rows that a line (counted from 1) changes: number of the first, and their y.
     fn rows(&self, line: usize) -> (usize, Vec<f64>) {
         if self.is_repeated {
             return (line - 1, vec![0.0]);

@@ -1,4 +1,4 @@
-// A real browser with the page in it.
+// A browser with the page.
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
@@ -8,12 +8,12 @@ export const file = join(root, 'target/site/play.html');
 const executablePath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
   .find((path) => path && existsSync(path));
 
-/** Why nothing can be tried here; false if it can. */
+/** The reason to skip tests in a browser; false if there is one. */
 export const missing = !executablePath && 'no Chromium here: apt-get install chromium, or CHROMIUM=path';
 
 export const launch = () => chromium.launch({ executablePath, args: ['--no-sandbox'] });
 
-/** The page at an address of its own; whatever it complains of, or asks of others, is noted. */
+/** Opens the page at an address; errors, warnings and requests to others are collected in `noted`. */
 export async function open(browser, options = {}, hash = '') {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
@@ -29,9 +29,9 @@ export async function open(browser, options = {}, hash = '') {
   return { page, noted, took };
 }
 
-/** Until all numbers are those of the parameters asked for last. */
+/** Waits until all numbers belong to the latest parameters. */
 export async function settled(page) {
-  await page.waitForFunction(() => window.stickslip.wish() === Number(document.body.dataset.settled), null, { timeout: 120_000 });
+  await page.waitForFunction(() => window.stickslip.latestId() === Number(document.body.dataset.settled), null, { timeout: 120_000 });
 }
 
 export const fact = (page, name) => page.locator(`#fact-${name}`).evaluate((cell) => JSON.parse(cell.dataset.value ?? 'null'));

@@ -1,4 +1,4 @@
-// The page in a browser, beside the program.
+// The page in a browser, compared with the program.
 import assert from 'node:assert/strict';
 import { readFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -20,7 +20,7 @@ const command = (page) => page.locator('#command').innerText();
 const close = (a, b, tolerance, what) =>
   assert.ok(Math.abs(a - b) <= tolerance * Math.max(1, Math.abs(b)), `${what}: ${a} in the page, ${b} by the program`);
 
-/** Largest difference of the samples shown from those of the program. */
+/** The largest differences between the samples shown and those of the program. */
 async function difference(page) {
   const { samples } = document(await command(page));
   const columns = await page.evaluate(() => window.stickslip.columns().map((column) => [...column]));
@@ -30,13 +30,13 @@ async function difference(page) {
   return Object.fromEntries(names.map((name, n) => [name, largest(name, n)]));
 }
 
-test('the page is one file, small enough to be sent', { skip }, () => {
+test('the page is one file of at most 700 kB, compressed', { skip }, () => {
   const size = gzipSync(readFileSync(file)).length;
   assert.ok(size <= 700e3, `${size} bytes gzipped`);
   console.log(`gzipped: ${size} bytes`);
 });
 
-test('it is ready within 2.5 s, and says nothing to the console', { skip }, async () => {
+test('it is ready within 2.5 s, without messages on the console', { skip }, async () => {
   const { page, noted, took } = await open(browser);
   console.log(`ready after ${took} ms`);
   assert.ok(took <= 2500, `${took} ms`);
@@ -44,23 +44,23 @@ test('it is ready within 2.5 s, and says nothing to the console', { skip }, asyn
   await page.context().close();
 });
 
-test('nothing may be loaded, and a run that takes too long is cut off with a word', { skip }, async () => {
+test('nothing may be loaded, and a run that takes too long is cut off with a message', { skip }, async () => {
   const context = await browser.newContext();
   const page = await context.newPage();
   await page.goto(`file://${file}#alpha=100&r=20&width=0.1&depth_limit=0.001&until=20000`);
   await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 20_000 });
-  assert.match(await page.locator('#said').innerText(), /^Cut off at t = [0-9.]+: the page computes for 4 seconds/);
+  assert.match(await page.locator('#summary').innerText(), /^Cut off at t = [0-9.]+: the page computes for 4 seconds/);
   const policy = await page.locator('meta[http-equiv="Content-Security-Policy"]').getAttribute('content');
   assert.match(policy, /default-src 'none'; script-src 'sha256-[^']+' 'wasm-unsafe-eval'; worker-src blob:/);
   const fetched = await page.evaluate(() => fetch('data:,x').then(() => true, () => false));
   assert.equal(fetched, false);
-  // A slider that moves on is not kept waiting by what is still computed.
+  // A slow computation does not delay the next request.
   await page.evaluate(() => (location.hash = '#alpha=1.2&r=1'));
-  await page.waitForFunction(() => document.body.dataset.ready === String(window.stickslip.wish()), null, { timeout: 10_000 });
+  await page.waitForFunction(() => document.body.dataset.ready === String(window.stickslip.latestId()), null, { timeout: 10_000 });
   await context.close();
 });
 
-test('what is shown is what the program says, to the last bit', { skip }, async () => {
+test('samples are those of the program, to the last bit', { skip }, async () => {
   const { page, noted } = await open(browser);
   const presets = page.locator('#presets button');
   for (let n = 0; n < (await presets.count()); n++) {
@@ -95,7 +95,7 @@ test('cycles and their multipliers are those of the program, to 1e-9', { skip },
   }
 });
 
-test('every slider moves the tip, by keys too, and takes any number', { skip }, async () => {
+test('every slider changes its parameter, by keys too, and takes any number', { skip }, async () => {
   const { page, noted } = await open(browser);
   for (const box of ['depth_limit', 'healing_time', 'inertia', 'stiffness_across']) await page.locator(`#${box}-there`).check();
   await settled(page);
@@ -121,7 +121,7 @@ test('every slider moves the tip, by keys too, and takes any number', { skip }, 
   await page.context().close();
 });
 
-test('wrong input tells', { skip }, async () => {
+test('wrong input is reported', { skip }, async () => {
   const { page, noted } = await open(browser, {}, '#alpha=1.2&r=1&colour=red&kick=much');
   assert.match(await page.locator('#strange').innerText(), /colour=red, kick=much/);
   const field = page.locator('#alpha-number');
@@ -159,7 +159,7 @@ test('a slider redraws within 16 ms, in the median', { skip }, async () => {
   await page.context().close();
 });
 
-test('a run of 2,000 leaves the page responding', { skip }, async () => {
+test('the page responds during a run to t = 2,000', { skip }, async () => {
   const { page, noted } = await open(browser, {}, '#alpha=1.62&r=1&kick=0.1');
   const longest = await page.evaluate(async () => {
     const field = document.getElementById('until-number');
@@ -174,13 +174,13 @@ test('a run of 2,000 leaves the page responding', { skip }, async () => {
     }
     return { gap: longest, run: window.stickslip.redraws.at(-1) };
   });
-  console.log(`a run of 2,000: ${longest.run.toFixed(0)} ms, the page deaf for ${longest.gap.toFixed(0)} ms at most`);
+  console.log(`a run to t = 2,000: ${longest.run.toFixed(0)} ms, longest pause of the page ${longest.gap.toFixed(0)} ms`);
   assert.ok(longest.gap <= 100, `${longest.gap} ms`);
   assert.deepEqual(noted, []);
   await page.context().close();
 });
 
-test('the map is clicked, walked and zoomed, and says what a sweep says', { skip }, async () => {
+test('the map is clicked, walked and zoomed, and has the regimes of a sweep', { skip }, async () => {
   const { page, noted } = await open(browser);
   const map = page.locator('#map');
   await map.click({ position: { x: 200, y: 150 } });
@@ -218,9 +218,9 @@ test('the map is clicked, walked and zoomed, and says what a sweep says', { skip
 test('a raster grows, can be stopped, and ends as the program ends it', { skip }, async () => {
   const { page, noted } = await open(browser, {}, '#alpha=0.5&r=1&beta=0&pitch=0.5&lines=200&length=60');
   await page.locator('#scan').click();
-  await page.locator('#raster-told').filter({ hasText: /Line [2-9]/ }).waitFor();
+  await page.locator('#raster-status').filter({ hasText: /Line [2-9]/ }).waitFor();
   await page.locator('#scan').click();
-  await page.locator('#raster-told').filter({ hasText: /^Stopped\.$/ }).waitFor();
+  await page.locator('#raster-status').filter({ hasText: /^Stopped\.$/ }).waitFor();
   await page.locator('#lines-number').fill('60');
   for (const name of ['pitch', 'lines', 'length']) {
     await page.locator(`#${name}`).focus();
@@ -228,8 +228,8 @@ test('a raster grows, can be stopped, and ends as the program ends it', { skip }
   }
   for (const path of ['zigzag', 'one-way']) await page.locator('#path').selectOption(path);
   await page.locator('#scan').click();
-  await page.waitForFunction(() => document.getElementById('raster-told').dataset.found, null, { timeout: 120_000 });
-  const found = JSON.parse(await page.locator('#raster-told').getAttribute('data-found'));
+  await page.waitForFunction(() => document.getElementById('raster-status').dataset.found, null, { timeout: 120_000 });
+  const found = JSON.parse(await page.locator('#raster-status').getAttribute('data-found'));
   const { regime, pattern } = document(found.command);
   assert.equal(found.regime, regime);
   for (const key of ['q', 'kappa', 'wavelength', 'crest_angle', 'coherence', 'amplitude']) {
@@ -238,15 +238,15 @@ test('a raster grows, can be stopped, and ends as the program ends it', { skip }
   }
   await page.locator('#lines-number').fill('1000');
   await page.locator('#scan').click();
-  await page.locator('#raster-told').filter({ hasText: /up to 400 lines/ }).waitFor();
+  await page.locator('#raster-status').filter({ hasText: /up to 400 lines/ }).waitFor();
   assert.deepEqual(noted, []);
   await page.context().close();
 });
 
-test('a walker goes round as the program says', { skip }, async () => {
+test('a walker has the circle and the orbits of the program', { skip }, async () => {
   const { page, noted } = await open(browser, {}, '#alpha=1.2&r=1&walker_rotation=0.3&show=walkers');
-  await page.waitForFunction(() => document.getElementById('walker-told').dataset.found, null, { timeout: 60_000 });
-  const found = JSON.parse(await page.locator('#walker-told').getAttribute('data-found'));
+  await page.waitForFunction(() => document.getElementById('walker-status').dataset.found, null, { timeout: 60_000 });
+  const found = JSON.parse(await page.locator('#walker-status').getAttribute('data-found'));
   const { regime, circle, orbits } = document(await page.locator('#walker-command').innerText());
   assert.deepEqual([found.regime, regime], ['circling', 'circling']);
   for (const key of ['radius', 'omega']) {
@@ -258,14 +258,14 @@ test('a walker goes round as the program says', { skip }, async () => {
   await page.context().close();
 });
 
-test('the tour goes its five steps, to the motions that it names', { skip }, async () => {
+test('the five steps of the tour show the motions that they name', { skip }, async () => {
   const { page, noted } = await open(browser);
   const next = page.locator('#tour-next');
   for (const regime of ['steady', 'steady', 'stick-slip', null, 'snaking']) {
     await next.click();
-    await page.waitForFunction(() => window.stickslip.wish() === Number(document.body.dataset.settled), null, { timeout: 60_000 });
+    await page.waitForFunction(() => window.stickslip.latestId() === Number(document.body.dataset.settled), null, { timeout: 60_000 });
     if (regime) assert.equal(await fact(page, 'regime'), regime);
-    else await page.locator('#raster-told').filter({ hasText: /Line [2-9]|lines\. ripples/ }).waitFor();
+    else await page.locator('#raster-status').filter({ hasText: /Line [2-9]|lines\. ripples/ }).waitFor();
   }
   assert.ok(await next.isHidden());
   assert.ok(await page.locator('#chart-y').isVisible());
@@ -274,7 +274,7 @@ test('the tour goes its five steps, to the motions that it names', { skip }, asy
   await page.context().close();
 });
 
-test('what is saved is a document of the program; what is linked comes back', { skip }, async () => {
+test('saved documents are read by the program, and a link restores the state', { skip }, async () => {
   const { page } = await open(browser, {}, '#alpha=1.3&r=0.9&beta=0.8&healing_time=40&kick=0.2&until=77');
   for (const [button, kind] of [['#save-run', 'surface'], ['#save-cycle', 'plot']]) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.locator(button).click()]);
@@ -293,13 +293,13 @@ test('what is saved is a document of the program; what is linked comes back', { 
   await again.page.context().close();
 });
 
-test('it is told to those who do not see it, and fits a phone', { skip }, async () => {
+test('screen readers get names and results, and the page fits a phone', { skip }, async () => {
   const { page } = await open(browser, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
   const nameless = await page.evaluate(() => [...document.querySelectorAll('input, select, button, canvas, [role=img]')]
     .filter((e) => !(e.closest('[role=img]:not(canvas)') && e.matches('canvas')))
     .filter((e) => !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim())).map((e) => e.outerHTML));
   assert.deepEqual(nameless, []);
-  assert.match(await page.locator('#said').innerText(), /stick-slip, period 7\.06736/);
+  assert.match(await page.locator('#summary').innerText(), /stick-slip, period 7\.06736/);
   assert.match(await page.locator('#chart-l').getAttribute('aria-label'), /from .* to /);
   const [wide, seen] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
   assert.ok(wide <= seen, `${wide} of ${seen} pixels wide`);
@@ -307,11 +307,11 @@ test('it is told to those who do not see it, and fits a phone', { skip }, async 
   await page.context().close();
 });
 
-test('pictures of it, light and dark, for whoever looks', { skip }, async () => {
+test('screenshots, light and dark', { skip }, async () => {
   for (const colorScheme of ['light', 'dark']) {
     const { page, noted } = await open(browser, { colorScheme }, '#alpha=0.5&r=1&beta=0&pitch=0.5&lines=60&length=60');
     await page.locator('#scan').click();
-    await page.waitForFunction(() => document.getElementById('raster-told').dataset.found, null, { timeout: 120_000 });
+    await page.waitForFunction(() => document.getElementById('raster-status').dataset.found, null, { timeout: 120_000 });
     await page.locator('#presets button').nth(5).click();
     await settled(page);
     await page.waitForTimeout(800);

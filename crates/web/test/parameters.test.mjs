@@ -1,8 +1,8 @@
-// Sliders, addresses, the tour and the links of chapters. No browser: declarations of parameters as the questions write them.
+// Sliders, addresses, the tour and the links of chapters, without a browser.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-/** Every parameter with a slider, in the words of its question; a test in a browser has those of the module. */
+/** Descriptions of every parameter with a slider, as in its question; tests in a browser use those of the module. */
 const of = (texts) => Object.entries(texts).map(([name, description]) => ({ name, description }));
 globalThis.DECLARED = {
   run: of({
@@ -32,7 +32,7 @@ const { SLIDERS, SCAN_SLIDERS, WALKER_SLIDERS, address, fromAddress, leastOf, un
 const { PRESETS, TOUR } = await import('../page/src/presets.js');
 const { STATES } = await import('../book/states.mjs');
 
-test('units and bounds are those that questions declare', () => {
+test('units and bounds are those of the questions', () => {
   const unit = (sliders, name) => sliders.find((slider) => slider.name === name).unit;
   assert.deepEqual(['alpha', 'depth_limit', 'healing_time', 'inertia', 'stiffness_across', 'kick'].map((name) => unit(SLIDERS, name)), [undefined, 'kσ²/a', 'Γ/k', 'Γ²/k', undefined, 'σ']);
   assert.equal(unit(WALKER_SLIDERS, 'walker_trap'), 'k');
@@ -44,7 +44,7 @@ test('units and bounds are those that questions declare', () => {
   }
 });
 
-test('an address comes back as the state that it tells', () => {
+test('an address restores its state', () => {
   for (const { run, scan } of PRESETS) {
     const state = { ...usual(), run, scan: { ...usual().scan, ...scan } };
     const { strange, show, ...found } = fromAddress(address(state));
@@ -57,8 +57,8 @@ test('an address comes back as the state that it tells', () => {
 
 test('the tour has five steps of one sentence, and chapters lead to states that are understood', () => {
   assert.equal(TOUR.length, 5);
-  for (const { says, state } of TOUR) {
-    assert.match(says, /^[A-Z][^.]*(\.\d[^.]*)*\.$/, says);
+  for (const { text, state } of TOUR) {
+    assert.match(text, /^[A-Z][^.]*(\.\d[^.]*)*\.$/, text);
     assert.deepEqual(fromAddress(address(state)).strange, []);
   }
   for (const [file, [, state]] of Object.entries(STATES)) assert.deepEqual(fromAddress(state).strange, [], file);

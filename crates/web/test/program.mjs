@@ -1,4 +1,4 @@
-// The program, whose values those of the page are held against.
+// The program, with which the page is compared.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -8,7 +8,7 @@ export const root = resolve(import.meta.dirname, '../../..');
 const binary = process.env.STICKSLIP ?? join(root, 'target/release/stickslip');
 export const folder = mkdtempSync(join(tmpdir(), 'stickslip-page-'));
 
-/** The document that a command line, `stickslip …`, makes; -o is replaced. */
+/** The document of a command line, `stickslip …`; -o is replaced. */
 export function document(line) {
   const words = line.replace(/^stickslip /, '').replace(/ -o \S+$/, '').split(' ');
   const file = join(folder, 'document.json');
@@ -18,7 +18,7 @@ export function document(line) {
 
 export const run = (...words) => execFileSync(binary, words, { encoding: 'utf8' });
 
-/** The model's options of a command line of a run. */
+/** The options of the model in the command line of a run. */
 export function model(line) {
   const options = line.match(/--(tip|beta|width|alpha|r|depth-limit|healing-time|inertia) \S+/g);
   return options.join(' ');

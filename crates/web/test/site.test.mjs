@@ -1,4 +1,4 @@
-// The book: every link leads somewhere, every picture is there, nothing is asked of others.
+// The book: no dead link, no missing picture, no request to another server.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
@@ -11,9 +11,9 @@ const skip = !existsSync(join(site, 'index.html')) && 'no book here: make site';
 const pages = skip ? [] : readdirSync(site, { recursive: true }).filter((name) => name.endsWith('.html')).map((name) => join(site, name));
 const kept = new Map();
 const text = (file) => kept.get(file) ?? kept.set(file, readFileSync(file, 'utf8')).get(file);
-/** The page is one file without links; its script is no text to look for any in. */
+/** Without the page, which is one file without links. */
 const chapters = pages.filter((file) => !file.endsWith('/play.html') && !file.includes('/api/'));
-/** What rustdoc wrote: it checks its own links; ours into it are checked here, and that its front pages need no network. */
+/** Front pages of rustdoc, which checks its own links. Here they must need no network; our links to them are checked too. */
 const fronts = pages.filter((file) => /\/api\/stickslip_[a-z]+\/index\.html$/.test(file));
 
 const targets = (file) => [...text(file).matchAll(/\s(href|src)="([^"]*)"/g)].map(([, kind, target]) => ({ kind, target: target.replaceAll('&amp;', '&') }));
@@ -28,30 +28,30 @@ test('no link is dead and no picture missing', { skip }, () => {
       const [path, anchor] = target.split('#');
       let there = path ? join(dirname(file), decodeURIComponent(path.split('?')[0])) : file;
       if (there.endsWith('/')) there += 'index.html';
-      // The page for addresses that are not there refers to the root of a server.
+      // The page for missing addresses refers to the root of a server.
       if (file.endsWith('/404.html') && path.startsWith('/')) continue;
       if (!existsSync(there)) dead.push(`${relative(site, file)}: ${target}`);
-      // What follows # in the page is a state of it, tried in parameters.test.mjs.
+      // In the page the part after # is a state, tested in parameters.test.mjs.
       else if (anchor && !there.endsWith('/play.html') && there.endsWith('.html') && !text(there).includes(`id="${decodeURIComponent(anchor)}"`)) dead.push(`${relative(site, file)}: ${target}`);
     }
   }
   assert.deepEqual(dead, []);
 });
 
-test('nothing is left of equations that could not be set', { skip }, () => {
+test('all equations are typeset', { skip }, () => {
   const left = chapters.filter((file) => /katex-error|\\frac|\\int(?!_)/.test(text(file).replaceAll(/<annotation[\s\S]*?<\/annotation>/g, '').replaceAll(/<code[\s\S]*?<\/code>/g, '')));
   assert.deepEqual(left.filter((file) => !file.endsWith('print.html')), []);
-  // A tilde over a letter is none of Markdown's.
+  // Markdown must not take a tilde over a letter for its own.
   for (const name of ['explanation/linear-theory', 'findings/corrections']) assert.ok(!/<del>/.test(text(join(site, `${name}.html`))), name);
   assert.ok(text(join(site, 'explanation/linear-theory.html')).match(/class="katex"/g).length > 100);
 });
 
-test('a browser asks nothing of others for any page, and complains of none', { skip: skip || missing }, async () => {
+test('a browser makes no request for any page, and reports no error', { skip: skip || missing }, async () => {
   const browser = await launch();
   const page = await browser.newPage();
   const noted = [];
   page.on('request', (request) => /^(file|blob|data):/.test(request.url()) || noted.push(request.url()));
-  // What the next page cuts off has not failed.
+  // A request that the next page aborts has not failed.
   page.on('requestfailed', (request) => request.failure().errorText === 'net::ERR_ABORTED' || noted.push(`${request.url()} failed`));
   page.on('pageerror', (error) => noted.push(error.stack));
   assert.ok(fronts.length >= 10, `${fronts.length} libraries`);
@@ -76,7 +76,7 @@ test('no code is cut off on the right', { skip: skip || missing }, async () => {
         const wide = blocks.filter((block) => block.scrollWidth > block.clientWidth || [...block.children].some((part) => part.scrollWidth > part.clientWidth));
         return { cut: blocks.filter(isCut).length, wide: wide.length };
       });
-      // On a desk all of the help is seen at once.
+      // On a wide screen all of the help is visible.
       if (found.cut || (width === 1400 && name === 'reference/commands' && found.wide)) cut.push({ width, name, ...found });
     }
   }
@@ -84,7 +84,7 @@ test('no code is cut off on the right', { skip: skip || missing }, async () => {
   assert.deepEqual(cut, []);
 });
 
-test('the notices name what the page and the book are made of', { skip }, () => {
+test('the notices name the parts of the page and of the book', { skip }, () => {
   const notices = text(join(site, 'THIRD-PARTY-NOTICES.txt'));
   const locked = JSON.parse(readFileSync(join(root, 'crates/web/package-lock.json'), 'utf8')).packages;
   for (const name of ['katex', 'uplot', 'js-lzma']) assert.match(notices, new RegExp(`^${name} ${locked[`node_modules/${name}`].version}: `, 'm'));

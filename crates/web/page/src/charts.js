@@ -3,14 +3,14 @@ import uPlot from 'uplot';
 import { colour } from './theme.js';
 
 const CHARTS = [
-  { id: 'chart-l', column: 1, label: 'l (σ)', says: 'l, the reduced lag' },
-  { id: 'chart-v', column: 2, label: "x₀′ (kσ/Γ)", says: 'velocity of the tip' },
-  { id: 'chart-f', column: 3, label: 'force (kσ)', says: 'lateral force, the extension of the spring' },
-  { id: 'chart-y', column: 5, label: 'y0 (σ)', says: 'y0, the distance of the tip from its line', ofFree: true },
+  { id: 'chart-l', column: 1, label: 'l (σ)', words: 'l, the reduced lag' },
+  { id: 'chart-v', column: 2, label: "x₀′ (kσ/Γ)", words: 'velocity of the tip' },
+  { id: 'chart-f', column: 3, label: 'force (kσ)', words: 'lateral force, the extension of the spring' },
+  { id: 'chart-y', column: 5, label: 'y0 (σ)', words: 'y0, the distance of the tip from its line', ofFree: true },
 ];
 const HEIGHT = 150;
 
-/** Range of an axis: with a margin, and never so small that round-off looks like motion or that marks coincide. */
+/** Range of an axis: with a margin, and wide enough that round-off does not look like motion and marks do not coincide. */
 function range(u, low, high) {
   const least = 1e-6 * Math.max(1, Math.abs(low), Math.abs(high));
   if (high - low >= least) return uPlot.rangeNum(low, high, 0.1, true);
@@ -70,12 +70,12 @@ export function charts(picked) {
       for (const plot of plots) plot.mark.style.transform = `translateX(${plot.valToPos(t, 'x')}px)`;
     },
     redress: () => columns && make(),
-    /** In words, for those who do not see them. */
+    /** Describes the charts in words, for screen readers. */
     describe() {
       for (const chart of CHARTS) {
         const column = columns[chart.column];
         const [low, high] = column.reduce(([a, b], y) => [Math.min(a, y), Math.max(b, y)], [Infinity, -Infinity]);
-        const words = `${chart.says}: from ${low.toPrecision(3)} to ${high.toPrecision(3)}`;
+        const words = `${chart.words}: from ${low.toPrecision(3)} to ${high.toPrecision(3)}`;
         host(chart).setAttribute('aria-label', words);
       }
     },

@@ -4,7 +4,7 @@ import { read } from './parameters.js';
 const parts = 1000;
 const digits = (value, most = 10) => String(Number(value.toPrecision(most)));
 
-/** The slider's place of a value, and back. */
+/** The conversion between a value and the place of the slider. */
 function scale({ min, max, step, log, digits: kept = 3 }) {
   if (!log) return { min, max, step, place: (v) => v, value: (p) => Number(p.toFixed(10)) };
   const ratio = Math.log(max / min);
@@ -31,14 +31,14 @@ export function sliders(host, list, changed) {
 }
 
 function row(host, slider, changed) {
-  const { name, sign, says, unit, optional, description } = slider;
+  const { name, sign, label, unit, optional, description } = slider;
   const { min, max, step, place, value } = scale(slider);
   const box = document.createElement('div');
   box.className = 'row';
   box.innerHTML = `
-    <label for="${name}"><i>${sign.replace(/_(.)/, '<sub>$1</sub>')}</i> ${says}${unit ? `, ${unit}` : ''}</label>
+    <label for="${name}"><i>${sign.replace(/_(.)/, '<sub>$1</sub>')}</i> ${label}${unit ? `, ${unit}` : ''}</label>
     ${optional ? `<label class="there"><input type="checkbox" id="${name}-there"> on</label>` : ''}
-    <input type="text" inputmode="decimal" id="${name}-number" aria-label="${says}, ${sign}: number"
+    <input type="text" inputmode="decimal" id="${name}-number" aria-label="${label}, ${sign}: number"
       aria-describedby="${name}-why" autocomplete="off" spellcheck="false">
     <input type="range" id="${name}" min="${min}" max="${max}" step="${step}">
     <p class="why" id="${name}-why" hidden></p>`;
@@ -70,7 +70,7 @@ function row(host, slider, changed) {
   });
   field.addEventListener('input', () => {
     const number = read(name, field.value);
-    if (number === undefined) return refuse(`“${field.value}” is no number for ${sign}`);
+    if (number === undefined) return refuse(`“${field.value}” is not a number for ${sign}`);
     refuse(null);
     if (number !== null) {
       last = number;

@@ -1,11 +1,11 @@
-// Workers: what computes does so beside the page, which stays alive.
+// Workers: computations run in threads of their own, so that the page keeps responding.
 import LZMA from 'js-lzma';
 
 /** Address of the worker's script, and the module's bytes once they are unpacked; both come with the page. */
 let script;
 let bytes;
 
-/** The way back from `pack`. */
+/** The inverse of `pack`. */
 export function unpacked(packed) {
   const plain = new Uint8Array(Number(new DataView(packed.buffer).getBigUint64(5, true)));
   let [at, end] = [0, 0];
@@ -22,27 +22,27 @@ export function prepare(text, base64) {
   bytes = Promise.resolve().then(() => unpacked(packed));
 }
 
-/** A newer wish waits so long for an older one to end by itself. */
+/** Time for an older request to end before its worker is replaced. */
 const PATIENCE = 1000; // ms
-/** What ends a wish. */
+/** Messages that end a request. */
 const ENDS = new Set(['settled', 'mapped', 'scanned', 'walked', 'refused']);
 
 /**
- * A worker that answers by `on[kind](message)`. `end` stops it in the middle of anything. Of wishes with an `id` the newest
- * supersedes all others: a worker that is still at an older one after a while is ended, and another begins with the newest.
+ * A worker whose messages go to `on[kind](message)`. `end` terminates it. The newest request with an `id` replaces older ones:
+ * a worker that still computes an older one after `PATIENCE` is terminated, and a new worker begins with the newest.
  */
 export function hire(on) {
   let worker = null;
-  let newest = null; // wish with an id
-  let busy = false; // at a wish with an id
+  let newest = null; // request with an id
+  let busy = false; // computing a request with an id
   let timer;
-  const calm = () => (clearTimeout(timer), (timer = undefined));
+  const disarm = () => (clearTimeout(timer), (timer = undefined));
   const start = () => {
     worker = new Worker(script);
     worker.onmessage = ({ data }) => {
       if (data.kind === 'begun') {
         busy = true;
-        if (data.id === newest?.id) calm();
+        if (data.id === newest?.id) disarm();
       }
       if (ENDS.has(data.kind)) busy = false;
       on[data.kind]?.(data);
@@ -55,7 +55,7 @@ export function hire(on) {
     bytes.then((module) => mine.postMessage({ kind: 'begin', bytes: module }));
   };
   const end = () => {
-    calm();
+    disarm();
     busy = false;
     worker?.terminate();
     worker = null;
@@ -63,7 +63,7 @@ export function hire(on) {
   const post = (message) => {
     if (!worker) start();
     const mine = worker;
-    // After the module, and in the order asked for.
+    // After the module, and in the order of the requests.
     bytes.then(() => mine.postMessage(message));
   };
   const replace = () => {

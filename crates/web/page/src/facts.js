@@ -1,8 +1,8 @@
-// What theory and the run say, in numbers and in words.
+// Results of theory and of the run, in numbers and in words.
 
 const digits = (value, n = 10) => (value === null || value === undefined ? '–' : String(Number(value.toPrecision(n))).replace('-', '−'));
-/** As the program prints it: to the digits that hold, what the last may be off by in parentheses. */
-function held(value, error) {
+/** A number as the program prints it: its reliable digits, with the error of the last one in parentheses. */
+function reliable(value, error) {
   if (!(error > 0)) return digits(value, 12);
   const place = (size) => Math.floor(Math.log10(Math.max(Math.abs(size), 1e-300)));
   let last = Math.max(place(error), place(value) - 14);
@@ -10,7 +10,7 @@ function held(value, error) {
   return `${value.toFixed(Math.max(0, -last))}(${Math.ceil(error / 10 ** last + 0.5)})`;
 }
 const complex = ({ re, im }) => (im === 0 ? digits(re, 6) : `${digits(re, 6)} ${im < 0 ? '−' : '+'} ${digits(Math.abs(im), 6)} i`);
-/** One of each conjugate pair, as ±. */
+/** One number of each conjugate pair, with ±. */
 const upper = (list) => list.filter(({ im }) => im >= 0).map((z) => (z.im === 0 ? digits(z.re, 6) : complex(z).replace('+', '±')));
 
 const UNITS = { period: 'Γ/k', wavelength: 'σ', amplitude: 'σ' };
@@ -22,7 +22,7 @@ export function facts(host) {
     if (value !== undefined) cell(id).dataset.value = JSON.stringify(value);
     else delete cell(id).dataset.value;
   };
-  const known = (id, value, error, unit) => (value == null ? put(id, '–') : put(id, `${held(value, error)} ${unit}`, value));
+  const known = (id, value, error, unit) => (value == null ? put(id, '–') : put(id, `${reliable(value, error)} ${unit}`, value));
   const number = (id, value, unit = '') => put(id, `${digits(value)} ${value == null ? '' : unit}`.trim(), value);
 
   return {
@@ -60,7 +60,7 @@ export function facts(host) {
       put('fact-cycle-stable', `${found.stable ? 'stable' : 'unstable'}, slips in a period: ${found.slips}`);
       put('fact-multipliers', upper(found.floquet.slice(0, 8)).join(', '), found.floquet);
     },
-    /** In one sentence, for the line above and for those who listen. */
+    /** One sentence for the line below the picture, which screen readers read out. */
     sentence({ alpha, r }) {
       const of = (id) => cell(id).textContent;
       const period = cell('fact-period').dataset.value ? `, period ${digits(JSON.parse(cell('fact-period').dataset.value), 6)} Γ/k` : '';

@@ -1,4 +1,4 @@
-// The page: parameters in, pictures and numbers out.
+// The page: its state, its workers, and its pictures and numbers.
 import { prepare, hire } from './crew.js';
 import { sliders } from './controls.js';
 import { charts } from './charts.js';
@@ -14,37 +14,37 @@ import { SLIDERS, SCAN_SLIDERS, WALKER_SLIDERS, address, fromAddress, usual, wal
 import precomputed from '../map.json';
 
 const at = (id) => document.getElementById(id);
-const kept = (id) => at(id).textContent;
-prepare(kept('worker-script'), kept('module'));
+const embedded = (id) => at(id).textContent;
+prepare(embedded('worker-script'), embedded('module'));
 
 let state = usual();
-let wish = 0; // number of the latest run asked for
-let since = 0; // when it was
-let latest = null; // its columns
+let latestId = 0; // number of the latest request for a run
+let since = 0; // its time
+let latest = null; // columns of the run that is shown
 let isFree = false; // whether its tip can leave the line
 let command = '';
 let cut; // the time at which the run was cut off, if it was
 const cutOff = () => `Cut off at t = ${cut.toPrecision(6)}: the page computes for 4 seconds, the command below goes on.`;
-/** For whoever measures: how long each redraw took, and what is shown. */
-const seen = (window.stickslip = { redraws: [], wish: () => wish, state: () => state, columns: () => latest, map: () => map.seen() });
+/** For tests: the durations of redraws, and the data shown. */
+const seen = (window.stickslip = { redraws: [], latestId: () => latestId, state: () => state, columns: () => latest, map: () => map.seen() });
 
 const table = facts(at('facts'));
 const plots = charts((t) => picture.go(t));
 const live = hire({
   run: shown,
   frame: (found) => picture.frame(found),
-  linear: (found) => found.id === wish && table.linear(found),
-  judged: (found) => found.id === wish && table.judged(found),
-  cycle: (found) => found.id === wish && table.cycle(found),
+  linear: (found) => found.id === latestId && table.linear(found),
+  judged: (found) => found.id === latestId && table.judged(found),
+  cycle: (found) => found.id === latestId && table.cycle(found),
   settled({ id }) {
-    if (id !== wish) return;
-    at('said').textContent = cut === undefined ? table.sentence(state.run) : `${cutOff()} ${table.sentence(state.run)}`;
+    if (id !== latestId) return;
+    at('summary').textContent = cut === undefined ? table.sentence(state.run) : `${cutOff()} ${table.sentence(state.run)}`;
     plots.describe();
     document.body.dataset.settled = id;
   },
   document: saved,
   refused({ id, message }) {
-    if (id !== undefined && id !== wish) return;
+    if (id !== undefined && id !== latestId) return;
     at('error').hidden = false;
     at('error').textContent = message;
   },
@@ -56,17 +56,17 @@ const picture = scene(
   () => isFree,
 );
 const map = phase(
-  { canvas: at('map'), told: at('map-told'), legend: at('legend'), zoomIn: at('zoom-in'), zoomOut: at('zoom-out'), whole: at('zoom-whole') },
+  { canvas: at('map'), status: at('map-status'), legend: at('legend'), zoomIn: at('zoom-in'), zoomOut: at('zoom-out'), whole: at('zoom-whole') },
   unpacked(precomputed),
-  (message) => mapper.ask({ ...message, asked: JSON.stringify(message.asked) }),
+  (message) => mapper.ask({ ...message, parameters: JSON.stringify(message.parameters) }),
   ({ r, alpha }) => change({ r, alpha }),
 );
 const mapper = hire({ boundary: map.boundary, column: map.column, mapped: map.mapped, refused: map.refused });
 const rows = sliders(at('sliders'), SLIDERS, (name, value) => set('run', name, value));
 const scanRows = sliders(at('scan-sliders'), SCAN_SLIDERS, (name, value) => set('scan', name, value));
 const walkRows = sliders(at('walker-sliders'), WALKER_SLIDERS, (name, value) => set('walk', name, value));
-const walking = walker({ canvas: at('walk'), told: at('walker-told'), code: at('walker-command') }, hire);
-const scanned = raster({ canvas: at('raster'), button: at('scan'), told: at('raster-told'), scale: at('raster-scale') }, hire, () => state);
+const walking = walker({ canvas: at('walk'), status: at('walker-status'), code: at('walker-command') }, hire);
+const scanned = raster({ canvas: at('raster'), button: at('scan'), status: at('raster-status'), scale: at('raster-scale') }, hire, () => state);
 
 function set(part, name, value) {
   state[part][name] = value;
@@ -90,12 +90,12 @@ function showAll() {
 
 function ask() {
   since = performance.now();
-  live.ask({ kind: 'run', id: ++wish, asked: JSON.stringify(state.run) });
+  live.ask({ kind: 'run', id: ++latestId, parameters: JSON.stringify(state.run) });
   map.point(state.run);
   remember();
 }
 let isWalkerSeen = false;
-/** Only once its picture is looked at. */
+/** The walker is computed only once its picture is visible. */
 function walk() {
   if (isWalkerSeen) walking.ask(walkerOf(state.walk));
 }
@@ -107,7 +107,7 @@ new IntersectionObserver(([{ isIntersecting }], watching) => {
 }).observe(at('walkers'));
 
 let due;
-/** Not at every move of a slider: browsers limit how often an address may change. */
+/** Delayed while a slider moves, because browsers limit how often an address may change. */
 function remember() {
   clearTimeout(due);
   due = setTimeout(() => {
@@ -117,9 +117,9 @@ function remember() {
 }
 
 function shown({ id, samples, command: line, cut: reached }) {
-  if (id !== wish) return;
+  if (id !== latestId) return;
   cut = reached;
-  if (cut !== undefined) at('said').textContent = cutOff();
+  if (cut !== undefined) at('summary').textContent = cutOff();
   const n = samples.length / 6;
   isFree = state.run.stiffness_across !== null;
   latest = [0, 1, 2, 3, 4, 5].map((column) => samples.subarray(column * n, (column + 1) * n));
@@ -128,7 +128,7 @@ function shown({ id, samples, command: line, cut: reached }) {
   picture.over([latest[0][0], latest[0][n - 1]]);
   command = line;
   at('command').textContent = line;
-  // Charts draw in a microtask: after it, all is there.
+  // Charts draw in a microtask; after it the picture is complete.
   queueMicrotask(() => {
     seen.redraws.push(performance.now() - since);
     document.body.dataset.ready = id;
@@ -146,7 +146,7 @@ function saved({ found, why }) {
 }
 function save(kind, as) {
   name = as;
-  live.ask({ kind, asked: JSON.stringify(state.run) });
+  live.ask({ kind, parameters: JSON.stringify(state.run) });
 }
 async function copy(text, button) {
   try {
@@ -155,7 +155,7 @@ async function copy(text, button) {
   } catch {
     button.textContent = 'Not allowed here';
   }
-  setTimeout(() => (button.textContent = button.dataset.says), 1500);
+  setTimeout(() => (button.textContent = button.dataset.label), 1500);
 }
 
 for (const preset of PRESETS) {
@@ -184,10 +184,10 @@ theme(at('theme'), () => {
   scanned.draw();
   walking.draw();
 });
-const guide = tour({ list: at('tour-steps'), says: at('tour-says'), next: at('tour-next') });
+const guide = tour({ list: at('tour-steps'), text: at('tour-text'), next: at('tour-next') });
 guide.begin();
 
-/** Goes to a section; a raster begins. */
+/** Scrolls to a section, and starts the raster if it is that one. */
 function show(place) {
   if (place === 'rasters') scanned.begin();
   at(place).scrollIntoView({ block: 'nearest' });
@@ -202,7 +202,7 @@ function arrive() {
   walk();
   if (place) show(place);
   at('strange').hidden = strange.length === 0;
-  at('strange').textContent = strange.length ? `The address says ${strange.join(', ')}, which is not understood.` : '';
+  at('strange').textContent = strange.length ? `Not understood in the address: ${strange.join(', ')}.` : '';
 }
 addEventListener('hashchange', arrive);
 arrive();

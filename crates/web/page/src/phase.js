@@ -1,7 +1,7 @@
-// The map of what the tip settles into, over r and α: precomputed for the paper's tip, computed where one looks closer.
+// The phase diagram over r and α: precomputed for the default tip, computed for other tips and enlarged parts.
 import { colour, sharp } from './theme.js';
 
-/** As `crates/web/src/map.rs` numbers them. */
+/** Classes, in the order of `crates/web/src/map.rs`. */
 export const CLASSES = ['steady', 'one slip in a period', 'two slips', 'three slips or more', 'trapped', 'not settled', 'not found'];
 const UNKNOWN = 7;
 const CELLS = 64;
@@ -11,14 +11,14 @@ const MARGIN = { left: 46, right: 10, top: 10, bottom: 34 };
 const spaced = ([from, to], n) => Array.from({ length: n }, (_, i) => from + ((to - from) * i) / (n - 1));
 const clamp = (v, [a, b]) => Math.min(Math.max(v, a), b);
 
-export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, ask, picked) {
+export function phase({ canvas, status, legend, zoomIn, zoomOut, whole }, ready, ask, picked) {
   let window_ = WHOLE;
   let law = null; // parameters beside α and r, as text
   let grid = ready;
   let curve = null;
   let at = { r: 1, alpha: 1 };
-  let asked = null;
-  let wish = 0; // number of the latest map asked for
+  let parameters = null;
+  let latestId = 0; // number of the latest request for a map
 
   legend.innerHTML = CLASSES.map((name, n) => `<li><span style="background:var(--class-${n})"></span>${name}</li>`).join('');
 
@@ -29,14 +29,14 @@ export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, a
     if (isReady()) {
       grid = ready;
       curve = null;
-      ask({ kind: 'map', id: ++wish, asked, velocities: ready.r, alphas: [] });
-      told.textContent = 'Precomputed. Zoom in to have it computed more finely.';
+      ask({ kind: 'map', id: ++latestId, parameters, velocities: ready.r, alphas: [] });
+      status.textContent = 'Precomputed. Zoom in for a finer map.';
       return draw();
     }
     grid = { r: velocities, alpha: alphas, classes: velocities.map(() => new Array(CELLS).fill(UNKNOWN)) };
     curve = null;
-    told.textContent = 'Computing …';
-    ask({ kind: 'map', id: ++wish, asked, velocities, alphas });
+    status.textContent = 'Computing …';
+    ask({ kind: 'map', id: ++latestId, parameters, velocities, alphas });
     draw();
   }
   const half = (list) => (list[1] - list[0]) / 2;
@@ -154,28 +154,28 @@ export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, a
 
   return {
     draw,
-    /** Where the point is; it is drawn with the next picture. */
+    /** Sets the point that is marked; it is drawn with the next picture. */
     point({ r, alpha }) {
       at = { r, alpha };
     },
-    /** Other parameters. The map is of all but α and r. */
+    /** Sets the parameters of the run. The map depends on all but α and r. */
     follow(run) {
       at = { r: run.r, alpha: run.alpha };
       const { beta, width, depth_limit, healing_time, inertia } = run;
       const text = JSON.stringify({ beta, width, depth_limit, healing_time, inertia });
-      asked = run;
+      parameters = run;
       if (text === law) return draw();
       law = text;
       compute();
     },
     boundary({ id, curve: found }) {
-      if (id !== wish) return;
+      if (id !== latestId) return;
       curve = [...found];
       draw();
     },
     column({ id, i, wanted, classes, stride }) {
-      if (id !== wish) return;
-      // What is known coarsely stands for its neighbours until they are known.
+      if (id !== latestId) return;
+      // A coarse point stands for its neighbours until they are computed.
       wanted.forEach((j, n) => {
         for (let p = i; p < Math.min(i + stride, grid.r.length); p++)
           for (let q = j; q < Math.min(j + stride, grid.alpha.length); q++) grid.classes[p][q] = classes[n];
@@ -183,19 +183,19 @@ export function phase({ canvas, told, legend, zoomIn, zoomOut, whole }, ready, a
       draw();
     },
     mapped({ id }) {
-      if (id !== wish) return;
+      if (id !== latestId) return;
       canvas.dataset.mapped = JSON.stringify(window_);
-      if (!isReady()) told.textContent = `Computed at ${CELLS} × ${CELLS} points.`;
+      if (!isReady()) status.textContent = `Computed at ${CELLS} × ${CELLS} points.`;
     },
     refused({ message }) {
-      told.textContent = message;
+      status.textContent = message;
     },
-    /** What is shown: where, and the classes. */
+    /** The map shown: ranges, grid and classes. */
     seen: () => ({ window: window_, ...grid }),
   };
 }
 
-/** What the script of the precomputed map has written, as a grid. */
+/** The precomputed map as a grid. */
 export function unpacked({ r, alpha, rows }) {
   const span = ([from, to, n]) => spaced([from, to], n);
   const law = JSON.stringify({ beta: 1, width: 1, depth_limit: null, healing_time: null, inertia: null });

@@ -10,7 +10,7 @@ function shade(part) {
   return SHADES[n].map((from, c) => from + (SHADES[n + 1][c] - from) * (place - n));
 }
 
-export function raster({ canvas, button, told, scale }, crew, wish) {
+export function raster({ canvas, button, status, scale }, crew, state) {
   let rows = [];
   let columns = 0;
   let running = false;
@@ -38,7 +38,7 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
     const axis = area.isEqual ? 'both axes to one scale' : 'one row for each time along the same line';
     scale.textContent = `u from ${low.toPrecision(3)} (dark) to ${high.toPrecision(3)} kσ²/a (light); lines from below, ${axis}`;
   }
-  /** The picture's size: σ are as long across as along, so that angles are true; repeated lines have no axis across. */
+  /** The size of the picture: one scale along and across, so that angles are true; repeated lines have no axis across. */
   function within(width, height) {
     const { lines, pitch, length, path } = shown;
     if (path === 'repeat') return { width, height, rows: lines, isEqual: false };
@@ -51,7 +51,7 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
     pen.textAlign = 'center';
     pen.fillText('The surface will grow here, line by line.', width / 2, height / 2);
   }
-  /** Once a frame is enough. */
+  /** Draws at the next frame, once. */
   const soon = () => {
     if (!late) requestAnimationFrame(draw);
     late = true;
@@ -59,13 +59,13 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
   function stop(words) {
     running = false;
     button.textContent = 'Scan';
-    told.textContent = words;
+    status.textContent = words;
   }
   const hands = crew({
     line({ line, row, columns: wide, heights }) {
       columns = wide;
       for (let n = 0; n * wide < heights.length; n++) rows[row + n] = heights.subarray(n * wide, (n + 1) * wide);
-      told.textContent = `Line ${line} of ${total}`;
+      status.textContent = `Line ${line} of ${total}`;
       soon();
     },
     scanned({ found, why }) {
@@ -79,11 +79,11 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
         ...(p ? [`coherence ${p.coherence.toPrecision(3)}`] : []),
       ];
       const words = [parts.join(', '), ...remarks].join('; ');
-      told.dataset.found = JSON.stringify(found);
+      status.dataset.found = JSON.stringify(found);
       stop(`${total} lines. ${words}. `);
       const code = document.createElement('code');
       code.textContent = command;
-      told.append(code);
+      status.append(code);
       canvas.setAttribute('aria-label', `Surface after ${total} lines: ${words}`);
     },
     refused: ({ message }) => stop(message),
@@ -94,13 +94,13 @@ export function raster({ canvas, button, told, scale }, crew, wish) {
   };
   function begin() {
     if (running) hands.end();
-    const { run, scan } = wish();
+    const { run, scan } = state();
     [rows, running, total, shown] = [[], true, scan.lines, { ...scan }];
-    delete told.dataset.found;
+    delete status.dataset.found;
     button.textContent = 'Stop';
-    told.textContent = 'Line 1 …';
+    status.textContent = 'Line 1 …';
     draw();
-    hands.ask({ kind: 'scan', asked: JSON.stringify(run), scan: JSON.stringify(scan) });
+    hands.ask({ kind: 'scan', parameters: JSON.stringify(run), scan: JSON.stringify(scan) });
   }
   button.addEventListener('click', () => (running ? halt('Stopped.') : begin()));
   new ResizeObserver(draw).observe(canvas);

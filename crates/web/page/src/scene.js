@@ -1,7 +1,7 @@
-// The tip on the surface that it carves, at any speed.
+// The animation of the tip on the surface that it carves.
 import { colour, sharp } from './theme.js';
 
-const BEHIND = 32; // σ of surface to be seen behind the tip
+const BEHIND = 32; // σ of surface shown behind the tip
 const AHEAD = 10;
 const POINTS = 421;
 
@@ -10,15 +10,15 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) 
   let span = [0, 1];
   let t = 0;
   let playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-  let asked = false; // a frame is on its way
+  let pending = false; // a frame is being computed
   let last = null; // the latest frame
   let before = null;
-  let [low, high] = [-1, 1]; // of the heights, eased so that the picture does not jump
+  let [low, high] = [-1, 1]; // range of the heights, changed gradually so that the picture does not jump
 
   const rate = () => Number(speed.value);
   const label = () => (play.textContent = playing ? 'Pause' : 'Play');
-  const wish = () => {
-    asked = true;
+  const request = () => {
+    pending = true;
     ask({ kind: 'frame', t, behind: BEHIND, ahead: AHEAD, count: POINTS, isFree: isFree() });
   };
   function go(to) {
@@ -32,10 +32,10 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) 
     requestAnimationFrame(tick);
     const passed = before === null ? 0 : Math.min((now - before) / 1000, 0.1);
     before = now;
-    if (!playing || asked || document.hidden) return;
+    if (!playing || pending || document.hidden) return;
     const next = t + rate() * passed;
     go(next >= span[1] ? span[0] : next);
-    wish();
+    request();
   }
   play.addEventListener('click', () => {
     playing = !playing;
@@ -45,7 +45,7 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) 
     playing = false;
     label();
     go(Number(time.value));
-    wish();
+    request();
   });
   label();
   requestAnimationFrame(tick);
@@ -66,7 +66,7 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) 
 
   return {
     frame(found) {
-      asked = false;
+      pending = false;
       last = found;
       const [a, b] = found.u.reduce(([p, q], v) => [Math.min(p, v), Math.max(q, v)], [Infinity, -Infinity]);
       const room = 0.1 * Math.max(b - a, 1e-3);
@@ -75,18 +75,18 @@ export function scene({ canvas, time, speed, play, clock }, ask, moved, isFree) 
       high += ease * (b + room - high);
       draw();
     },
-    /** Another run: of these times. */
+    /** Another run, with first and last time. */
     over(times) {
       const whole = span[1] - span[0];
       const part = whole > 1 ? (t - span[0]) / whole : 0;
       span = times;
       [time.min, time.max, time.step] = [span[0], span[1], (span[1] - span[0]) / 2000];
       go(span[0] + part * (span[1] - span[0]));
-      wish();
+      request();
     },
     go(to) {
       go(to);
-      wish();
+      request();
     },
     draw,
   };
@@ -133,7 +133,7 @@ function spring(pen, from, to, y) {
   pen.fillRect(to - 2, y - 14, 5, 28);
 }
 
-/** How far the tip is from its line. */
+/** Distance of the tip from its line. */
 function aside(pen, y0, width) {
   pen.fillStyle = colour('--ink');
   pen.font = '13px system-ui';

@@ -1,8 +1,8 @@
-// Light or dark: as the system has it, or as chosen.
+// Light or dark colours: those of the system, or a choice.
 
 const THEMES = ['auto', 'light', 'dark'];
 
-/** Asked of the style sheet once: that takes as long as drawing. */
+/** Colours of the style sheet; reading one takes as long as drawing. */
 const known = new Map();
 
 export function colour(name) {

@@ -4,30 +4,30 @@ import { colour, sharp } from './theme.js';
 const MARGIN = 14;
 const digits = (value, n = 7) => String(Number(value.toPrecision(n))).replace('-', '−');
 
-/** What came of it, in one sentence. */
+/** The result in one sentence. */
 export function sentence({ regime, speed, circle, orbits, interrupted, samples, remarks }) {
   const cut = interrupted ? `Cut off at t = ${digits(samples.t.at(-1), 6)}. ` : '';
   const round = circle ? ` of radius ${digits(circle.radius)} σ, ω = ${digits(circle.omega)} k/Γ` : '';
   const known = orbits?.length ? ` Circular orbits of theory: ${orbits.slice(0, 6).map((o) => `${digits(o.radius, 5)} σ${o.stable ? ' (stable)' : ''}`).join(', ')}.` : '';
-  const said = remarks.length ? ` ${remarks.join('; ')}.` : '';
-  return `${cut}${regime}${round}, speed ${digits(speed)} kσ/Γ.${known}${said}`;
+  const notes = remarks.length ? ` ${remarks.join('; ')}.` : '';
+  return `${cut}${regime}${round}, speed ${digits(speed)} kσ/Γ.${known}${notes}`;
 }
 
-export function walker({ canvas, told, code }, crew) {
+export function walker({ canvas, status, code }, crew) {
   let found = null;
-  let wish = 0;
+  let latestId = 0;
   const hands = crew({
     walked({ id, found: document, why }) {
-      if (id !== wish) return;
-      if (why) return (told.textContent = why);
+      if (id !== latestId) return;
+      if (why) return (status.textContent = why);
       found = document;
-      told.textContent = sentence(found);
-      told.dataset.found = JSON.stringify({ ...found, samples: undefined });
+      status.textContent = sentence(found);
+      status.dataset.found = JSON.stringify({ ...found, samples: undefined });
       code.textContent = found.command;
-      canvas.setAttribute('aria-label', `Path of the walker: ${told.textContent}`);
+      canvas.setAttribute('aria-label', `Path of the walker: ${status.textContent}`);
       draw();
     },
-    refused: ({ message }) => (told.textContent = message),
+    refused: ({ message }) => (status.textContent = message),
   });
 
   function draw() {
@@ -62,8 +62,8 @@ export function walker({ canvas, told, code }, crew) {
   return {
     draw,
     ask(parameters) {
-      delete told.dataset.found;
-      hands.ask({ kind: 'walk', id: ++wish, asked: JSON.stringify(parameters) });
+      delete status.dataset.found;
+      hands.ask({ kind: 'walk', id: ++latestId, parameters: JSON.stringify(parameters) });
     },
   };
 }

@@ -1,10 +1,10 @@
-// In a worker: asks the module. Of several wishes that wait, only the last is done.
+// In a worker: calls the module. Of several requests that wait only the last is computed.
 import { initSync, Tip, linear, cycle, command, settled, boundary, raster, raster_command, walker, walker_command } from '../../../../target/site-build/web/stickslip_web.js';
 
 let tip = null; // the latest run
-let waiting = null;
+let waiting = null; // request for a run
 let busy = false;
-let mapping = 0; // number of the latest map asked for
+let mapping = 0; // number of the latest request for a map
 
 const say = (message, transfer = []) => self.postMessage(message, transfer);
 let wake = () => {};
@@ -13,10 +13,10 @@ const pause = (time = 0) => new Promise((go) => {
   wake = go;
   setTimeout(go, time);
 });
-/** While a slider moves, wishes come faster than this: nothing is begun then that the next would wait for. */
+/** While a slider moves, requests follow faster than this: nothing is begun that would delay the next run. */
 const PATIENCE = 40; // ms
 
-/** The result, or why there is none. */
+/** The result, or the reason why there is none. */
 function tried(make) {
   try {
     return { found: make() };
@@ -28,26 +28,26 @@ function tried(make) {
 async function follow() {
   busy = true;
   while (waiting) {
-    const { id, asked } = waiting;
+    const { id, parameters } = waiting;
     waiting = null;
-    await judge(id, asked);
+    await judge(id, parameters);
   }
   busy = false;
 }
 
-/** A run first, as it is waited for; then what takes longer, unless another is asked for meanwhile. */
-async function judge(id, asked) {
+/** The run first, because the page shows it; then the slower parts, unless another run is requested meanwhile. */
+async function judge(id, parameters) {
   say({ kind: 'begun', id });
-  const made = tried(() => new Tip(asked));
+  const made = tried(() => new Tip(parameters));
   if (made.why) return say({ kind: 'refused', id, message: made.why });
   tip?.free();
   tip = made.found;
   const samples = tip.samples();
-  say({ kind: 'run', id, samples, command: command(asked), cut: tip.cut_off() }, [samples.buffer]);
+  say({ kind: 'run', id, samples, command: command(parameters), cut: tip.cut_off() }, [samples.buffer]);
   const parts = {
-    linear: () => JSON.parse(linear(asked)),
-    judged: () => JSON.parse(tip.judged()),
-    cycle: () => without(JSON.parse(cycle(held(asked)))),
+    linear: () => JSON.parse(linear(parameters)),
+    judged: () => JSON.parse(tip.summary()),
+    cycle: () => without(JSON.parse(cycle(held(parameters)))),
   };
   await pause(PATIENCE);
   if (waiting) return;
@@ -59,17 +59,17 @@ async function judge(id, asked) {
   say({ kind: 'settled', id });
 }
 
-/** Profile and history stay here. */
+/** The document of a cycle without its profile and history, which the page does not show. */
 function without(document) {
   const { profile, history, ...rest } = document;
   return rest;
 }
 
-/** The parameters of a tip that is held on its line; cycles are known of no other. */
-function held(asked) {
-  const { stiffness_across: free } = JSON.parse(asked);
-  if (free !== null && free !== undefined) throw new Error('cycles are computed of a tip that is held on its line');
-  return asked;
+/** The parameters, if the tip is held on its line: only then cycles can be computed. */
+function held(parameters) {
+  const { stiffness_across: free } = JSON.parse(parameters);
+  if (free !== null && free !== undefined) throw new Error('cycles are available for a tip that is held on its line');
+  return parameters;
 }
 
 function frame({ t, behind, ahead, count, isFree }) {
@@ -79,18 +79,18 @@ function frame({ t, behind, ahead, count, isFree }) {
   say({ kind: 'frame', t, x0, y0: isFree ? y0 : null, support, from: x0 - behind, to: x0 + ahead, u }, [u.buffer]);
 }
 
-/** Row by row of r, coarse first; a later wish ends it. */
-async function map({ id, asked, velocities, alphas }) {
+/** Row by row of r, coarse first; a later request ends it. */
+async function map({ id, parameters, velocities, alphas }) {
   mapping = id;
   say({ kind: 'begun', id });
-  const curve = boundary(asked, Float64Array.from(velocities));
+  const curve = boundary(parameters, Float64Array.from(velocities));
   say({ kind: 'boundary', id, curve });
   for (let stride = 8, first = true; stride >= 1; stride /= 2, first = false) {
     for (let i = 0; i < velocities.length; i += stride) {
       const old = !first && i % (2 * stride) === 0;
       const wanted = alphas.map((_, j) => j).filter((j) => j % stride === 0 && !(old && j % (2 * stride) === 0));
       if (!wanted.length) continue;
-      const classes = settled(asked, velocities[i], Float64Array.from(wanted, (j) => alphas[j]));
+      const classes = settled(parameters, velocities[i], Float64Array.from(wanted, (j) => alphas[j]));
       say({ kind: 'column', id, i, wanted, classes, stride });
       await pause();
       if (id !== mapping) return;
@@ -99,25 +99,25 @@ async function map({ id, asked, velocities, alphas }) {
   say({ kind: 'mapped', id });
 }
 
-function scan({ asked, scan: wish }) {
+function scan({ parameters, scan: path }) {
   const done = tried(() => {
-    const written = raster(asked, wish, (line, row, columns, heights) => {
+    const written = raster(parameters, path, (line, row, columns, heights) => {
       say({ kind: 'line', line, row, columns, heights }, [heights.buffer]);
     });
-    return { ...JSON.parse(written), command: raster_command(asked, wish) };
+    return { ...JSON.parse(written), command: raster_command(parameters, path) };
   });
   say({ kind: 'scanned', ...done });
 }
 
-let walk = null; // the latest walker asked for
-/** The newest of those that wait. */
-async function step(wish) {
-  walk = wish;
+let walk = null; // the latest request for a walker
+/** Computes the newest of the requests that wait. */
+async function step(request) {
+  walk = request;
   await pause(PATIENCE);
-  if (wish !== walk) return;
-  say({ kind: 'begun', id: wish.id });
-  const made = tried(() => ({ ...JSON.parse(walker(wish.asked)), command: walker_command(wish.asked) }));
-  say({ kind: 'walked', id: wish.id, ...made });
+  if (request !== walk) return;
+  say({ kind: 'begun', id: request.id });
+  const made = tried(() => ({ ...JSON.parse(walker(request.parameters)), command: walker_command(request.parameters) }));
+  say({ kind: 'walked', id: request.id, ...made });
 }
 
 self.onmessage = ({ data }) => {
@@ -128,7 +128,7 @@ self.onmessage = ({ data }) => {
     else follow();
   } else if (data.kind === 'frame') tried(() => frame(data));
   else if (data.kind === 'document') say({ kind: 'document', ...tried(() => tip.document()) });
-  else if (data.kind === 'cycle-document') say({ kind: 'document', ...tried(() => cycle(data.asked)) });
+  else if (data.kind === 'cycle-document') say({ kind: 'document', ...tried(() => cycle(data.parameters)) });
   else if (data.kind === 'map') map(data).catch((error) => say({ kind: 'refused', message: String(error.message ?? error) }));
   else if (data.kind === 'scan') scan(data);
   else if (data.kind === 'walk') step(data);

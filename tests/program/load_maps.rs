@@ -97,3 +97,44 @@ fn a_map_is_in_nanonewtons_and_nanometres_and_refuses_by_name() {
         &["--pitch-range"],
     );
 }
+
+/// A power of the load connects the rows of a table, so that one of Hertz's widths gives his map; units cancel.
+#[test]
+fn a_table_of_widths_takes_the_place_of_an_exponent() {
+    let folder = Folder::new("load_widths");
+    let line = "boundary --tip gaussian --alpha 2.4 --r 1 --load 10 --load-range 6:12:4 --r-range 0.8:1.1:4";
+    let wanted = folder.prints_json(&format!("{line} --width-exponent 0.3333333333333333"));
+    let rows = |unit: f64, per: f64| {
+        let row = |load: &f64| format!("{};{}\n", load * unit, per * load.cbrt());
+        [3.0, 7.0, 10.0, 20.0].iter().rev().map(row).collect::<String>()
+    };
+    folder.write("widths.csv", format!("load (nN);width (nm)\n{}", rows(1.0, 13.0)));
+    folder.write("other.csv", format!("load_uN;width\n{}", rows(1e-3, 0.4)));
+    for name in ["widths.csv", "other.csv"] {
+        let found = folder.prints_json(&format!("{line} --load-widths {name} --plot loads.svg"));
+        for (found, wanted) in found["points"].as_array().unwrap().iter().zip(wanted["points"].as_array().unwrap()) {
+            close(&found["width"], &wanted["width"], 1e-12, name);
+            assert_eq!(found["regime"], wanted["regime"], "{found}");
+            if found["wavelength"].is_number() {
+                close(&found["wavelength"], &wanted["wavelength"], 1e-8, name);
+            }
+        }
+        close(&found["lever_critical_load_nN"], &wanted["lever_critical_load_nN"], 1e-12, name);
+    }
+    let picture = String::from_utf8(folder.read("loads.svg")).unwrap();
+    assert!(picture.contains("σ by a table"));
+    // A contact that does not grow is that of an exponent of 0.
+    folder.write("level.csv", "load_nN,width_nm\n1,20\n100,20\n");
+    let level = folder.prints_json(&format!("{line} --load-widths level.csv"));
+    let constant = folder.prints_json(line);
+    close(&level["lever_critical_load_nN"], &constant["lever_critical_load_nN"], 1e-9, "level");
+    folder.write("short.csv", "load_nN,width_nm\n7,20\n100,30\n");
+    for (options, words) in [
+        ("--load-widths short.csv", ["--load-widths short.csv", "from 7 to 100 nN"]),
+        ("--load-widths level.csv --width-exponent 0.3", ["--width-exponent", "--load-widths"]),
+        ("--load-widths none.csv", ["--load-widths none.csv", "No such file"]),
+    ] {
+        folder.refuses(&format!("{line} {options}"), &words);
+    }
+    folder.refuses("boundary --r-range 1:2:3 --load-widths level.csv", &["--load-range", "needed"]);
+}

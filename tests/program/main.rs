@@ -24,6 +24,7 @@ mod extreme_numbers;
 mod figures;
 mod fit_command;
 mod free_rasters;
+mod friction_of_runs;
 mod hints;
 mod holds;
 mod image_files;

@@ -66,6 +66,31 @@ fn the_page_of_commands() {
     is_up_to_date("commands.md", &page);
 }
 
+/// The short help fits on two screens, and names the long one, which has all options.
+#[test]
+fn short_help_is_short() {
+    let folder = Folder::new("short_help");
+    for name in commands(&help(&folder, "")) {
+        let mut command = folder.command(&format!("{name} -h"));
+        let output = command.env("COLUMNS", "100").output().unwrap();
+        let short = String::from_utf8(output.stdout).unwrap();
+        let long = help(&folder, name);
+        let options = |text: &str| {
+            let lines = text.lines().map(str::trim_start);
+            let names = lines.filter(|line| line.starts_with('-')).filter_map(|line| {
+                Some(line.split_whitespace().find(|word| word.starts_with("--"))?.to_owned())
+            });
+            names.collect::<Vec<String>>()
+        };
+        let (few, all) = (options(&short), options(&long));
+        assert!(few.iter().all(|option| all.contains(option)), "{name}: {few:?}");
+        assert_eq!(few.len() < all.len(), short.contains("more option"), "{name}");
+        let lines = short.lines().count();
+        println!("{name}: {lines} lines, {} of {} options", few.len(), all.len());
+        assert!(lines <= 80, "{name}: {lines} lines");
+    }
+}
+
 /// Names of all schemas, as `schema --help` lists them.
 fn schemas(folder: &Folder) -> Vec<(String, Value)> {
     let text = help(folder, "schema");

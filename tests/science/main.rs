@@ -12,6 +12,7 @@ mod corrections;
 mod cycles;
 mod documents;
 mod examples;
+mod free_ripple_images;
 mod grids_converge;
 mod memories_agree;
 mod planes_on_grids;

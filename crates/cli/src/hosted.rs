@@ -155,7 +155,11 @@ pub fn options(path: &[&str]) -> Option<Vec<OptionDescription>> {
         value: value_of(argument),
         delimiter: argument.get_value_delimiter(),
         is_repeatable: matches!(argument.get_action(), ArgAction::Append),
-        help: argument.get_help().map(ToString::to_string).unwrap_or_default(),
+        help: argument
+            .get_long_help()
+            .or(argument.get_help())
+            .map(ToString::to_string)
+            .unwrap_or_default(),
     };
     let own =
         |argument: &&clap::Arg| !["help", "version", "quiet"].contains(&argument.get_id().as_str());

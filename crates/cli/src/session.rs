@@ -119,6 +119,11 @@ impl Session {
         }
     }
 
+    /// Whether the host supplies a file under a name.
+    pub(crate) fn supplies(&self, path: &Path) -> bool {
+        self.host().is_some_and(|host| host.supplies.contains_key(path))
+    }
+
     /// The content of the file that the host supplies under a name.
     pub(crate) fn bytes(&self, path: &Path) -> Option<Vec<u8>> {
         match self.host()?.supplies.get(path)? {

@@ -24,6 +24,13 @@ impl Estimate {
         (self.low..=self.high).contains(&value)
     }
 
+    /// The estimate in another unit: value and ends times a factor above 0.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        let Self { value, low, high } = self;
+        Self { value: value * factor, low: low * factor, high: high * factor }
+    }
+
     /// The interval widened by a factor for an independent error, with its logarithm added in quadrature.
     #[must_use]
     pub fn wider_by(self, factor: f64) -> Self {

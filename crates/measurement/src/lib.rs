@@ -39,5 +39,8 @@ pub use image::{Across, Image, ImageError};
 pub use interval::Estimate;
 pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};
-pub use ripples::{Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples};
+pub use ripples::{
+    Lag, Lateral, LateralFound, Retrace, RippleError, RippleProfile, RippleRequest, Ripples,
+    ripples,
+};
 pub use tip::{Candidate, Fitted, MeasuredTip, Request, Sides, TipError, sides, tip};

@@ -13,7 +13,7 @@ from ._results import Result
 Option = namedtuple("Option", "name is_positional value delimiter is_repeatable help")
 
 # Names of arguments that may be images.
-IMAGES = {"measured", "image", "retrace_image"}
+IMAGES = {"measured", "image", "retrace_image", "lateral_image"}
 
 # Optional positional arguments.
 OPTIONAL = {"retrace"}

@@ -27,7 +27,7 @@ static GAUSS: LazyLock<GaussLegendre> =
 #[must_use]
 pub fn loops(motion: &Trajectory) -> Vec<Loop> {
     let Support::Path(path) = motion.support() else { return vec![] };
-    let ends = returns(path);
+    let ends = ends_of_loops(path);
     let within = ends.iter().copied().take_while(|end| *end <= motion.end());
     let mut from = motion.start();
     within
@@ -56,8 +56,9 @@ pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
 }
 
 /// Times after the start at which the support is at its first position again, and moves in its first direction or is
-/// at the end of its path.
-fn returns(path: &SupportPath) -> Vec<f64> {
+/// at the end of its path: there a closed loop ends.
+#[must_use]
+pub fn ends_of_loops(path: &SupportPath) -> Vec<f64> {
     let (t, way) = path.knots();
     let pieces = || t.windows(2).zip(way.windows(2));
     let first = pieces().map(|(_, way)| way[1] - way[0]).find(|way| way.abs() > 0.0);
@@ -94,12 +95,12 @@ mod tests {
             )
         };
         let triangle = path(&[(0.0, 0.0), (1.0, 2.0), (2.0, 0.0), (3.0, 2.0), (4.0, 0.0)]).unwrap();
-        assert_eq!(returns(&triangle), [2.0, 4.0]);
+        assert_eq!(ends_of_loops(&triangle), [2.0, 4.0]);
         let about_the_start =
             path(&[(0.0, 0.0), (1.0, 1.0), (3.0, -1.0), (5.0, 1.0), (7.0, -1.0), (8.0, 0.0)]);
-        assert_eq!(returns(&about_the_start.unwrap()), [4.0, 8.0]);
+        assert_eq!(ends_of_loops(&about_the_start.unwrap()), [4.0, 8.0]);
         let away = path(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]).unwrap();
-        assert!(returns(&away).is_empty());
+        assert!(ends_of_loops(&away).is_empty());
     }
 
     /// What the support puts in is lost by the drag: without a groove, ∫ x0'² dt and what the spring holds.

@@ -1,5 +1,6 @@
 //! `stickslip boundary`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
@@ -12,10 +13,15 @@ type Others = Either<RasterBoundary, Either<SnakingBoundary, LoadMap>>;
 /// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
 /// against their pitch; or that of snaking against the stiffness across the scan.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) options: Options<Either<Boundary, Others>>,
+
+    /// Widths of the contact over the load, in place of --width-exponent: CSV `load_nN,width_nm`, with other units or none;
+    /// the ratio to the width at --load counts. A power of the load connects neighbouring rows.
+    #[arg(long, value_name = "FILE.csv", help_heading = "Load")]
+    pub(crate) load_widths: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) answer: AnswerArguments,
@@ -49,4 +55,6 @@ const EXAMPLES: &str = "Examples:
     stickslip boundary --stiffness-range 0.05:2:40 --r 1 -o snaking.json --plot snaking.svg
     stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 -o velocity.csv
   At which load and velocity there are ripples, and how far apart, from a lever with α = 1.3 and r = 0.8 at 10 nN and 1 µm/s:
-    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --r-range 0.2um/s:2um/s --sigma 20nm --stiffness 0.2N/m --damping 3.2mNs/m -o loads.csv --plot loads.svg";
+    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --r-range 0.2um/s:2um/s --sigma 20nm --stiffness 0.2N/m --damping 3.2mNs/m -o loads.csv --plot loads.svg
+  The same for a contact whose width was measured at several loads, of which the table has a row each:
+    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --load-widths widths.csv --r-range 0.4:1.6 -o loads.json";

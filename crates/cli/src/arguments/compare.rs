@@ -1,5 +1,6 @@
 //! `stickslip compare`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::named::named;
 use super::{AnswerArguments, AreaArguments, DisturbanceArguments, Either, Options};
@@ -18,7 +19,8 @@ use stickslip::{GridName, Raster, Run};
     mut_arg("lines", |lines| lines.conflicts_with_all(OF_A_RUN)),
     mut_arg("area", |area| {
         area.conflicts_with_all(OF_A_RUN).conflicts_with_all(["pitch", "lines", "length"])
-    })
+    }),
+    brief()
 )]
 pub(crate) struct CompareArguments {
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! `stickslip continue`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{AnswerArguments, Options};
 use clap::Args;
@@ -12,7 +13,7 @@ use stickslip::Continue;
 /// the onset of oscillation. It continues through folds, and ends at --to, in steady motion, at a branch of half the
 /// period, or where the period exceeds --longest-period: towards trapping the period has no bound.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
 pub(crate) struct ContinueArguments {
     #[command(flatten)]
     pub(crate) options: Options<Continue>,

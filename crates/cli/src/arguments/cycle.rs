@@ -1,5 +1,6 @@
 //! `stickslip cycle`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{AnswerArguments, Options};
 use clap::Args;
@@ -11,7 +12,7 @@ use stickslip::Cycle;
 /// Solves for the motion and its period simultaneously, for unstable cycles too. A Floquet multiplier is the factor
 /// by which a small deviation changes in a period.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) options: Options<Cycle>,

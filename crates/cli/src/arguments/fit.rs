@@ -1,5 +1,6 @@
 //! `stickslip fit`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{Either, Length, Options, OutletArguments};
 use clap::Args;
@@ -16,10 +17,11 @@ use stickslip::{Fit, FitImage};
 /// explain the data gets no intervals.
 ///
 /// With --image, α and r follow from the wave vector and the shape of the ripples of an area. Offset and tilt of each
-/// line are removed. The tip must be held on its lines, all of which are scanned in one direction.
+/// line are removed. All lines must be scanned in one direction. The tip is held on its lines, unless --stiffness-across is
+/// given or free.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
-#[command(mut_arg("width", |width| width.help(WIDTH).visible_alias("sigma")))]
+#[command(mut_arg("width", |width| width.help(WIDTH).visible_alias("sigma")), brief())]
 pub(crate) struct FitArguments {
     /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
     /// writes it.
@@ -39,6 +41,12 @@ pub(crate) struct FitArguments {
     /// Heights of the same area on the way back, .gsf, which lie as those of --image do: fitted together with them.
     #[arg(long, value_name = "FILE", help_heading = "Data", requires = "image")]
     pub(crate) retrace_image: Option<PathBuf>,
+
+    /// Lateral forces on the lines that made the ripples of --image, .gsf, against the position of the support, at the same
+    /// positions; positive where the lever is bent back from larger x. Deflections in a unit of length, or forces with
+    /// --force-gain, narrow the intervals; forces alone give k.
+    #[arg(long, value_name = "FILE", help_heading = "Data", requires = "image")]
+    pub(crate) lateral_image: Option<PathBuf>,
 
     /// Distance of the lines that made the ripples of an image, such as 15nm; a bare number is in the unit of the image
     /// [default: the distance of its rows].
@@ -82,8 +90,7 @@ const WIDTH: &str = "σ, such as 30nm, if known; a bare number is in the unit of
                      --tip-file written by `stickslip tip` contains it";
 
 /// Data that cannot be combined with an image.
-const OF_LINES: [&str; 6] =
-    ["ripple", "friction", "onsets", "wavelengths", "height_gain", "force_gain"];
+const OF_LINES: [&str; 5] = ["ripple", "friction", "onsets", "wavelengths", "height_gain"];
 
 const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]
        stickslip fit --onsets <FILE> [--wavelengths <FILE>] [OPTIONS]
@@ -98,5 +105,7 @@ const EXAMPLES: &str = "Examples:
     stickslip fit --ripple ripples.csv --free depth-limit --robust
   α and r from an image of ripples whose lines were 15 nm apart:
     stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian -o fit.json --plot fit.png
+  The same with a lever that is three times as stiff across the lines as along them, and the lateral force of its scan:
+    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian --stiffness-across 3 --lateral-image force.gsf
   α per load and r per velocity from onsets:
     stickslip fit --onsets onsets.csv --tip-file tip.json";

@@ -1,6 +1,7 @@
 //! The command line. Arguments are only parsed here; values are checked where they are used.
 
 mod boundary;
+mod brief;
 mod compare;
 mod continuation;
 mod cycle;

@@ -1,5 +1,6 @@
 //! `stickslip raster`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{FieldArguments, Format, InUnitsArguments, Options};
 use clap::Args;
@@ -26,7 +27,8 @@ pub(crate) struct AreaArguments {
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_arg("area", |area| area.conflicts_with_all(["pitch", "lines", "length"]))
+    mut_arg("area", |area| area.conflicts_with_all(["pitch", "lines", "length"])),
+    brief()
 )]
 pub(crate) struct RasterArguments {
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! `stickslip sweep raster`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{InUnitsArguments, Options, OutletArguments, WorkArguments};
 use clap::Args;
@@ -11,7 +12,7 @@ use stickslip::RasterSweep;
 /// Each point is a raster. Finished points are saved immediately beside the output (FILE.partial): after an interrupt
 /// the same command resumes from there.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = examples(EXAMPLES), brief())]
 pub(crate) struct RasterSweepArguments {
     #[command(flatten)]
     pub(crate) options: Options<RasterSweep>,

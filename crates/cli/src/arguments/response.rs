@@ -1,5 +1,6 @@
 //! `stickslip response`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{AnswerArguments, Options};
 use clap::Args;
@@ -7,7 +8,7 @@ use stickslip::Response;
 
 /// Compute the linear response of steady motion to weak pulses, as a sum of modes (A.9).
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
 pub(crate) struct ResponseArguments {
     #[command(flatten)]
     pub(crate) options: Options<Response>,

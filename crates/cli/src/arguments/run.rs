@@ -1,5 +1,6 @@
 //! `stickslip run`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::named::named;
 use super::{DisturbanceArguments, Either, FieldArguments, InUnitsArguments, Options};
@@ -24,7 +25,8 @@ pub(crate) enum HistoryName {
 #[command(
     override_usage = USAGE,
     after_help = examples(EXAMPLES),
-    mut_args(not_on_resume)
+    mut_args(not_on_resume),
+    brief()
 )]
 pub(crate) struct RunArguments {
     #[command(flatten)]
@@ -123,7 +125,7 @@ const EXAMPLES: &str = "Examples:
   Under the depth limit (61), on a surface that heals, and a friction loop of trace and retrace:
     stickslip run --alpha 2.6 --beta 0 --r 1 --depth-limit 20 --kick 0.05 --until 200 -o limited.json
     stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 --until 200 -o healing.json
-    printf 't,R\n0,0\n20,20\n40,0\n' > path.csv
+    printf 't,R\\n0,0\\n20,20\\n40,0\\n' > path.csv
     stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
   The peak of the lateral force after a hold of 100:
     stickslip run --alpha 0.8 --r 1 --hold 20,100 --until 160 -o held.json --plot held.svg

@@ -1,5 +1,6 @@
 //! `stickslip stability`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
@@ -11,7 +12,7 @@ use stickslip::{RasterStability, Stability, Walking};
 /// --pitch: the threshold for ripples that grow from scan line to scan line. With --no-spring: the speeds of steady
 /// walks, and their growth exponents.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
 pub(crate) struct StabilityArguments {
     #[command(flatten)]
     pub(crate) options: Options<Either<Stability, Either<RasterStability, Walking>>>,

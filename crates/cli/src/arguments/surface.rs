@@ -1,5 +1,6 @@
 //! `stickslip surface`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{FieldArguments, Format, InUnitsArguments, Interval};
 use clap::Args;
@@ -7,7 +8,7 @@ use std::path::PathBuf;
 
 /// Reconstruct the surface u(x,t) from a run, or u(x,y) from a raster.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = examples(EXAMPLES), brief())]
 pub(crate) struct SurfaceArguments {
     /// Document of `stickslip run` or `stickslip raster`; `-` is standard input.
     #[arg(value_name = "RUN.json")]

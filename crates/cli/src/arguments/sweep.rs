@@ -1,5 +1,6 @@
 //! `stickslip sweep`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::named::named;
 use super::range::Range;
@@ -21,7 +22,8 @@ use stickslip::{Sweep, TipName};
 #[command(
     override_usage = USAGE, after_help = examples(EXAMPLES),
     args_conflicts_with_subcommands = true,
-    subcommand_negates_reqs = true
+    subcommand_negates_reqs = true,
+    brief()
 )]
 pub(crate) struct SweepArguments {
     #[command(subcommand)]

@@ -1,5 +1,6 @@
 //! `stickslip tip`.
 
+use super::brief::Brief;
 use super::examples::examples;
 use super::{Options, OutletArguments};
 use clap::Args;
@@ -13,7 +14,7 @@ use stickslip::MeasuredTip;
 /// reads by --tip-file. Lengths in it are in σ, the width of the Gaussian with the same full width at half maximum,
 /// and f(0) is 1, unless --sigma is given.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = examples(EXAMPLES), brief())]
 pub(crate) struct MeasuredTipArguments {
     /// Positions and heights, in two columns with any separator and decimal mark, with a heading such as `x_nm,z_nm`
     /// or a row of units below it; rows may be in any order and at any distance, and rows without a value are

@@ -6,24 +6,50 @@ use super::job::Job;
 use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
+use crate::files::measured::read_measured;
+use crate::files::sheet::Sheet;
 use crate::session::Session;
+use serde_json::{Value, json};
+use std::path::Path;
 use stickslip::{Boundary, BoundaryDocument, LoadMap, RasterBoundary, SnakingBoundary, parameter};
 use stickslip_figures::{Size, View};
+use stickslip_units::Unit;
+
+const LOAD_WIDTHS: &str = "--load-widths";
+const NANO: f64 = 1e9;
+
+/// The table of widths over loads, in nN if a heading does not say otherwise.
+fn widths(session: &Session, path: &Path) -> Result<Value, Failure> {
+    let refused = |why: String| Failure::input(format!("{LOAD_WIDTHS} {}", path.display()), why);
+    let Sheet { headings, columns, .. } = read_measured(session, LOAD_WIDTHS, path, &[2])?;
+    let load = headings[0].unit(Unit::Force).map_err(refused)?;
+    headings[1].unit(Unit::Length).map_err(refused)?;
+    let factor = load.map_or(1.0, |(_, newtons)| NANO * newtons);
+    let mut rows: Vec<[f64; 2]> =
+        columns[0].iter().zip(&columns[1]).map(|(load, width)| [factor * load, *width]).collect();
+    rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<f64>>();
+    Ok(json!({ "load_nN": column(0), "width": column(1) }))
+}
 
 pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Result<(), Failure> {
-    let BoundaryArguments { options, answer, plot_onset } = arguments;
+    let BoundaryArguments { options, load_widths, answer, plot_onset } = arguments;
     let written = [
         ("--output", Some(&*answer.outlet.output)),
         ("--plot", answer.plot.as_deref()),
         ("--plot-onset", plot_onset.as_deref()),
     ];
-    distinct(&written, &options.files())?;
-    let values = options.values(session)?;
+    let [tip_file, parameters] = options.files();
+    distinct(&written, &[tip_file, parameters, (LOAD_WIDTHS, load_widths.as_deref())])?;
+    let mut values = options.values(session)?;
+    if let Some(path) = load_widths {
+        values.insert("load_widths".into(), widths(session, path)?);
+    }
     if values.contains_key("pitch_range") {
         return asked::<RasterBoundary, _>(session, options, values, answer, "--pitch-range");
     }
     let is_given = |name: &str| values.contains_key(name);
-    if is_given("load_range") || is_given("load") {
+    if is_given("load_range") || is_given("load") || is_given("load_widths") {
         return asked::<LoadMap, _>(session, options, values, answer, "--load-range");
     }
     if is_given("stiffness_range") {

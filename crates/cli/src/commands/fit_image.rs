@@ -6,14 +6,16 @@ use super::tip::{measured_image, metres};
 use crate::arguments::{Either, FitArguments, Length, Options, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
+use crate::files::gsf::read_gsf;
 use crate::files::input::{TipFile, read_tip};
 use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
+use stickslip::{Ask, Fit, FitImage, FitImageDocument, MeasuredImage, parameter};
 
 const OPTION: &str = "--image";
 const RETRACE: &str = "--retrace-image";
+const LATERAL: &str = "--lateral-image";
 
 pub(super) fn fit_image(
     session: &Session,
@@ -23,7 +25,9 @@ pub(super) fn fit_image(
     let FitArguments { options, outlet, plot, .. } = arguments;
     let retrace = arguments.retrace_image.as_deref();
     let [tip, parameters] = options.files();
-    let files: [Named; 4] = [tip, parameters, (OPTION, Some(path)), (RETRACE, retrace)];
+    let lateral = arguments.lateral_image.as_deref();
+    let images: [Named; 3] = [(OPTION, Some(path)), (RETRACE, retrace), (LATERAL, lateral)];
+    let files = [vec![tip, parameters], images.to_vec()].concat();
     judge_places(outlet, plot.as_deref(), &files)?;
     let question = question(session, arguments, path)?;
     let refused = |failure| refusal(failure, &options.tip, &files);
@@ -48,6 +52,13 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
         Err(Failure::input(format!("{RETRACE} {}", path.display()), message))
     });
     let retrace_image = retrace_image.transpose()?;
+    let given = values.get("unit").and_then(Value::as_str);
+    let lateral = arguments.lateral_image.as_deref();
+    let lateral = lateral.map(|path| lateral_image(path, given)).transpose()?;
+    let (lateral_image, lateral_unit) = lateral.unzip();
+    if let Some(gain) = arguments.force_gain {
+        values.insert("force_gain".into(), json!(gain));
+    }
     if let Some(width) = arguments.options.tip.width {
         values.insert("width".into(), json!(in_unit("--width", width, unit.as_deref())?));
         values.remove("width_interval");
@@ -58,7 +69,18 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
         values.insert("pitch".into(), json!(in_unit("--pitch", pitch, unit.as_deref())?));
     }
     let question: FitImage = parameter::question(values)?;
-    Ok(FitImage { source: path.display().to_string(), unit, image, retrace_image, ..question })
+    let source = path.display().to_string();
+    let lateral_unit = lateral_unit.flatten();
+    Ok(FitImage { source, unit, image, retrace_image, lateral_image, lateral_unit, ..question })
+}
+
+/// The lateral image, and the unit of its forces or deflections.
+fn lateral_image(
+    path: &Path,
+    given: Option<&str>,
+) -> Result<(MeasuredImage, Option<String>), Failure> {
+    let unit = read_gsf(LATERAL, path)?.z_unit;
+    Ok((measured_image(LATERAL, path, given)?.0, unit))
 }
 
 /// The options without --width, which is σ of measured data, and no width of a footprint.

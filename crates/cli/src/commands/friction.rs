@@ -4,13 +4,13 @@ use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
 use crate::arguments::FrictionArguments;
 use crate::failure::Failure;
-use crate::files::heading::Heading;
+use crate::files::input::run_in;
 use crate::files::measured::{Common, read_measured};
 use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::Value;
 use std::path::Path;
-use stickslip::{Ask, ForceTrack, Friction, FrictionDocument, parameter};
+use stickslip::{Ask, ForceTrack, Friction, FrictionDocument, Refused, RunForces, parameter};
 use stickslip_units::Unit;
 
 const TRACE: &str = "TRACE.csv";
@@ -68,8 +68,18 @@ impl<'a> Data<'a> {
         Ok(Self { session, source: String::new(), lengths, force_unit: None })
     }
 
-    /// Trace and retrace, of two files or of one with three columns.
+    /// Trace and retrace: of two files, of one with three columns, or of the last closed loop of a run.
     fn read(&mut self, trace: &Path, retrace: Option<&Path>) -> Result<[ForceTrack; 2], Failure> {
+        if let Some(run) = self.run(TRACE, trace)? {
+            let Some(path) = retrace else {
+                return run.last_loop().map_err(|error| refused(TRACE, trace, error));
+            };
+            let back = self.run(RETRACE, path)?.ok_or_else(|| {
+                let message = "is no run, as the trace is: give two runs, or two tables";
+                Failure::input(format!("{RETRACE} {}", path.display()), message)
+            })?;
+            return Ok([run.way(), back.way()]);
+        }
         let Some(retrace) = retrace else {
             let (x, [trace, retrace]) = self.table(TRACE, trace, &[3])?;
             return Ok([
@@ -81,6 +91,23 @@ impl<'a> Data<'a> {
         let trace = ForceTrack { x, force };
         let (x, [force]) = self.table(RETRACE, retrace, &[2])?;
         Ok([trace, ForceTrack { x, force }])
+    }
+
+    /// The forces of a run, if the file is its document; their units are those of the run.
+    fn run(&mut self, option: &str, path: &Path) -> Result<Option<RunForces>, Failure> {
+        let Some(document) = run_in(self.session, option, path)? else { return Ok(None) };
+        let forces = RunForces::of(&document).map_err(|error| refused(option, path, error))?;
+        let named = format!("{option} {}", path.display());
+        self.lengths.of_run(&named, forces.unit.as_deref())?;
+        self.same_unit(&named, "the lateral force", forces.force_unit.clone())?;
+        self.name(path);
+        Ok(Some(forces))
+    }
+
+    /// Adds a file to the source of the data.
+    fn name(&mut self, path: &Path) {
+        let gap = if self.source.is_empty() { "" } else { ", " };
+        self.source += &format!("{gap}{}", path.display());
     }
 
     /// Positions and forces of a table.
@@ -97,10 +124,10 @@ impl<'a> Data<'a> {
         let forces = columns.split_off(1);
         let x = columns.remove(0).into_iter().map(|x| x * factor).collect();
         for heading in &headings[1..] {
-            self.same_unit(&named, heading)?;
+            let unit = heading.written_unit().map(str::to_owned);
+            self.same_unit(&named, heading.text(), unit)?;
         }
-        let gap = if self.source.is_empty() { "" } else { ", " };
-        self.source += &format!("{gap}{}", path.display());
+        self.name(path);
         let count = forces.len();
         let forces = forces.try_into().map_err(|_| {
             Failure::input(named, format!("{} columns; {} are needed", count + 1, N + 1))
@@ -109,17 +136,24 @@ impl<'a> Data<'a> {
     }
 
     /// All forces have the same unit.
-    fn same_unit(&mut self, named: &str, heading: &Heading) -> Result<(), Failure> {
-        let unit = heading.written_unit().map(str::to_owned);
+    fn same_unit(
+        &mut self,
+        named: &str,
+        column: &str,
+        unit: Option<String>,
+    ) -> Result<(), Failure> {
         if self.force_unit.is_some() && self.force_unit != unit {
             let first = self.force_unit.as_deref().unwrap_or_default();
-            let message =
-                format!("`{}` is not in {first}, as the first forces are", heading.text());
+            let message = format!("`{column}` is not in {first}, as the first forces are");
             return Err(Failure::input(named, message));
         }
         self.force_unit = unit;
         Ok(())
     }
+}
+
+fn refused(option: &str, path: &Path, error: Refused) -> Failure {
+    Failure::input(format!("{option} {}", path.display()), error.why)
 }
 
 /// Force in N of one unit of the data, by --stiffness or --sensitivity.

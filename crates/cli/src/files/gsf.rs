@@ -74,6 +74,8 @@ pub(crate) struct Image {
     pub(crate) rows: Vec<Vec<f64>>,
     /// Whether positions are in nm.
     pub(crate) in_nanometres: bool,
+    /// Unit of the heights: nm of lengths, nN of forces.
+    pub(crate) z_unit: Option<String>,
 }
 
 /// Largest file: an image of 4,096 × 4,096 pixels with its header.
@@ -121,7 +123,10 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     };
     let in_nanometres = scale.is_some();
     let scale = scale.unwrap_or(1.0);
-    let height = field("ZUnits").and_then(|unit| Unit::Length.one(unit)).map_or(1.0, nano);
+    let z_unit = field("ZUnits").filter(|unit| !unit.is_empty());
+    let z_in = |of: Unit, name| Some((nano(of.one(z_unit?)?), Some(name)));
+    let (height, z_unit) =
+        z_in(Unit::Length, "nm").or_else(|| z_in(Unit::Force, "nN")).unwrap_or((1.0, z_unit));
     let centres = |name: &str, count: usize| -> Result<Vec<f64>, String> {
         let spacing = number(&format!("{name}Real"), 1.0)? / count as f64;
         let offset = number(&format!("{name}Offset"), 0.0)?;
@@ -135,6 +140,7 @@ fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
         y: centres("Y", rows)?,
         rows: heights.chunks(columns).map(<[f64]>::to_vec).collect(),
         in_nanometres,
+        z_unit: z_unit.map(str::to_owned),
     })
 }
 

@@ -112,6 +112,26 @@ pub(crate) fn read_scanned(session: &Session, path: &Path) -> Result<RunOrRaster
     Ok(RunOrRaster::Run(Box::new(run)))
 }
 
+/// The document of `stickslip run` in a file; `None` if the file holds no JSON.
+pub(crate) fn run_in(
+    session: &Session,
+    option: &str,
+    path: &Path,
+) -> Result<Option<RunDocument>, Failure> {
+    if let Some(document) = session.document(path) {
+        return Ok(Some(document));
+    }
+    // A pipe can be read once only: it is a table.
+    if !session.supplies(path) && !path.metadata().is_ok_and(|file| file.is_file()) {
+        return Ok(None);
+    }
+    let mut bytes = open(session, option, path)?.bytes().map_while(Result::ok);
+    if bytes.find(|byte| !byte.is_ascii_whitespace()) != Some(b'{') {
+        return Ok(None);
+    }
+    read_document(session, option, path, RunDocument::FORMAT).map(Some)
+}
+
 /// Reads a document of `stickslip run` from an open file.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
     documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)

@@ -87,6 +87,28 @@ impl Common {
         self.first.as_ref()?.unit.as_deref()
     }
 
+    /// Takes the unit of a run, unless one is known.
+    ///
+    /// # Errors
+    /// The unit is another one than that of the first file.
+    pub(crate) fn of_run(&mut self, named: &str, unit: Option<&str>) -> Result<(), Failure> {
+        let one = unit.and_then(|unit| self.of.one(unit));
+        let Some(first) = &self.first else {
+            self.first = Some(First { named: named.into(), unit: unit.map(str::to_owned), one });
+            return Ok(());
+        };
+        if first.one.map(f64::to_bits) == one.map(f64::to_bits) {
+            return Ok(());
+        }
+        let name = |unit: Option<&str>| unit.unwrap_or("σ").to_owned();
+        let (has, other) = (name(unit), name(first.unit.as_deref()));
+        let message = format!(
+            "the run is in {has}, and {} in {other}: leave the unit out, or give runs with the same scales",
+            first.named
+        );
+        Err(Failure::input(named, message))
+    }
+
     /// The factor from the unit of a column to the common unit.
     ///
     /// # Errors

@@ -33,6 +33,7 @@ impl Drawn for LoadMapDocument {
         }
         let loads: Vec<f64> = self.points.iter().step_by(columns).map(|point| point.load).collect();
         let growth = match parameters.width_exponent {
+            _ if parameters.load_widths.is_some() => ", σ by a table".into(),
             0.0 => String::new(),
             exponent => format!(", σ ∝ F^{{{}}}", short(exponent)),
         };

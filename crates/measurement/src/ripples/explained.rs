@@ -2,19 +2,24 @@
 
 use super::travelling::{Lines, Travelling, crest_angle};
 use super::wave::{HARMONICS, UNKNOWNS, Wave, height, phase};
-use super::{RippleProfile, Ripples};
+use super::{Lag, RippleProfile, Ripples};
 use crate::interval::Estimate;
 use crate::least_squares::{Minimum, Residuals, differences, minimum, squares};
 use crate::likelihood::crossing;
 use nalgebra::{Cholesky, Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
 
 /// Degrees of freedom of the errors: those of the blocks of the image.
 const BLOCK_FREEDOM: f64 = 15.0;
-/// Degrees of freedom of χ²: the numbers of the wave minus the parameters.
-const FREEDOM: f64 = (UNKNOWNS - 5) as f64;
+/// Stiffnesses across the lines from which the search for it starts, and the logarithms within which it stays.
+const STIFFNESSES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 30.0, 100.0];
+const STIFFNESS_LOGS: RangeInclusive<f64> = -0.7..=6.9;
+/// Weight of a known number: it then deviates by 1e-5 for a residual of 1.
+const EXACT: f64 = 1e5;
 /// First values of the swing of θ'.
 const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
 /// Step of the parameters, which are of order 1.
@@ -27,10 +32,12 @@ const NEAR: f64 = 0.8;
 /// Largest logarithm of the ratio of an end of an interval to the value.
 const FARTHEST: f64 = 3.0;
 
-/// The wave of the image against that of the model. Parameters: swing, ln r, κσ, ln gain and phase, relative to a start.
+/// The wave of the image against that of the model. Parameters: swing, ln r, κσ, ln gain and phase, relative to a start, and
+/// ln κ_y if it is free.
 pub(super) struct Problem<'a> {
     lines: &'a Lines,
     wave: &'a Wave,
+    known: Known,
     sigma: f64,
     way: (bool, bool),
     /// The wave as the scan saw it, in σ: q, κ, Re B_k, Im B_k.
@@ -44,12 +51,31 @@ pub(super) struct Problem<'a> {
     last: RefCell<Option<Travelling>>,
 }
 
+/// What is known beside the wave.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Known {
+    /// α and r.
+    pub(super) numbers: [Option<f64>; 2],
+    /// Whether κ_y is free.
+    pub(super) frees_stiffness: bool,
+    /// Whether the lag of the model is wanted.
+    pub(super) seeks_lag: bool,
+    /// Logarithm of |L|, the amplitude of the first harmonic of the lag, in σ, and its standard deviation.
+    pub(super) lag: Option<[f64; 2]>,
+}
+
+impl Known {
+    fn count(&self) -> usize {
+        self.numbers.iter().flatten().count() + usize::from(self.lag.is_some())
+    }
+}
+
 impl<'a> Problem<'a> {
     /// `None` if linear theory has no such wave.
     pub(super) fn new(
         lines: &'a Lines,
         wave: &'a Wave,
-        sigma: f64,
+        (sigma, known): (f64, Known),
         way: (bool, bool),
     ) -> Option<Self> {
         let (forward, upward) = way;
@@ -65,11 +91,38 @@ impl<'a> Problem<'a> {
             scale(i) * scale(j) * wave.covariance[(i, j)]
         });
         let whitening = Cholesky::new(covariance)?.l().try_inverse()?;
-        let (_, r) = lines.neutral(data[0], data[1])?;
-        let q = data[0];
-        let kappa = data[1];
-        let start = vec![0.0, r.ln(), kappa, 0.0, 0.0];
-        Some(Self { lines, wave, sigma, way, data, whitening, start, q, last: RefCell::default() })
+        let (q, kappa) = (data[0], data[1]);
+        let start = if known.frees_stiffness {
+            // κ_y at which the neutral wave comes closest to the known numbers.
+            let near = |stiffness: &f64| {
+                let (alpha, r) = lines.with_stiffness(Some(*stiffness)).neutral(q, kappa)?;
+                let off = |(value, known): (f64, Option<f64>)| {
+                    known.map_or(0.0, |known| (value / known).ln().powi(2))
+                };
+                let [of_alpha, of_r] = known.numbers;
+                Some((off((alpha, of_alpha)) + off((r, of_r)), r, *stiffness))
+            };
+            let best = STIFFNESSES.iter().filter_map(near).min_by(|a, b| a.0.total_cmp(&b.0));
+            let (_, r, stiffness) = best?;
+            vec![0.0, r.ln(), kappa, 0.0, 0.0, stiffness.ln()]
+        } else {
+            vec![0.0, lines.neutral(q, kappa)?.1.ln(), kappa, 0.0, 0.0]
+        };
+        let last = RefCell::default();
+        Some(Self { lines, wave, known, sigma, way, data, whitening, start, q, last })
+    }
+
+    /// The lines with the κ_y of these parameters, if it is free.
+    fn lines_at(&self, at: &[f64]) -> Cow<'a, Lines> {
+        match at.get(5) {
+            Some(log) => Cow::Owned(self.lines.with_stiffness(Some(log.exp()))),
+            None => Cow::Borrowed(self.lines),
+        }
+    }
+
+    /// Degrees of freedom of χ².
+    fn freedom(&self) -> f64 {
+        (UNKNOWNS + self.known.count() - self.start.len()) as f64
     }
 
     /// The pattern, from the last one nearby or grown from linear theory to the swing.
@@ -78,22 +131,31 @@ impl<'a> Problem<'a> {
         if !(swing > 0.0 && swing < 2.0 && r.is_finite()) {
             return None;
         }
+        if at.get(5).is_some_and(|log| !STIFFNESS_LOGS.contains(log)) {
+            return None;
+        }
+        let lines = self.lines_at(at);
         let last = self.last.borrow().clone();
-        let near = last.and_then(|near| self.lines.pattern(r, kappa, swing, Ok(&near)));
-        let found =
-            near.or_else(|| self.lines.pattern(r, kappa, swing, Err(self.q))).or_else(|| {
-                let mut near = self.lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
-                for part in [0.5, 0.75, 1.0] {
-                    near = self.lines.pattern(r, kappa, part * swing, Ok(&near))?;
-                }
-                Some(near)
-            })?;
+        let near = last.and_then(|near| lines.pattern(r, kappa, swing, Ok(&near)));
+        let found = near.or_else(|| lines.pattern(r, kappa, swing, Err(self.q))).or_else(|| {
+            let mut near = lines.pattern(r, kappa, 0.25 * swing, Err(self.q))?;
+            for part in [0.5, 0.75, 1.0] {
+                near = lines.pattern(r, kappa, part * swing, Ok(&near))?;
+            }
+            Some(near)
+        })?;
         self.last.replace(Some(found.clone()));
         Some(found)
     }
 
-    fn predicted(&self, at: &[f64]) -> Option<DVector<f64>> {
+    /// The wave of the pattern, and its deviations from known numbers.
+    fn predicted(&self, at: &[f64]) -> Option<(DVector<f64>, Vec<f64>)> {
         let found = self.pattern(at)?;
+        let [alpha, r] = self.known.numbers;
+        let numbers =
+            [alpha.map(|known| found.alpha.ln() - known.ln()), r.map(|known| at[1] - known.ln())];
+        let mut off: Vec<f64> = numbers.into_iter().flatten().map(|off| off * EXACT).collect();
+        off.extend(self.known.lag.map(|[log, error]| (found.lag().norm().ln() - log) / error));
         let mut values = DVector::zeros(UNKNOWNS);
         (values[0], values[1]) = (found.q, at[2]);
         for k in 1..=HARMONICS {
@@ -101,7 +163,7 @@ impl<'a> Problem<'a> {
             let height = found.heights[k - 1] * turn;
             (values[2 * k], values[2 * k + 1]) = (height.re, height.im);
         }
-        Some(values)
+        Some((values, off))
     }
 
     /// The pattern closest to the wave.
@@ -120,7 +182,8 @@ impl<'a> Problem<'a> {
 
     /// Probability of an equally large χ² by chance.
     pub(super) fn misfit(&self, best: &Minimum) -> f64 {
-        FisherSnedecor::new(FREEDOM, BLOCK_FREEDOM).map_or(0.0, |law| law.sf(best.sum / FREEDOM))
+        let freedom = self.freedom();
+        FisherSnedecor::new(freedom, BLOCK_FREEDOM).map_or(0.0, |law| law.sf(best.sum / freedom))
     }
 
     pub(super) fn solved(&self, best: &Minimum) -> Option<Ripples> {
@@ -128,12 +191,20 @@ impl<'a> Problem<'a> {
         let alpha = around.estimate(|at| Some(self.pattern(at)?.alpha.ln()))?;
         let r = around.estimate(|at| Some(at[1]))?;
         let at = &best.parameters;
+        let stiffness = match at.get(5) {
+            Some(_) => Some(around.estimate(|at| at.get(5).copied())?),
+            None => None,
+        };
+        let lag = if self.known.seeks_lag { Some(self.lag(&around)?) } else { None };
         let found = self.pattern(at)?;
         let (forward, upward) = self.way;
         let (wavelength, angle, amplitude) = self.shape(around.quantile);
         Some(Ripples {
             alpha,
             r,
+            stiffness,
+            lag,
+            lateral: None,
             wavelength,
             crest_angle: angle,
             amplitude,
@@ -141,7 +212,7 @@ impl<'a> Problem<'a> {
             phase: self.wave.harmonic(1).arg(),
             profile: self.profile(&found, at),
             height_gain: at[3].exp() / (self.sigma * self.sigma),
-            neutral_alpha: self.lines.pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
+            neutral_alpha: self.lines_at(at).pattern(r.value, at[2], 1e-3, Err(self.q))?.alpha,
             forward,
             upward,
             part: None,
@@ -151,6 +222,14 @@ impl<'a> Problem<'a> {
             residual: self.wave.residual,
             explained: self.wave.explained,
         })
+    }
+
+    /// The lag of the closest pattern, with its phase as the scan saw it.
+    fn lag(&self, around: &Around) -> Option<Lag> {
+        let size = around.estimate(|at| Some(self.pattern(at)?.lag().norm().ln()))?;
+        let found = self.pattern(&around.best.parameters)?;
+        let ahead = (found.lag() / found.heights[0]).arg();
+        Some(Lag { size, ahead: if self.way.0 { ahead } else { -ahead } })
     }
 
     /// The mean ripple of the image beside that of the pattern.
@@ -201,8 +280,9 @@ impl<'a> Problem<'a> {
 
 impl Residuals for Problem<'_> {
     fn at(&self, parameters: &[f64]) -> Option<Vec<f64>> {
-        let off = self.predicted(parameters)? - &self.data;
-        Some((&self.whitening * off).iter().copied().collect())
+        let (wave, known) = self.predicted(parameters)?;
+        let off = &self.whitening * (wave - &self.data);
+        Some(off.iter().copied().chain(known).collect())
     }
 
     fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
@@ -264,7 +344,8 @@ impl<'a> Around<'a> {
             if off > 1.0 + MISSED * HELD * (offset / deviation).abs() {
                 return None;
             }
-            let more = squares(&found.residuals[..UNKNOWNS]) - self.best.sum;
+            let own = found.residuals.len() - 1;
+            let more = squares(&found.residuals[..own]) - self.best.sum;
             Some(more.max(0.0).sqrt())
         };
         let guess = self.quantile * deviation;

@@ -4,7 +4,9 @@
 //! the same wave (`travelling`). For a given pitch the wave vector alone determines α and r of the neutral wave; the
 //! harmonics tell how far α is above that. The gain of the heights and the phase of the wave are fitted along.
 
+mod across;
 mod explained;
+mod lateral;
 mod pair;
 mod part;
 mod retrace;
@@ -13,7 +15,9 @@ mod wave;
 
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
-use explained::Problem;
+use explained::{Known, Problem};
+use lateral::Seen;
+pub use lateral::{Lag, Lateral, LateralFound};
 use part::Part;
 pub use retrace::Retrace;
 use std::f64::consts::TAU;
@@ -37,6 +41,33 @@ pub struct RippleRequest {
     pub upward: Option<bool>,
     /// Heights on the way back, at the same positions.
     pub retrace: Option<Image>,
+    /// κ_y of a tip that gives way across the lines, over the stiffness along them; `None` for a rigid one.
+    pub stiffness: Option<f64>,
+    /// Whether κ_y is estimated; α or r must be known then.
+    pub frees_stiffness: bool,
+    /// α and r, as far as they are known.
+    pub known: [Option<f64>; 2],
+    /// Lateral forces on the lines that made the ripples.
+    pub lateral: Option<Lateral>,
+}
+
+impl RippleRequest {
+    /// Ripples of a rigid tip with this footprint and σ, on lines of this distance, with nothing else known.
+    #[must_use]
+    pub fn new(footprint: Footprint, sigma: f64, pitch: f64) -> Self {
+        Self {
+            footprint,
+            sigma,
+            pitch,
+            forward: None,
+            upward: None,
+            retrace: None,
+            stiffness: None,
+            frees_stiffness: false,
+            known: [None; 2],
+            lateral: None,
+        }
+    }
 }
 
 /// Ripples of an image, and the numbers of the model. Lengths and heights in the units of the image.
@@ -46,6 +77,12 @@ pub struct Ripples {
     pub alpha: Estimate,
     /// Dimensionless support velocity.
     pub r: Estimate,
+    /// κ_y, if it was free.
+    pub stiffness: Option<Estimate>,
+    /// The lag of the tip behind the support, of the model, if there is a lateral image.
+    pub lag: Option<Lag>,
+    /// The lateral image beside the model.
+    pub lateral: Option<LateralFound>,
     /// Distance of the crests, perpendicular to them.
     pub wavelength: Estimate,
     /// Angle between crests and scan axis, in degrees.
@@ -108,6 +145,9 @@ pub enum RippleError {
     /// The retrace is not one of this image.
     #[error("{0}")]
     Retrace(&'static str),
+    /// The lateral image is not one of this image.
+    #[error("{0}")]
+    Lateral(&'static str),
     /// No wave is stronger than the noise.
     #[error("no ripples stand out of the noise")]
     Nothing,
@@ -186,6 +226,14 @@ impl Ripples {
                  tip makes one"
             ));
         }
+        if let Some(LateralFound { shift, shift_error, .. }) = self.lateral
+            && shift.abs() > 3.0 * shift_error
+        {
+            remarks.push(format!(
+                "the lateral image lies {shift:.4} further along the lines than the model has it: α, r and k do not depend on it; \
+                 images of another scan, or a hysteresis of the scanner, make one"
+            ));
+        }
         if self.amplitude.value < 2.0 * self.residual {
             remarks.push(format!(
                 "the residual, {:.2e}, is more than half of the amplitude, {:.2e}",
@@ -204,17 +252,26 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let positive = [request.sigma, request.pitch].iter().all(|v| v.is_finite() && *v > 0.0);
     let lines = Lines::new(&request.footprint, request.pitch / request.sigma)
         .filter(|_| positive)
+        .map(|lines| lines.with_stiffness(request.stiffness))
         .ok_or(RippleError::Request("needs σ and pitch above 0, and a footprint that fades"))?;
     let (pair, retrace) = self::retrace::pair(image, request.retrace.as_ref())?;
     let part = Part::settled(&pair)?;
     let wave = &part.wave;
+    let lateral = request.lateral.as_ref();
+    let lateral = lateral.map(|lateral| Seen::of(lateral, (image, part.ends), wave)).transpose()?;
+    let known = Known {
+        numbers: request.known,
+        frees_stiffness: request.frees_stiffness,
+        seeks_lag: lateral.is_some(),
+        lag: lateral.as_ref().and_then(|seen| seen.in_widths(request.sigma)),
+    };
     let ways = [(true, true), (true, false), (false, true), (false, false)];
     let admitted = ways.into_iter().filter(|(forward, upward)| {
         request.forward.is_none_or(|known| known == *forward)
             && request.upward.is_none_or(|known| known == *upward)
     });
     let closest = admitted.filter_map(|way| {
-        let problem = Problem::new(&lines, wave, request.sigma, way)?;
+        let problem = Problem::new(&lines, wave, (request.sigma, known), way)?;
         let closest = problem.closest()?;
         Some((problem, closest))
     });
@@ -229,5 +286,7 @@ pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, Ripple
     let ([q, kappa], [x, y]) = (found.wave_vector, part.ends);
     let phase = (found.phase - q * middle(x) - kappa * middle(y)).rem_euclid(TAU);
     let is_whole = part.ends == part::ends(image);
-    Ok(Ripples { phase, part: (!is_whole).then_some(part.ends), retrace, ..found })
+    let lateral = lateral.zip(found.lag);
+    let lateral = lateral.map(|(seen, lag)| seen.beside(&lag, found.forward, request.sigma));
+    Ok(Ripples { phase, lateral, part: (!is_whole).then_some(part.ends), retrace, ..found })
 }

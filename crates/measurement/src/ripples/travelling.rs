@@ -27,6 +27,8 @@ type Complex64 = Complex<f64>;
 const HARMONICS: usize = 16;
 /// Points of a wavelength: the product with θ' of 1/θ' is free of aliasing well beyond the harmonics kept.
 const POINTS: usize = 4 * HARMONICS;
+/// Points of a wavelength for the lag as a function of the position of the support.
+const LAG_POINTS: usize = 256;
 /// Largest number of Newton iterations, and the residual at which they end.
 const ITERATIONS: usize = 30;
 const ENOUGH: f64 = 1e-11;
@@ -51,12 +53,16 @@ const WEIGHTS: [f64; 4] = [
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
     /// f(x,0).
-    tip: TipFunction,
+    pub(super) tip: TipFunction,
     /// f(x,y) = Σ_l f_l(x) h_l(y).
-    layers: Vec<Layer>,
-    pitch: f64,
+    pub(super) layers: Vec<Layer>,
+    pub(super) pitch: f64,
     /// Number of earlier lines that are not negligible.
-    earlier: u32,
+    pub(super) earlier: u32,
+    /// κ_y of a tip that gives way across the lines.
+    pub(super) stiffness: Option<f64>,
+    /// Nodes and weights of integrals over the way behind the tip.
+    pub(super) nodes: Vec<(f64, f64)>,
     /// Nodes, weights times f', of the integral over f'.
     rule: Vec<(f64, f64)>,
     /// e^{2πi k/POINTS}.
@@ -70,17 +76,21 @@ pub(crate) struct Travelling {
     pub(crate) q: f64,
     /// Complex amplitudes of the height, k = 1, 2, …: u = mean + 2 Re Σ B_k e^{ik(qx + κy)}, in kσ²/a.
     pub(crate) heights: Vec<Complex64>,
-    /// α, q, φ_0 and the c_k, for the next solution nearby.
-    unknowns: Unknowns,
+    /// The solution, for the next one nearby.
+    pub(super) unknowns: Unknowns,
 }
 
 #[derive(Debug, Clone)]
-struct Unknowns {
-    alpha: f64,
-    q: f64,
+pub(super) struct Unknowns {
+    pub(super) alpha: f64,
+    pub(super) q: f64,
     /// rθ - x of zero order.
-    mean: f64,
-    c: Vec<Complex64>,
+    pub(super) mean: f64,
+    /// 1/r
+    pub(super) slowness: f64,
+    pub(super) c: Vec<Complex64>,
+    /// Distances of the tip from its line at even phases; none for a rigid one.
+    pub(super) across: Vec<f64>,
 }
 
 impl Lines {
@@ -96,18 +106,25 @@ impl Lines {
         let widest = layers.iter().map(beside).fold(0.0, f64::max);
         let panels = (PANELS * reach).ceil().max(1.0);
         let half = 0.5 * reach / panels;
-        let mut rule = vec![];
+        let mut nodes = vec![];
         for panel in 0..panels as u32 {
             let middle = (2.0 * f64::from(panel) + 1.0) * half;
             for (node, weight) in NODES.iter().zip(WEIGHTS) {
                 for x in [middle - half * node, middle + half * node] {
-                    rule.push((x, half * weight * tip.slope(x)));
+                    nodes.push((x, half * weight));
                 }
             }
         }
         let turns = (0..POINTS).map(|i| Complex64::from_polar(1.0, TAU * i as f64 / POINTS as f64));
         let earlier = (widest / pitch).ceil().max(1.0) as u32;
-        Some(Self { tip, layers, pitch, earlier, rule, turns: turns.collect() })
+        let rule = nodes.iter().map(|(x, weight)| (*x, weight * tip.slope(*x))).collect();
+        let turns = turns.collect();
+        Some(Self { tip, layers, pitch, earlier, stiffness: None, nodes, rule, turns })
+    }
+
+    /// The same lines with a tip on a spring κ_y across them; `None` for a rigid one.
+    pub(crate) fn with_stiffness(&self, stiffness: Option<f64>) -> Self {
+        Self { stiffness, ..self.clone() }
     }
 
     /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, without α.
@@ -142,6 +159,13 @@ impl Lines {
 
     /// α and r of the neutral wave (q, κ) by linear theory; `None` if there is none with α, r > 0.
     pub(crate) fn neutral(&self, q: f64, kappa: f64) -> Option<(f64, f64)> {
+        match self.stiffness {
+            Some(stiffness) => self.neutral_across(q, kappa, stiffness),
+            None => self.neutral_rigid(q, kappa),
+        }
+    }
+
+    pub(super) fn neutral_rigid(&self, q: f64, kappa: f64) -> Option<(f64, f64)> {
         // 0 = 1 + irq + iq (α/r) r W with W the response: -r² c_1 = α c_1 W + r c_1/(iq).
         let w = self.responses(q, kappa, 1)[0] * Complex64::new(0.0, -q);
         // 1 + irq = (α/r) w.
@@ -160,15 +184,20 @@ impl Lines {
         swing: f64,
         near: Result<&Travelling, f64>,
     ) -> Option<Travelling> {
+        if let Some(stiffness) = self.stiffness {
+            return self.pattern_across((r, kappa, swing, stiffness), near);
+        }
         let first = 0.5 * swing / r;
         let mut at = match near {
             Ok(near) => near.unknowns.clone(),
             Err(q) => {
                 let alpha = self.neutral(q, kappa)?.0;
                 let c = vec![Complex64::new(0.0, 0.0); HARMONICS];
-                Unknowns { alpha, q, mean: 1.0 + alpha * self.tip.value(0.0) / (r * r), c }
+                let mean = 1.0 + alpha * self.tip.value(0.0) / (r * r);
+                Unknowns { alpha, q, mean, slowness: 1.0 / r, c, across: vec![] }
             }
         };
+        at.slowness = 1.0 / r;
         at.c[0] = Complex64::new(first, 0.0);
         for _ in 0..ITERATIONS {
             let (residual, jacobian) = self.linearised(r, kappa, &at)?;
@@ -276,9 +305,30 @@ impl Lines {
     }
 }
 
+impl Travelling {
+    /// Complex amplitude of the lag as a function of the position R of the support: 2 Re L e^{i(qR + κy)}, in σ, where crests
+    /// are at positions of the tip.
+    pub(crate) fn lag(&self) -> Complex64 {
+        let Unknowns { q, mean, slowness, c, .. } = &self.unknowns;
+        let r = 1.0 / slowness;
+        let point = |i: usize| {
+            let phase = TAU * i as f64 / LAG_POINTS as f64;
+            let wave = |k: usize| c[k - 1] * Complex64::cis(k as f64 * phase);
+            let (mut lag, mut speed) = (r * mean, 1.0);
+            for k in 1..=c.len() {
+                lag += 2.0 * r * (wave(k) / Complex64::new(0.0, k as f64 * q)).re;
+                speed += 2.0 * r * wave(k).re;
+            }
+            // dR = rθ' dx
+            lag * speed * Complex64::cis(-phase - q * lag)
+        };
+        (0..LAG_POINTS).map(point).sum::<Complex64>() / LAG_POINTS as f64
+    }
+}
+
 impl Unknowns {
     /// Newton's step; `None` if it leaves the domain.
-    fn moved(mut self, step: &DVector<f64>) -> Option<Self> {
+    pub(super) fn moved(mut self, step: &DVector<f64>) -> Option<Self> {
         // Far from the solution a full step of q or α may change sign.
         let part = [(self.alpha, step[0]), (self.q, step[1])]
             .map(|(value, step)| (0.5 * value / step.abs()).min(1.0))
@@ -287,8 +337,12 @@ impl Unknowns {
         self.alpha -= part * step[0];
         self.q -= part * step[1];
         self.mean -= part * step[2];
-        for k in 2..=HARMONICS {
+        for k in 2..=self.c.len() {
             self.c[k - 1] -= part * Complex64::new(step[2 * k - 1], step[2 * k]);
+        }
+        let first = 2 * self.c.len() + 1;
+        for (across, step) in self.across.iter_mut().zip(step.iter().skip(first)) {
+            *across -= part * step;
         }
         (self.alpha.is_finite() && self.q.is_finite()).then_some(self)
     }

@@ -78,14 +78,8 @@ fn image(made: &mut Made, pixels: usize, noise: f64, seed: u64, mirrored: [bool;
 }
 
 fn request(made: &Made) -> RippleRequest {
-    RippleRequest {
-        footprint: Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap(),
-        sigma: SIGMA,
-        pitch: SIGMA * made.pitch,
-        forward: None,
-        upward: None,
-        retrace: None,
-    }
+    let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
+    RippleRequest::new(footprint, SIGMA, SIGMA * made.pitch)
 }
 
 fn summary(made: &Made, found: &Ripples) -> String {
@@ -132,14 +126,8 @@ fn noise_has_no_ripples() {
     let at: Vec<f64> = (0..64).map(f64::from).collect();
     let rows = (0..64).map(|_| (0..64).map(|_| normal(&mut random)).collect()).collect();
     let image = Image::new(at.clone(), at, rows).unwrap();
-    let request = RippleRequest {
-        footprint: Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap(),
-        sigma: 2.0,
-        pitch: 2.0,
-        forward: None,
-        upward: None,
-        retrace: None,
-    };
+    let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
+    let request = RippleRequest::new(footprint, 2.0, 2.0);
     let found = ripples(&image, &request);
     assert!(matches!(found, Err(RippleError::Nothing)), "{found:?}");
 }

@@ -10,10 +10,11 @@ use crate::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Estimate, Image, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
+    Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
 };
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Wider};
+use stickslip_units::Unit;
 
 /// Ripples of an image, and the numbers of the model that explain them, with 95 % intervals. Lengths and heights are
 /// in the unit of the image.
@@ -62,6 +63,12 @@ pub struct FitImageFound {
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the lines, that the wave explains.
     pub explained_variance: f64,
+    /// κ_y, the stiffness across the lines over that along them, if it was free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness_across: Option<EstimateDocument>,
+    /// The lateral image beside the model, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateral: Option<LateralDocument>,
     /// The retrace beside the trace; null without `retrace_image`.
     #[serde(default)]
     pub retrace: Option<RetraceDocument>,
@@ -94,6 +101,29 @@ pub struct FitImage {
     pub width_interval: Option<[f64; 2]>,
     /// Distance of the scan lines that made the ripples, in the unit of the image; by default that of its rows.
     pub pitch: Option<f64>,
+    /// α, dimensionless, if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-option" = option("A", "Known", 21)))]
+    pub alpha: Option<f64>,
+    /// r, dimensionless, if known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-option" = option("R", "Known", 20)))]
+    pub r: Option<f64>,
+    /// κ_y, the spring constant across the lines of an image over that along them, if known; above 0. By default the tip
+    /// cannot leave its lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-option" = option("K", "Known", 25)))]
+    pub stiffness_across: Option<f64>,
+    /// Estimate κ_y from an image, for which α or r must be known.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("x-option" = option("", "Fitted", 31)))]
+    pub free_stiffness_across: bool,
+    /// k, if known: lateral forces in their unit are k times deflections in the unit of the image.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force_gain: Option<f64>,
+    /// Unit of the lateral image, such as N or nm: of a force, or of the deflection of the lever.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lateral_unit: Option<String>,
     /// Unit of lengths; that of the image by default.
     #[schemars(extend("x-option" = option("UNIT", "Data", 11)))]
     pub unit: Option<String>,
@@ -109,6 +139,32 @@ pub struct FitImage {
     /// Heights of the same area on the way back, at the same positions; both are fitted together.
     #[serde(skip_serializing)]
     pub retrace_image: Option<MeasuredImage>,
+    /// Lateral forces, or deflections of the lever, on the lines that made the ripples, at the same positions: positive
+    /// where the lever is bent back from larger x.
+    #[serde(skip_serializing)]
+    pub lateral_image: Option<MeasuredImage>,
+}
+
+/// The lateral image beside the model of the ripples.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LateralDocument {
+    /// Half of the peak-to-peak of the first harmonic, in the unit of the lateral image.
+    pub amplitude: EstimateDocument,
+    /// The same of the lag of the model, in the unit of the image.
+    pub lag: EstimateDocument,
+    /// k, the stiffness of the lever, from both; null where deflections were given, which α and r take into account.
+    pub stiffness: Option<EstimateDocument>,
+    /// Unit of k; null if it is unknown.
+    pub stiffness_unit: Option<String>,
+    /// Phase of the lateral image minus that of the heights, in degrees.
+    pub phase: f64,
+    /// The same of the model.
+    pub model_phase: f64,
+    /// Distance by which the lateral image is further along the lines than the model has it, in the unit of the image.
+    pub shift: f64,
+    /// Standard deviation of this distance.
+    pub shift_error: f64,
 }
 
 /// The retrace beside the trace.
@@ -202,6 +258,34 @@ impl FitImage {
         heights("image", &self.image)
     }
 
+    /// The lateral image, with the unit of its deflections if it has those.
+    fn lateral(&self) -> Result<Option<Lateral>, Refused> {
+        let Some(image) = &self.lateral_image else { return Ok(None) };
+        let image = heights("lateral_image", image)?;
+        let one = |unit: &Option<String>| unit.as_ref().and_then(|unit| Unit::Length.one(unit));
+        let of_lengths = one(&self.lateral_unit).map(|own| own / one(&self.unit).unwrap_or(own));
+        match (of_lengths, self.force_gain) {
+            (Some(_), Some(gain)) => {
+                let why = "the lateral image has deflections, in a unit of length: leave it out";
+                Err(Refused::number("force_gain", gain, why))
+            }
+            (length, Some(gain)) => Ok(Some(Lateral {
+                image,
+                length: length.or(Some(1.0 / positive("force_gain", gain)?)),
+            })),
+            (length, None) => Ok(Some(Lateral { image, length })),
+        }
+    }
+
+    /// The unit of k: force over length.
+    fn stiffness_unit(&self) -> Option<String> {
+        let (force, length) = (self.lateral_unit.as_deref()?, self.unit.as_deref()?);
+        Some(match (force, length) {
+            ("nN", "nm") => "N/m".into(),
+            _ => format!("{force}/{length}"),
+        })
+    }
+
     /// The result with the error of σ: α and r are fitted again at both ends of its interval.
     fn with_error_of_sigma(
         &self,
@@ -221,11 +305,20 @@ impl FitImage {
         Ripples { alpha, r, ..found }
     }
 
+    fn with_unit_of_stiffness(&self, mut answer: FitImageFound) -> FitImageFound {
+        if let Some(lateral) = answer.lateral.as_mut().filter(|found| found.stiffness.is_some()) {
+            lateral.stiffness_unit = self.stiffness_unit();
+        }
+        answer
+    }
+
     fn request(&self) -> Result<RippleRequest, Refused> {
+        let one = |name, value: Option<f64>| value.map(|v| positive(name, v)).transpose();
         Ok(RippleRequest {
-            footprint: self.footprint()?.0,
-            sigma: self.sigma()?,
-            pitch: self.distance()?,
+            stiffness: one("stiffness_across", self.stiffness_across)?,
+            frees_stiffness: self.free_stiffness_across,
+            known: [one("alpha", self.alpha)?, one("r", self.r)?],
+            lateral: self.lateral()?,
             forward: self.scan.map(|scan| scan == ScanName::Right),
             upward: self.slow_scan.map(|scan| scan == SlowScanName::Up),
             retrace: self
@@ -233,6 +326,7 @@ impl FitImage {
                 .as_ref()
                 .map(|i| heights("retrace_image", i))
                 .transpose()?,
+            ..RippleRequest::new(self.footprint()?.0, self.sigma()?, self.distance()?)
         })
     }
 }
@@ -267,6 +361,16 @@ impl Ask for FitImage {
         self.tip.iter().try_for_each(|tip| tip.judge_even("a fit"))?;
         self.heights()?;
         let sigma = self.request()?.sigma;
+        if self.free_stiffness_across {
+            if let Some(stiffness) = self.stiffness_across {
+                let why = "is both known and free: leave one of them out";
+                return Err(Refused::number("stiffness_across", stiffness, why).into());
+            }
+            if self.alpha.is_none() && self.r.is_none() {
+                let why = "an image determines two of α, r and κ_y: give {alpha} or {r}";
+                return Err(Refused::whole("free_stiffness_across", why).into());
+            }
+        }
         if let Some([low, high]) = self.width_interval
             && !(low > 0.0 && low <= sigma && sigma <= high && high.is_finite())
         {
@@ -280,6 +384,7 @@ impl Ask for FitImage {
         let (image, request) = (self.heights()?, self.request()?);
         let refused = |error| match error {
             RippleError::Retrace(_) => Refused::whole("retrace_image", error),
+            RippleError::Lateral(_) => Refused::whole("lateral_image", error),
             RippleError::Request(_) => Refused::whole("tip", error),
             _ => Refused::whole("image", error),
         };
@@ -287,9 +392,13 @@ impl Ask for FitImage {
         let found = self.with_error_of_sigma(found, (&image, request.clone()));
         let at = (found.r.value, request.pitch / request.sigma);
         let raster = Raster::new(&request.footprint, Wider::default(), at, 1.0);
-        let critical = raster.and_then(|raster| raster.critical(RasterPath::OneWay));
+        // The threshold across the lines is another question.
+        let is_rigid = request.stiffness.is_none() && !request.frees_stiffness;
+        let critical = raster.ok().filter(|_| is_rigid);
+        let critical = critical.and_then(|raster| raster.critical(RasterPath::OneWay).ok());
         let levelled = Ripples::levelled(&image, MOST).map_err(|e| Refused::whole("image", e))?;
-        let answer = FitImageFound::of(&found, critical.ok().map(|at| at.alpha), &levelled);
+        let answer = FitImageFound::of(&found, critical.map(|at| at.alpha), &levelled);
+        let answer = self.with_unit_of_stiffness(answer);
         let assumed = [
             self.tip.is_none().then(|| ASSUMED_TIP.into()),
             self.pitch.is_none().then(|| ASSUMED_PITCH.into()),
@@ -337,6 +446,17 @@ impl FitImageFound {
             modulation: found.modulation,
             residual: found.residual,
             explained_variance: found.explained,
+            stiffness_across: found.stiffness.map(judged),
+            lateral: found.lateral.map(|lateral| LateralDocument {
+                amplitude: lateral.amplitude.into(),
+                lag: judged(lateral.lag),
+                stiffness: lateral.stiffness.map(judged),
+                stiffness_unit: None,
+                phase: lateral.phase[0],
+                model_phase: lateral.phase[1],
+                shift: lateral.shift,
+                shift_error: lateral.shift_error,
+            }),
             retrace: found.retrace.map(|Retrace { shift, ratio, agreement }| RetraceDocument {
                 shift,
                 ratio,

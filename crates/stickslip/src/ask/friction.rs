@@ -5,7 +5,7 @@ use crate::parameter::option;
 use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use stickslip_measurement::{Estimate, FrictionLoop, LoopError, LoopNumbers};
+use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
 use stickslip_units::Unit;
 
 /// Friction forces of a loop, with 95 % intervals, in the units that it names.
@@ -161,7 +161,8 @@ impl Ask for Friction {
 
 /// A warning about units.
 const UNKNOWN: &str = "the work is not in fJ: the unit of positions or forces is unknown; headings such as x_nm,force_nN, --unit and \
-                       --force-unit give it, and --stiffness or --sensitivity the force of a deflection or a voltage";
+                       --force-unit give it, and --stiffness or --sensitivity the force of a deflection or a voltage; runs have them if `run` had --sigma, --stiffness and \
+                       --damping";
 
 impl FrictionFound {
     fn of(
@@ -178,8 +179,8 @@ impl FrictionFound {
             mean: found.mean.into(),
             static_peak: found.static_peak.into(),
             peak_ratio: found.peak_ratio,
-            hysteresis: times(found.mean, 2.0).into(),
-            work: times(found.work, if is_joule { FEMTOJOULES } else { 1.0 }).into(),
+            hysteresis: found.mean.times(2.0).into(),
+            work: found.work.times(if is_joule { FEMTOJOULES } else { 1.0 }).into(),
             offset: found.offset.into(),
             reversal: found.reversal,
             stiffness: found.stiffness.into(),
@@ -206,11 +207,6 @@ impl FrictionFound {
             ("stiffness", &self.stiffness, slope),
         ]
     }
-}
-
-fn times(estimate: Estimate, factor: f64) -> Estimate {
-    let Estimate { value, low, high } = estimate;
-    Estimate { value: value * factor, low: low * factor, high: high * factor }
 }
 
 impl Tabular for FrictionFound {

@@ -1,7 +1,7 @@
 //! The question `load-map`: at which load and velocity a tip writes ripples, and how far apart they are.
 //!
 //! One measured point fixes the map: at its load the indentation rate is α and the width of the contact σ, at its velocity r.
-//! Elsewhere α is proportional to the load F. Where the contact grows, as σ(F) = s σ, the same Γ, k and a give α = α (F/F₀)/s² and
+//! Elsewhere α is proportional to the load F. Where the contact grows, as σ(F) = s σ by a power or a table, the same Γ, k and a give α = α (F/F₀)/s² and
 //! r = r/s; lengths are in σ of that point throughout.
 
 use super::boundary::{judge_range, refused_range};
@@ -47,10 +47,13 @@ pub struct LoadMap {
     /// Load of the measured point, in nN, such as 10nN; above 0.
     #[schemars(extend("x-option" = option("F", "Load", 51)))]
     pub load: f64,
-    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5.
+    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5. A table in its place: `load_widths`.
     #[schemars(extend("x-option" = option("S", "Load", 52)))]
     #[serde(default)]
     pub width_exponent: f64,
+    /// Width of the contact over the load.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_widths: Option<LoadWidths>,
     /// Number of loads, and of velocities; from 2 to 1,000.
     #[serde(default = "default_points")]
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
@@ -62,6 +65,45 @@ pub struct LoadMap {
 
 fn default_points() -> usize {
     41
+}
+
+/// Widths of the contact at several loads; a power of the load connects neighbours. Their ratio to that at the measured load
+/// counts, so that any unit is possible.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadWidths {
+    /// Loads, ascending, in nN.
+    #[serde(rename = "load_nN")]
+    pub load: Vec<f64>,
+    /// Width of the contact at each, above 0.
+    pub width: Vec<f64>,
+}
+
+impl LoadWidths {
+    /// The reason why this is no table of widths over the whole range of loads.
+    fn fault(&self, loads: [f64; 2]) -> Option<String> {
+        let Self { load, width } = self;
+        let are_good = |values: &[f64]| values.iter().all(|v| v.is_finite() && *v > 0.0);
+        if load.len() != width.len() || load.len() < 2 {
+            return Some("needs two rows or more, with a load and a width each".into());
+        }
+        if !(are_good(load) && are_good(width)) || load.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Some("loads and widths must be above 0, and each load be there once".into());
+        }
+        let (first, last) = (load[0], load[load.len() - 1]);
+        loads.into_iter().find(|load| !(first..=last).contains(load)).map(|load| {
+            format!("has loads from {first} to {last} nN, and none as far as {load} nN")
+        })
+    }
+
+    /// The width at a load within the table.
+    fn at(&self, load: f64) -> f64 {
+        let last = self.load.len() - 1;
+        let above = self.load.partition_point(|other| *other < load).clamp(1, last);
+        let part = |values: &[f64]| (values[above] / values[above - 1]).ln();
+        let exponent = part(&self.width) / part(&self.load);
+        self.width[above - 1] * (load / self.load[above - 1]).powf(exponent)
+    }
 }
 
 /// A map of loads and the question that it answers.
@@ -98,7 +140,7 @@ pub struct LoadMapFound {
     /// Velocities of the support, in kσ/Γ: r, of a contact of width σ.
     pub velocity: Vec<f64>,
     /// For each velocity the load above which steady motion is unstable, in nN; null if there is none up to a thousand times the
-    /// largest load.
+    /// largest load, or within the table of widths.
     #[serde(rename = "critical_load_nN")]
     pub critical_load: Vec<Option<f64>>,
     /// The points, velocity varying fastest.
@@ -125,12 +167,36 @@ impl LoadMap {
             return Err(Refused::number("points", self.points as f64, "must be from 2 to 1,000"));
         }
         judge_range("load_range", self.load_range, self.points)?;
-        judge_range("r_range", self.r_range, self.points)
+        judge_range("r_range", self.r_range, self.points)?;
+        let Some(widths) = &self.load_widths else { return Ok(()) };
+        if self.width_exponent != 0.0 {
+            let why = "the widths are those of {load_widths}: leave one of them out";
+            return Err(Refused::number("width_exponent", self.width_exponent, why));
+        }
+        let [low, high] = self.load_range;
+        let fault = widths.fault([low.min(self.load), high.max(self.load)]);
+        fault.map_or(Ok(()), |why| Err(Refused::whole("load_widths", why)))
     }
 
     /// Width of the contact at a load, in σ.
     fn width(&self, load: f64) -> f64 {
-        (load / self.load).powf(self.width_exponent)
+        match &self.load_widths {
+            Some(widths) => widths.at(load) / widths.at(self.load),
+            None => (load / self.load).powf(self.width_exponent),
+        }
+    }
+
+    /// Whether the contact is equally wide at all loads.
+    fn is_constant(&self) -> bool {
+        self.load_widths.is_none() && self.width_exponent == 0.0
+    }
+
+    /// First and last load among which a critical load is sought: a table of widths ends.
+    fn sought(&self) -> [f64; 2] {
+        match &self.load_widths {
+            Some(LoadWidths { load, .. }) => [load[0], load[load.len() - 1]],
+            None => [self.load_range[0] / BEYOND, self.load_range[1] * BEYOND],
+        }
     }
 
     /// α at a load, and r at a load and a velocity.
@@ -185,12 +251,16 @@ impl LoadMap {
     fn critical_load(&self, law: Wider, velocity: f64) -> Result<Option<f64>, Failure> {
         let excess = |load: f64| self.excess(law, load, velocity);
         let is_unstable = |load: f64| Ok::<bool, Failure>(excess(load)?.is_some_and(|e| e > 0.0));
-        if self.width_exponent == 0.0 {
+        if self.is_constant() {
             // αc does not depend on the load.
             let above = excess(self.load)?;
             return Ok(above.map(|above| self.load * (self.alpha - above) / self.alpha));
         }
-        let (first, last) = (self.load_range[0] / BEYOND, self.load_range[1] * BEYOND);
+        let [first, last] = self.sought();
+        if self.load_widths.is_some() && is_unstable(first)? {
+            // The critical load lies below the table.
+            return Ok(None);
+        }
         let steps = (PER_E * (last / first).ln()).ceil();
         let mut low = first;
         for step in 1..=steps as usize {

@@ -23,6 +23,7 @@ pub mod exponents;
 pub(crate) mod failure;
 pub(crate) mod fit;
 pub(crate) mod fit_image;
+pub(crate) mod force_tracks;
 pub(crate) mod friction;
 pub mod lines;
 pub(crate) mod load_map;
@@ -64,10 +65,12 @@ pub use fit::{
     NumberHeld, ScanName,
 };
 pub use fit_image::{
-    FitImage, FitImageDocument, FitImageFound, RetraceDocument, RippleProfileDocument, SlowScanName,
+    FitImage, FitImageDocument, FitImageFound, LateralDocument, RetraceDocument,
+    RippleProfileDocument, SlowScanName,
 };
+pub use force_tracks::RunForces;
 pub use friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
-pub use load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint};
+pub use load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint, LoadWidths};
 pub use measured_tip::{
     AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
     MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,

@@ -725,7 +725,7 @@ impl From<&SupportPath> for SupportPathParameters {
 }
 
 impl SupportPathParameters {
-    fn path(&self) -> Result<SupportPath, RunError> {
+    pub(crate) fn path(&self) -> Result<SupportPath, RunError> {
         SupportPath::new(self.t.clone(), self.displacement.clone()).map_err(RunError::from)
     }
 }

@@ -90,9 +90,19 @@ impl Product for FitImageDocument {
             in_digits(&self.crest_angle)
         );
         let word = |name: Value| name.as_str().map(str::to_owned);
+        let lateral = self.lateral.as_ref();
+        let of_lever = lateral.and_then(|found| {
+            let unit = found.stiffness_unit.as_deref().unwrap_or_default();
+            Some(
+                format!("{} {unit}", with_interval(found.stiffness.as_ref()?))
+                    .trim_end()
+                    .to_owned(),
+            )
+        });
         Summary::new(headline)
             .row("alpha", with_interval(&self.alpha))
             .row("r", with_interval(&self.r))
+            .maybe("stiffness across", self.stiffness_across.as_ref().map(with_interval))
             .maybe("critical α at this r", self.critical_alpha.map(|alpha| digits(alpha, 6)))
             .row("wavelength", format!("{}{unit}", with_interval(&self.wavelength)))
             .row("crests to the scan axis", format!("{}°", with_interval(&self.crest_angle)))
@@ -103,6 +113,15 @@ impl Product for FitImageDocument {
             .maybe(
                 "retrace shifted by",
                 self.retrace.map(|r| format!("{}{unit}", digits(r.shift, 3))),
+            )
+            .maybe("amplitude of the lateral image", lateral.map(|l| with_interval(&l.amplitude)))
+            .maybe("lag of the model", lateral.map(|l| format!("{}{unit}", with_interval(&l.lag))))
+            .maybe("stiffness k of the lever", of_lever)
+            .maybe(
+                "lateral image shifted by",
+                lateral.map(|l| {
+                    format!("{} ± {}{unit}", digits(l.shift, 3), digits(l.shift_error, 2))
+                }),
             )
             .maybe("retrace over trace", self.retrace.map(|r| digits(r.ratio, 4)))
             .row("probability of the misfit", digits(self.misfit, 2))

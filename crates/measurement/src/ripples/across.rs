@@ -1,0 +1,441 @@
+//! Settled ripples of a one-way raster whose tip gives way across the lines.
+//!
+//! As in `travelling`, every line repeats the one before it, shifted along the scan: s(φ) = θ' and the distance Y(φ) of the tip
+//! from its line are functions of the phase φ = qx + κdn. With f(x,y) = g(x) h(y) the force balances at the tip are
+//!
+//! ```text
+//! 1/s      = α Σ_{j≥0} ∫ g'(x-x') h (jd + Y(φ) - Y_j(x')) s_j(x') dx' + rθ - x
+//! qY'(φ)/s = α Σ_{j≥0} ∫ g (x-x') h'(jd + Y(φ) - Y_j(x')) s_j(x') dx' - κ_y Y
+//! ```
+//!
+//! where s_j and Y_j are those of the line j before, at the phase φ' - κdj, and j = 0 is the line itself up to the tip. At
+//! given φ each integrand is a kernel in x - x' times a periodic function, so that the integrals are sums over points of a
+//! wavelength with weights from the transform of the kernel: exact for what the points resolve. Sums of products f have a sum
+//! of such terms.
+
+use super::travelling::{Lines, Travelling, Unknowns};
+use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
+use std::f64::consts::TAU;
+use stickslip_tip::{Across, Layer};
+
+type Complex64 = Complex<f64>;
+
+/// Harmonics of s and Y.
+const HARMONICS: usize = 10;
+/// Points of a wavelength.
+const POINTS: usize = 2 * HARMONICS + 1;
+/// Largest number of Newton iterations, and the residual at which they end.
+const ITERATIONS: usize = 30;
+const ENOUGH: f64 = 1e-10;
+/// Step of q for a derivative.
+const STEP: f64 = 1e-6;
+/// Values of 1/κ_y between a rigid tip and one that gives way, over which a neutral wave is followed.
+const SOFTER: u32 = 8;
+/// α and r from which a neutral wave is sought where a rigid tip has none, and the largest logarithm of either.
+const STARTS: [f64; 3] = [0.3, 0.8, 2.0];
+const FARTHEST: f64 = 4.0;
+
+/// h, h' and h'' at a distance.
+fn derivatives(across: &Across, y: f64) -> [f64; 3] {
+    let Across { center, width } = *across;
+    let twin = (center > 0.0).then_some(-center);
+    std::iter::once(center).chain(twin).fold([0.0; 3], |[h, h1, h2], center| {
+        let z = (y - center) / width;
+        let bell = (-0.5 * z * z).exp();
+        [h + bell, h1 - z / width * bell, h2 + (z * z - 1.0) / (width * width) * bell]
+    })
+}
+
+/// Weights of the integrals over g' and g, of a line and of its earlier ones, by the distance of two points.
+struct Weights {
+    /// Of a layer and of the number of lines in between.
+    slope: Vec<[f64; POINTS]>,
+    value: Vec<[f64; POINTS]>,
+}
+
+/// A real periodic function from its transform at 0, 1, …, at the points.
+fn at_points(transform: impl Fn(usize) -> Complex64) -> [f64; POINTS] {
+    let terms: Vec<Complex64> = (0..=HARMONICS).map(transform).collect();
+    std::array::from_fn(|m| {
+        let wave = |k: usize| Complex64::cis(TAU * ((k * m) % POINTS) as f64 / POINTS as f64);
+        let sum: f64 = (1..=HARMONICS).map(|k| 2.0 * (terms[k] * wave(k)).re).sum();
+        (terms[0].re + sum) / POINTS as f64
+    })
+}
+
+/// The force balances at the points of a pattern, and their derivatives.
+struct Balance {
+    residual: DVector<f64>,
+    /// By s, Y and α.
+    jacobian: Option<[DMatrix<f64>; 3]>,
+}
+
+/// Values of a pattern at the points.
+struct Values {
+    /// θ'
+    slowness: Vec<f64>,
+    /// Y
+    across: Vec<f64>,
+}
+
+impl Lines {
+    /// α and r of the neutral wave (q, κ) where the tip gives way across the lines, by linear theory: both follow from those of
+    /// a rigid tip as κ_y falls. `None` if there is none with α, r > 0.
+    pub(super) fn neutral_across(&self, q: f64, kappa: f64, stiffness: f64) -> Option<(f64, f64)> {
+        let sums = self.neutral_sums(q, kappa);
+        let near = |at, softness| neutral_near(at, q, softness, &sums);
+        let followed = self.neutral_rigid(q, kappa).and_then(|(alpha, r)| {
+            let softer = |at, part| near(at, f64::from(part) / f64::from(SOFTER) / stiffness);
+            (1..=SOFTER).try_fold(Vector2::new(alpha.ln(), r.ln()), softer)
+        });
+        // Where a rigid tip has no such wave: the one with the least α.
+        let starts =
+            STARTS.iter().flat_map(|alpha| STARTS.map(|r| Vector2::new(alpha.ln(), r.ln())));
+        let at = followed.or_else(|| {
+            let found = starts.filter_map(|start| near(start, 1.0 / stiffness));
+            found.filter(|at| at.amax() < FARTHEST).min_by(|a, b| a[0].total_cmp(&b[0]))
+        })?;
+        Some((at[0].exp(), at[1].exp()))
+    }
+
+    /// Sums of linear theory: A of the forces along the scan, K that couples both, and B of the forces across it.
+    fn neutral_sums(&self, q: f64, kappa: f64) -> [Complex64; 3] {
+        let i = Complex64::new(0.0, 1.0);
+        let mut sums = [Complex64::new(0.0, 0.0); 3];
+        for layer in &self.layers {
+            let fourier = |k: f64| Complex64::new(layer.along.fourier(k), 0.0);
+            let [all, none] = [q, 0.0].map(fourier);
+            let h = |y: f64| derivatives(&layer.across, y);
+            let own = [q, 0.0].map(|q| self.one_sided(layer, q));
+            let here = h(0.0);
+            sums[0] += here[0] * (i * q * own[0] - layer.along.value(0.0));
+            sums[2] += here[2] * (own[1] - own[0]);
+            for j in 1..=self.earlier {
+                let away = f64::from(j) * self.pitch;
+                let turn = Complex64::from_polar(1.0, -kappa * away);
+                let [h0, h1, h2] = h(away);
+                sums[0] += i * q * all * h0 * turn;
+                sums[1] += all * h1 * turn;
+                sums[2] += h2 * (none - all * turn);
+            }
+        }
+        sums
+    }
+
+    /// ∫_0^∞ g(ξ) e^{-iqξ} dξ of a layer.
+    fn one_sided(&self, layer: &Layer, q: f64) -> Complex64 {
+        let term = |(x, weight): &(f64, f64)| {
+            Complex64::from_polar(weight * layer.along.value(*x), -q * x)
+        };
+        self.nodes.iter().map(term).sum()
+    }
+
+    /// The pattern with this r, κ and c_1 = `swing`/(2r), as [`Lines::pattern`] has it.
+    pub(super) fn pattern_across(
+        &self,
+        (r, kappa, swing, stiffness): (f64, f64, f64, f64),
+        near: Result<&Travelling, f64>,
+    ) -> Option<Travelling> {
+        let mut at = match near {
+            Ok(near) if near.unknowns.across.len() == POINTS => near.unknowns.clone(),
+            Ok(_) => return None,
+            Err(q) => {
+                let alpha = self.neutral_across(q, kappa, stiffness)?.0;
+                let c = vec![Complex64::new(0.0, 0.0); HARMONICS];
+                let mean = 1.0 + alpha * self.tip.value(0.0) / (r * r);
+                Unknowns { alpha, q, mean, slowness: 1.0 / r, c, across: vec![0.0; POINTS] }
+            }
+        };
+        at.slowness = 1.0 / r;
+        at.c[0] = Complex64::new(0.5 * swing / r, 0.0);
+        for _ in 0..ITERATIONS {
+            let weights = self.weights(at.q, kappa);
+            let here = self.balance(&at, &weights, (r, stiffness), true)?;
+            if here.residual.amax() < ENOUGH * r.max(1.0) {
+                return self.found_across(at, kappa);
+            }
+            let beside = Unknowns { q: at.q + STEP, ..at.clone() };
+            let weights = self.weights(beside.q, kappa);
+            let beside = self.balance(&beside, &weights, (r, stiffness), false)?;
+            let by_q = (beside.residual - &here.residual) / STEP;
+            let jacobian = assembled(&here, &by_q, r)?;
+            let step = jacobian.lu().solve(&here.residual)?;
+            at = at.moved(&step)?;
+        }
+        None
+    }
+
+    fn weights(&self, q: f64, kappa: f64) -> Weights {
+        let (mut slope, mut value) = (vec![], vec![]);
+        for layer in &self.layers {
+            let own: Vec<Complex64> =
+                (0..=HARMONICS).map(|k| self.one_sided(layer, k as f64 * q)).collect();
+            let peak = layer.along.value(0.0);
+            slope.push(at_points(|k| Complex64::new(0.0, k as f64 * q) * own[k] - peak));
+            value.push(at_points(|k| own[k]));
+            let all: Vec<f64> =
+                (0..=HARMONICS).map(|k| layer.along.fourier(k as f64 * q)).collect();
+            for j in 1..=self.earlier {
+                let turn = |k: usize| {
+                    Complex64::from_polar(all[k], -(k as f64) * kappa * f64::from(j) * self.pitch)
+                };
+                slope.push(at_points(|k| Complex64::new(0.0, k as f64 * q) * turn(k)));
+                value.push(at_points(turn));
+            }
+        }
+        Weights { slope, value }
+    }
+
+    /// `None` for a tip that moves backward.
+    fn balance(
+        &self,
+        at: &Unknowns,
+        weights: &Weights,
+        (r, stiffness): (f64, f64),
+        with_jacobian: bool,
+    ) -> Option<Balance> {
+        let Values { slowness, across } = at.values();
+        if !slowness.iter().all(|s| *s > 0.0) {
+            return None;
+        }
+        let mut forces = [[0.0; POINTS]; 2];
+        let zero = || DMatrix::<f64>::zeros(2 * POINTS, POINTS);
+        let (mut by_s, mut by_y) = (zero(), zero());
+        let lines = (self.earlier + 1) as usize;
+        for (n, (slope, value)) in weights.slope.iter().zip(&weights.value).enumerate() {
+            let layer = &self.layers[n / lines];
+            let away = (n % lines) as f64 * self.pitch;
+            for i in 0..POINTS {
+                for k in 0..POINTS {
+                    let m = (i + POINTS - k) % POINTS;
+                    let [h, h1, h2] = derivatives(&layer.across, away + across[i] - across[k]);
+                    let (s, along, beside) = (slowness[k], slope[m], value[m]);
+                    forces[0][i] += along * h * s;
+                    forces[1][i] += beside * h1 * s;
+                    if with_jacobian {
+                        by_s[(i, k)] += along * h;
+                        by_s[(POINTS + i, k)] += beside * h1;
+                        let [along, beside] = [along * h1 * s, beside * h2 * s];
+                        by_y[(i, k)] -= along;
+                        by_y[(i, i)] += along;
+                        by_y[(POINTS + i, k)] -= beside;
+                        by_y[(POINTS + i, i)] += beside;
+                    }
+                }
+            }
+        }
+        // θ less its mean slope, and dY/dx.
+        let integral = at_points(|k| match k {
+            0 => Complex64::new(0.0, 0.0),
+            k => Complex64::new(0.0, -1.0 / (k as f64 * at.q)),
+        });
+        let derivative = at_points(|k| Complex64::new(0.0, k as f64 * at.q));
+        let folded = |kernel: &[f64; POINTS], values: &[f64], i: usize| -> f64 {
+            (0..POINTS).map(|k| kernel[(i + POINTS - k) % POINTS] * values[k]).sum()
+        };
+        let mut residual = DVector::zeros(2 * POINTS);
+        let mut by_alpha = DMatrix::zeros(2 * POINTS, 1);
+        for i in 0..POINTS {
+            let lag = r * (at.mean + folded(&integral, &slowness, i));
+            let turn = folded(&derivative, &across, i);
+            residual[i] = 1.0 / slowness[i] - at.alpha * forces[0][i] - lag;
+            residual[POINTS + i] =
+                turn / slowness[i] - at.alpha * forces[1][i] + stiffness * across[i];
+            (by_alpha[i], by_alpha[POINTS + i]) = (-forces[0][i], -forces[1][i]);
+            if with_jacobian {
+                for k in 0..POINTS {
+                    let m = (i + POINTS - k) % POINTS;
+                    by_s[(i, k)] = -at.alpha * by_s[(i, k)] - r * integral[m];
+                    by_s[(POINTS + i, k)] *= -at.alpha;
+                    by_y[(i, k)] *= -at.alpha;
+                    by_y[(POINTS + i, k)] =
+                        derivative[m] / slowness[i] - at.alpha * by_y[(POINTS + i, k)];
+                }
+                let square = slowness[i] * slowness[i];
+                by_s[(i, i)] -= 1.0 / square;
+                by_s[(POINTS + i, i)] -= turn / square;
+                by_y[(POINTS + i, i)] += stiffness;
+            }
+        }
+        let jacobian = with_jacobian.then_some([by_s, by_y, by_alpha]);
+        Some(Balance { residual, jacobian })
+    }
+
+    fn found_across(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
+        let Values { slowness, across } = at.values();
+        let height = |k: usize| {
+            let k_number = k as f64;
+            let layer = |layer: &Layer| {
+                layer.along.fourier(k_number * at.q) * layer.across.fourier(k_number * kappa)
+            };
+            let point = |i: usize| {
+                let phase = TAU * ((k * i) % POINTS) as f64 / POINTS as f64;
+                Complex64::from_polar(slowness[i], -phase - k_number * kappa * across[i])
+            };
+            let mean = (0..POINTS).map(point).sum::<Complex64>() / POINTS as f64;
+            -mean * (at.alpha / self.pitch * self.layers.iter().map(layer).sum::<f64>())
+        };
+        let heights = (1..=HARMONICS).map(height).collect();
+        let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
+        (found.alpha > 0.0 && found.q > 0.0).then_some(found)
+    }
+}
+
+/// ln α and ln r at which the determinant vanishes for a softness 1/κ_y, from values nearby. For s = 1/r + c e^{iqx} and
+/// Y = e e^{iqx}, with the sums A, K and B,
+///
+/// ```text
+/// (αA + r² + r/(iq)) c = (iqα/r) K e,   (1 + (iqr - (α/r) B)/κ_y) e = (α/κ_y) K c
+/// ```
+fn neutral_near(
+    mut at: Vector2<f64>,
+    q: f64,
+    softness: f64,
+    [along, coupling, across]: &[Complex64; 3],
+) -> Option<Vector2<f64>> {
+    let i = Complex64::new(0.0, 1.0);
+    let value = |at: &Vector2<f64>| {
+        let (alpha, r) = (at[0].exp(), at[1].exp());
+        let first = along * alpha + r * r + r / (i * q);
+        let second = 1.0 + softness * (i * q * r - across * (alpha / r));
+        let determinant =
+            first * second - i * q * (alpha * alpha / r) * softness * coupling * coupling;
+        [determinant.re, determinant.im]
+    };
+    for _ in 0..ITERATIONS {
+        let here = value(&at);
+        let column = |n: usize| {
+            let mut there = at;
+            there[n] += STEP;
+            let there = value(&there);
+            [0, 1].map(|k| (there[k] - here[k]) / STEP)
+        };
+        let [a, b] = [column(0), column(1)];
+        let step =
+            Matrix2::new(a[0], b[0], a[1], b[1]).lu().solve(&Vector2::new(here[0], here[1]))?;
+        let part = (0.3 / step.amax()).min(1.0);
+        at -= part * step;
+        if step.amax() < 1e-10 {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// The Jacobian by α, q, the mean, the parts of c_2, … and Y.
+fn assembled(here: &Balance, by_q: &DVector<f64>, r: f64) -> Option<DMatrix<f64>> {
+    let [by_s, by_y, by_alpha] = here.jacobian.as_ref()?;
+    let mut all = DMatrix::zeros(2 * POINTS, 2 * POINTS);
+    all.set_column(0, &by_alpha.column(0));
+    all.set_column(1, by_q);
+    all.view_mut((0, 2), (POINTS, 1)).fill(-r);
+    for k in 2..=HARMONICS {
+        let wave = |part: fn(f64) -> f64| {
+            DVector::from_fn(POINTS, |i, _| part(TAU * ((k * i) % POINTS) as f64 / POINTS as f64))
+        };
+        all.set_column(2 * k - 1, &(by_s * wave(|phase| 2.0 * phase.cos())));
+        all.set_column(2 * k, &(by_s * wave(|phase| -2.0 * phase.sin())));
+    }
+    all.view_mut((0, POINTS), (2 * POINTS, POINTS)).copy_from(by_y);
+    Some(all)
+}
+
+impl Unknowns {
+    /// θ' and Y at the points.
+    fn values(&self) -> Values {
+        let slowness = (0..POINTS)
+            .map(|i| {
+                let phase = |k: usize| TAU * ((k * i) % POINTS) as f64 / POINTS as f64;
+                let sum: f64 =
+                    (1..=HARMONICS).map(|k| (self.c[k - 1] * Complex64::cis(phase(k))).re).sum();
+                self.slowness + 2.0 * sum
+            })
+            .collect();
+        Values { slowness, across: self.across.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::travelling::crest_angle;
+    use super::*;
+    use stickslip_tip::{Footprint, TipFunction};
+
+    fn lines(pitch: f64) -> Lines {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        Lines::new(&Footprint::separable(tip, 1.0).unwrap(), pitch).unwrap()
+    }
+
+    /// α and κ of the neutral wave with this q at r = 1 that has the least α.
+    fn neutral_at_1(lines: &Lines, q: f64) -> Option<(f64, f64)> {
+        let excess = |kappa: f64| lines.neutral(q, kappa).map(|(_, r)| r.ln());
+        let between = |i: u32| {
+            let (mut low, mut high) = (-0.01 * f64::from(i), -0.01 * f64::from(i + 1));
+            let sign = excess(low)?;
+            if sign * excess(high)? > 0.0 {
+                return None;
+            }
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                *(if excess(middle)? * sign > 0.0 { &mut low } else { &mut high }) = middle;
+            }
+            let (alpha, r) = lines.neutral(q, low)?;
+            ((r - 1.0).abs() < 1e-8).then_some((alpha, low))
+        };
+        (20..200).filter_map(between).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The least α of neutral waves at r = 1 and its angle are those of PHYSICS 8, from exponentials and Hermite-Gauss layers:
+    /// αc = 0.83391 at 43.8° for κ_y = 10 and pitch 1, 0.89942 at 35.7° for κ_y = 3.
+    #[test]
+    fn neutral_waves_are_those_of_linear_theory() {
+        for (stiffness, wanted, angle) in [(10.0, 0.833_91, 43.8), (3.0, 0.899_42, 35.7)] {
+            let lines = lines(1.0).with_stiffness(Some(stiffness));
+            let waves = (0..150).filter_map(|i| {
+                let q = 0.5 + 0.004 * f64::from(i);
+                let (alpha, kappa) = neutral_at_1(&lines, q)?;
+                Some((alpha, crest_angle(q, kappa)))
+            });
+            let least = waves.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            println!("{stiffness} {least:?}");
+            assert!((least.0 - wanted).abs() < 2e-5, "{least:?}");
+            assert!((least.1 - angle).abs() < 0.3, "{least:?}");
+        }
+    }
+
+    /// A stiff spring across makes a rigid tip: α, q, heights and lag differ by 1/κ_y.
+    #[test]
+    fn patterns_become_those_of_a_rigid_tip() {
+        let rigid = lines(1.0);
+        let (q, kappa) = (0.83, -0.65);
+        let (_, r) = rigid.neutral(q, kappa).unwrap();
+        let wanted = rigid.pattern(r, kappa, 0.6, Err(q)).unwrap();
+        let off = |stiffness: f64| {
+            let lines = rigid.with_stiffness(Some(stiffness));
+            let found = lines.pattern(r, kappa, 0.6, Err(q)).unwrap();
+            let heights = (0..3).map(|k| (found.heights[k] - wanted.heights[k]).norm());
+            let lag = (found.lag() - wanted.lag()).norm();
+            heights.sum::<f64>()
+                + lag
+                + (found.alpha - wanted.alpha).abs()
+                + (found.q - wanted.q).abs()
+        };
+        let (near, far) = (off(1e6), off(1e5));
+        println!("{near:e} {far:e}");
+        assert!(near < 1e-5 && (far / near - 10.0).abs() < 0.5, "{near} {far}");
+    }
+
+    /// α and q of small waves differ from linear theory by the square of the amplitude.
+    #[test]
+    fn small_patterns_approach_linear_theory_in_second_order() {
+        let lines = lines(1.0).with_stiffness(Some(3.0));
+        let q = 0.65;
+        let (alpha, kappa) = neutral_at_1(&lines, q).unwrap();
+        let r = 1.0;
+        let off =
+            |swing: f64| (lines.pattern(r, kappa, swing, Err(q)).unwrap().alpha - alpha).abs();
+        let ratio = off(0.02) / off(0.01);
+        println!("{} {ratio}", off(0.01));
+        assert!((ratio - 4.0).abs() < 0.03, "{ratio}");
+    }
+}

@@ -1,0 +1,92 @@
+//! Lateral forces of a run, for the numbers of its friction loop.
+
+use crate::{ForceTrack, Refused, RunDocument, SupportPathParameters};
+use stickslip_tip::friction::ends_of_loops;
+
+/// m in nm, and N in nN.
+const NANO: f64 = 1e9;
+
+/// Lateral forces at the sample times of a run, against the position of the support: in nm and nN as far as the run has the
+/// scales, otherwise in σ and kσ.
+#[derive(Debug, Clone)]
+pub struct RunForces {
+    /// Times, in Γ/k.
+    t: Vec<f64>,
+    rows: ForceTrack,
+    path: Option<SupportPathParameters>,
+    /// Unit of the positions: nm; `None` for σ.
+    pub unit: Option<String>,
+    /// Unit of the forces: nN; nm for lags of a run without k; `None` for kσ.
+    pub force_unit: Option<String>,
+}
+
+impl RunForces {
+    /// The samples of a run.
+    ///
+    /// # Errors
+    /// The run has no support, or its samples are damaged.
+    pub fn of(run: &RunDocument) -> Result<Self, Refused> {
+        let refused = |why: &str| Refused::whole("trace", why);
+        let samples = &run.samples;
+        let no_support = || refused("the run has no lateral force, because it has no spring");
+        let lag = samples.lag.as_ref().ok_or_else(no_support)?;
+        if !samples.are_even() {
+            return Err(refused("damaged: the columns of the samples differ in length"));
+        }
+        let scales = run.physical.as_ref().map(|physical| physical.scales).unwrap_or_default();
+        let length = scales.length.map(|length| NANO * length);
+        let force = scales.force.map(|force| NANO * force);
+        let (along, across) = (length.unwrap_or(1.0), force.or(length).unwrap_or(1.0));
+        let x = samples.x0.iter().zip(lag).map(|(x0, lag)| (x0 + lag) * along).collect();
+        let unit = length.map(|_| "nm".to_owned());
+        Ok(Self {
+            t: samples.t.clone(),
+            rows: ForceTrack { x, force: lag.iter().map(|lag| lag * across).collect() },
+            path: run.parameters.support_path.clone(),
+            force_unit: force.map(|_| "nN".to_owned()).or_else(|| unit.clone()),
+            unit,
+        })
+    }
+
+    /// All samples: one way of a loop.
+    #[must_use]
+    pub fn way(&self) -> ForceTrack {
+        self.rows.clone()
+    }
+
+    /// Trace and retrace of the last closed loop: the samples at which the support moves towards larger and towards smaller
+    /// positions.
+    ///
+    /// # Errors
+    /// The support does not return to where it began.
+    pub fn last_loop(&self) -> Result<[ForceTrack; 2], Refused> {
+        let refused = |why: &str| Refused::whole("trace", why);
+        let none = || {
+            refused(
+                "the run has no closed loop: let the support return by --support-path, or give the run of the retrace too",
+            )
+        };
+        let path = self.path.as_ref().ok_or_else(none)?;
+        let knots = path.path().map_err(|error| Refused::whole("trace", error))?;
+        let end = self.t.last().copied().unwrap_or_default();
+        let ends: Vec<f64> =
+            ends_of_loops(&knots).into_iter().take_while(|at| *at <= end).collect();
+        let last = *ends.last().ok_or_else(none)?;
+        let first = if ends.len() > 1 { ends[ends.len() - 2] } else { path.t[0] };
+        let mut ways = [ForceTrack::default(), ForceTrack::default()];
+        for (i, t) in self.t.iter().enumerate() {
+            // Where the support turns, the sample belongs to the way that ends.
+            let piece = path.t.partition_point(|knot| knot < t);
+            if *t <= first || *t > last || !(1..path.t.len()).contains(&piece) {
+                continue;
+            }
+            let moved = path.displacement[piece] - path.displacement[piece - 1];
+            if moved.abs() > 0.0 {
+                let way = &mut ways[usize::from(moved < 0.0)];
+                way.x.push(self.rows.x[i]);
+                way.force.push(self.rows.force[i]);
+            }
+        }
+        Ok(ways)
+    }
+}

@@ -15,7 +15,12 @@ fn column(document: &Value, name: &str) -> Vec<f64> {
 }
 
 /// Positions of the support and lags of the samples after one time and up to another, as a table.
-fn table(run: &Value, heading: &str, [after, until]: [f64; 2], [length, force]: [f64; 2]) -> String {
+fn table(
+    run: &Value,
+    heading: &str,
+    [after, until]: [f64; 2],
+    [length, force]: [f64; 2],
+) -> String {
     let [t, x0, lag] = ["t", "x0", "lag"].map(|name| column(run, name));
     let rows = (0..t.len()).filter(|i| t[*i] > after && t[*i] <= until);
     let row = |i: usize| format!("{:e},{:e}\n", length * (x0[i] + lag[i]), force * lag[i]);
@@ -76,9 +81,9 @@ fn a_run_has_the_numbers_of_a_table_of_its_last_loop() {
 #[test]
 fn two_runs_are_two_tracks() {
     let folder = folder("friction_of_two_runs");
-    folder.write("back.csv", "t,R\n0,0\n50,-50\n");
+    folder.write("back.csv", "t,R\n0,0\n25,-25\n50,-50\n");
     let run = "run --tip gaussian --alpha 1.5 --r 1 --until 50 --sample-every 0.05 --start flat";
-    folder.write("there.csv", "t,R\n0,0\n50,50\n");
+    folder.write("there.csv", "t,R\n0,0\n25,25\n50,50\n");
     folder.prints(&format!("{run} --support-path there.csv -o there.json"));
     folder.prints(&format!("{run} --support-path back.csv --start-position 64 -o back.json"));
     for name in ["there", "back"] {

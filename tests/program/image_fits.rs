@@ -87,7 +87,10 @@ fn what_an_image_lacks_is_named() {
         (LINE, ["--width", "σ of the tip is needed"]),
         ("fit --image scan.gsf --width 0nm", ["--width 0", "above 0"]),
         ("fit --image scan.gsf --width 30nm --pitch=-3nm", ["--pitch", "above 0"]),
-        ("fit --image scan.gsf --width 30nm --inertia 1", ["--inertia 1", "no meaning with --image"]),
+        (
+            "fit --image scan.gsf --width 30nm --inertia 1",
+            ["--inertia 1", "no meaning with --image"],
+        ),
         ("fit --image scan.gsf --width 30nm --r=-1", ["--r -1", "above 0"]),
         (
             "fit --image scan.gsf --width 30nm --free-stiffness-across",

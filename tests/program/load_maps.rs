@@ -112,7 +112,9 @@ fn a_table_of_widths_takes_the_place_of_an_exponent() {
     folder.write("other.csv", format!("load_uN;width\n{}", rows(1e-3, 0.4)));
     for name in ["widths.csv", "other.csv"] {
         let found = folder.prints_json(&format!("{line} --load-widths {name} --plot loads.svg"));
-        for (found, wanted) in found["points"].as_array().unwrap().iter().zip(wanted["points"].as_array().unwrap()) {
+        for (found, wanted) in
+            found["points"].as_array().unwrap().iter().zip(wanted["points"].as_array().unwrap())
+        {
             close(&found["width"], &wanted["width"], 1e-12, name);
             assert_eq!(found["regime"], wanted["regime"], "{found}");
             if found["wavelength"].is_number() {
@@ -136,5 +138,5 @@ fn a_table_of_widths_takes_the_place_of_an_exponent() {
     ] {
         folder.refuses(&format!("{line} {options}"), &words);
     }
-    folder.refuses("boundary --r-range 1:2:3 --load-widths level.csv", &["--load-range", "needed"]);
+    folder.refuses("boundary --r-range 1:2:3 --load-widths level.csv", &["--alpha", "needed"]);
 }

@@ -76,18 +76,22 @@ fn short_help_is_short() {
         let short = String::from_utf8(output.stdout).unwrap();
         let long = help(&folder, name);
         let options = |text: &str| {
-            let lines = text.lines().map(str::trim_start);
-            let names = lines.filter(|line| line.starts_with('-')).filter_map(|line| {
+            let own = |line: &&str| {
+                line.trim_start().starts_with('-')
+                    && line.starts_with("  ")
+                    && !line.starts_with("       ")
+            };
+            let name = |line: &str| {
                 Some(line.split_whitespace().find(|word| word.starts_with("--"))?.to_owned())
-            });
-            names.collect::<Vec<String>>()
+            };
+            text.lines().filter(own).filter_map(name).collect::<Vec<String>>()
         };
         let (few, all) = (options(&short), options(&long));
         assert!(few.iter().all(|option| all.contains(option)), "{name}: {few:?}");
         assert_eq!(few.len() < all.len(), short.contains("more option"), "{name}");
         let lines = short.lines().count();
         println!("{name}: {lines} lines, {} of {} options", few.len(), all.len());
-        assert!(lines <= 80, "{name}: {lines} lines");
+        assert!(lines <= 95, "{name}: {lines} lines");
     }
 }
 

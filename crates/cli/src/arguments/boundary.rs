@@ -20,7 +20,7 @@ pub(crate) struct BoundaryArguments {
 
     /// Widths of the contact over the load, in place of --width-exponent: CSV `load_nN,width_nm`, with other units or none;
     /// the ratio to the width at --load counts. A power of the load connects neighbouring rows.
-    #[arg(long, value_name = "FILE.csv", help_heading = "Load")]
+    #[arg(long, value_name = "FILE", help_heading = "Load")]
     pub(crate) load_widths: Option<PathBuf>,
 
     #[command(flatten)]

@@ -50,7 +50,13 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
     }
     let is_given = |name: &str| values.contains_key(name);
     if is_given("load_range") || is_given("load") || is_given("load_widths") {
-        return asked::<LoadMap, _>(session, options, values, answer, "--load-range");
+        let found = asked::<LoadMap, _>(session, options, values, answer, "--load-range");
+        return found.map_err(|failure| match (failure, load_widths) {
+            (Failure::Input { option, message }, Some(path)) if option == LOAD_WIDTHS => {
+                Failure::input(format!("{LOAD_WIDTHS} {}", path.display()), message)
+            }
+            (failure, _) => failure,
+        });
     }
     if is_given("stiffness_range") {
         return asked::<SnakingBoundary, _>(session, options, values, answer, "--stiffness-range");

@@ -11,7 +11,7 @@ use crate::files::input::{TipFile, read_tip};
 use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use stickslip::{Ask, Fit, FitImage, FitImageDocument, MeasuredImage, parameter};
+use stickslip::{Ask, Fit, FitImage, FitImageDocument, parameter};
 
 const OPTION: &str = "--image";
 const RETRACE: &str = "--retrace-image";
@@ -42,20 +42,21 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
     let (image, unit) =
         measured_image(session, OPTION, path, values.get("unit").and_then(Value::as_str))?;
-    let retrace_image = arguments.retrace_image.as_deref().map(|path| {
-        let (image, other) =
-            measured_image(session, RETRACE, path, values.get("unit").and_then(Value::as_str))?;
+    let given = values.get("unit").and_then(Value::as_str);
+    let beside = |option: &str, path: Option<&Path>| {
+        let Some(path) = path else { return Ok(None) };
+        let (image, other) = measured_image(session, option, path, given)?;
         if other == unit {
-            return Ok(image);
+            return Ok(Some(image));
         }
         let message = "its lengths have another unit than those of --image";
-        Err(Failure::input(format!("{RETRACE} {}", path.display()), message))
-    });
-    let retrace_image = retrace_image.transpose()?;
-    let given = values.get("unit").and_then(Value::as_str);
+        Err(Failure::input(format!("{option} {}", path.display()), message))
+    };
+    let retrace_image = beside(RETRACE, arguments.retrace_image.as_deref())?;
     let lateral = arguments.lateral_image.as_deref();
-    let lateral = lateral.map(|path| lateral_image(path, given)).transpose()?;
-    let (lateral_image, lateral_unit) = lateral.unzip();
+    let lateral_image = beside(LATERAL, lateral)?;
+    let read = lateral.map(|path| read_gsf(session, LATERAL, path)).transpose()?;
+    let lateral_unit = read.and_then(|image| image.z_unit);
     if let Some(gain) = arguments.force_gain {
         values.insert("force_gain".into(), json!(gain));
     }
@@ -70,17 +71,7 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     }
     let question: FitImage = parameter::question(values)?;
     let source = path.display().to_string();
-    let lateral_unit = lateral_unit.flatten();
     Ok(FitImage { source, unit, image, retrace_image, lateral_image, lateral_unit, ..question })
-}
-
-/// The lateral image, and the unit of its forces or deflections.
-fn lateral_image(
-    path: &Path,
-    given: Option<&str>,
-) -> Result<(MeasuredImage, Option<String>), Failure> {
-    let unit = read_gsf(LATERAL, path)?.z_unit;
-    Ok((measured_image(LATERAL, path, given)?.0, unit))
 }
 
 /// The options without --width, which is σ of measured data, and no width of a footprint.

@@ -1,6 +1,6 @@
 //! `stickslip friction`.
 
-use super::ask::{context, refusal};
+use super::ask::{context, option as parameter_option, refusal};
 use super::job::{Job, judge_places};
 use crate::arguments::FrictionArguments;
 use crate::failure::Failure;
@@ -153,7 +153,7 @@ impl<'a> Data<'a> {
 }
 
 fn refused(option: &str, path: &Path, error: Refused) -> Failure {
-    Failure::input(format!("{option} {}", path.display()), error.why)
+    Failure::input(format!("{option} {}", path.display()), error.reason(parameter_option))
 }
 
 /// Force in N of one unit of the data, by --stiffness or --sensitivity.

@@ -63,7 +63,7 @@ impl RunForces {
         let refused = |why: &str| Refused::whole("trace", why);
         let none = || {
             refused(
-                "the run has no closed loop: let the support return by --support-path, or give the run of the retrace too",
+                "the run has no closed loop: let the support return by {support_path}, or give the run of the retrace too",
             )
         };
         let path = self.path.as_ref().ok_or_else(none)?;

@@ -59,8 +59,10 @@ fn a_run_has_the_numbers_of_a_table_of_its_last_loop() {
     ways("x,force", [1.0, 1.0]);
     let found = folder.prints_json("friction run.json");
     same(&found, &folder.prints_json("friction trace.csv retrace.csv"), 1e-12);
-    assert!(found["force_unit"].is_null() && found["parameters"]["source"] == "run.json");
-    assert!(found["remarks"].to_string().contains("--damping"), "{}", found["remarks"]);
+    let units = [&found["length_unit"], &found["force_unit"], &found["work_unit"]];
+    assert_eq!(units, ["σ", "kσ", "kσ²"]);
+    assert_eq!(found["parameters"]["source"], "run.json");
+    assert_eq!(found["remarks"].as_array().unwrap().len(), 0, "{}", found["remarks"]);
     // The trapezoidal rule of the samples against the dense history; forces jump at the turns.
     let work = run["loops"][1]["work"].as_f64().unwrap();
     let ratio = found["work"]["value"].as_f64().unwrap() / work;

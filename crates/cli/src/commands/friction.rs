@@ -98,8 +98,8 @@ impl<'a> Data<'a> {
         let Some(document) = run_in(self.session, option, path)? else { return Ok(None) };
         let forces = RunForces::of(&document).map_err(|error| refused(option, path, error))?;
         let named = format!("{option} {}", path.display());
-        self.lengths.of_run(&named, forces.unit.as_deref())?;
-        self.same_unit(&named, "the lateral force", forces.force_unit.clone())?;
+        self.lengths.of_run(&named, forces.unit)?;
+        self.same_unit(&named, "the lateral force", Some(forces.force_unit.to_owned()))?;
         self.name(path);
         Ok(Some(forces))
     }

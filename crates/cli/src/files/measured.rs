@@ -91,19 +91,18 @@ impl Common {
     ///
     /// # Errors
     /// The unit is another one than that of the first file.
-    pub(crate) fn of_run(&mut self, named: &str, unit: Option<&str>) -> Result<(), Failure> {
-        let one = unit.and_then(|unit| self.of.one(unit));
+    pub(crate) fn of_run(&mut self, named: &str, unit: &str) -> Result<(), Failure> {
+        let one = self.of.one(unit);
         let Some(first) = &self.first else {
-            self.first = Some(First { named: named.into(), unit: unit.map(str::to_owned), one });
+            self.first = Some(First { named: named.into(), unit: Some(unit.to_owned()), one });
             return Ok(());
         };
         if first.one.map(f64::to_bits) == one.map(f64::to_bits) {
             return Ok(());
         }
-        let name = |unit: Option<&str>| unit.unwrap_or("σ").to_owned();
-        let (has, other) = (name(unit), name(first.unit.as_deref()));
+        let other = first.unit.as_deref().unwrap_or_default();
         let message = format!(
-            "the run is in {has}, and {} in {other}: leave the unit out, or give runs with the same scales",
+            "the run is in {unit}, and {} in {other}: leave the unit out, or give runs with the same scales",
             first.named
         );
         Err(Failure::input(named, message))

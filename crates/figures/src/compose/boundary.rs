@@ -118,7 +118,10 @@ fn any(document: &BoundaryDocument) -> ModelParameters {
     document.parameters.at(document.parameters.r_range[0], 0.0)
 }
 
-/// Names of both regions, placed where the regions are highest, but not at the sides.
+/// Part of the height of an axis that a name needs.
+const LEAST_ROOM: f64 = 0.1;
+
+/// Names of both regions, as far as there is room, placed where the regions are highest, but not at the sides.
 fn notes(document: &BoundaryDocument, panel: &PanelDocument) -> Vec<NoteDocument> {
     let (Some([left, right]), Some([bottom, top])) = (panel.x_range, panel.y_range) else {
         return vec![];
@@ -132,9 +135,10 @@ fn notes(document: &BoundaryDocument, panel: &PanelDocument) -> Vec<NoteDocument
     let lowest = middle.iter().min_by(|a, b| a.1.total_cmp(b.1));
     let highest = middle.iter().max_by(|a, b| a.1.total_cmp(b.1));
     let note = |text, r: f64, from: f64, to: f64| {
-        NoteDocument::new(text, (r, back(0.5 * (on(from) + on(to)))))
+        let fits = on(to) - on(from) > LEAST_ROOM * (on(top) - on(bottom));
+        fits.then(|| NoteDocument::new(text, (r, back(0.5 * (on(from) + on(to))))))
     };
-    let unstable = lowest.map(|(r, a)| note("unstable", **r, **a, top));
-    let stable = highest.map(|(r, a)| note("stable", **r, bottom, **a));
+    let unstable = lowest.and_then(|(r, a)| note("unstable", **r, **a, top));
+    let stable = highest.and_then(|(r, a)| note("stable", **r, bottom, **a));
     unstable.into_iter().chain(stable).collect()
 }

@@ -47,7 +47,9 @@ impl Drawn for SnakingBoundaryDocument {
             threshold.y_range = (lower > 0.0).then_some([0.0, AIR * lower]);
         }
         let mut wavelength = PanelDocument::new("", (label, "wavelength of snaking (σ)"));
-        wavelength.curves = vec![CurveDocument::new(StyleName::Line, "", x, &self.wavelength)];
+        let mut along = CurveDocument::new(StyleName::Line, "", x, &self.wavelength);
+        along.colour = Some(ColourName::Green);
+        wavelength.curves = vec![along];
         figure.panels = vec![threshold, wavelength];
         Ok(figure)
     }

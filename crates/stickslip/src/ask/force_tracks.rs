@@ -1,5 +1,6 @@
 //! Lateral forces of a run, for the numbers of its friction loop.
 
+use super::friction::{K_SIGMA, SIGMA};
 use crate::{ForceTrack, Refused, RunDocument, SupportPathParameters};
 use stickslip_tip::friction::ends_of_loops;
 
@@ -14,10 +15,10 @@ pub struct RunForces {
     t: Vec<f64>,
     rows: ForceTrack,
     path: Option<SupportPathParameters>,
-    /// Unit of the positions: nm; `None` for σ.
-    pub unit: Option<String>,
-    /// Unit of the forces: nN; nm for lags of a run without k; `None` for kσ.
-    pub force_unit: Option<String>,
+    /// Unit of the positions: nm or σ.
+    pub unit: &'static str,
+    /// Unit of the forces: nN; nm for lags of a run without k; or kσ.
+    pub force_unit: &'static str,
 }
 
 impl RunForces {
@@ -36,15 +37,20 @@ impl RunForces {
         let scales = run.physical.as_ref().map(|physical| physical.scales).unwrap_or_default();
         let length = scales.length.map(|length| NANO * length);
         let force = scales.force.map(|force| NANO * force);
-        let (along, across) = (length.unwrap_or(1.0), force.or(length).unwrap_or(1.0));
+        let along = length.unwrap_or(1.0);
+        let across = if length.is_some() { force.unwrap_or(along) } else { 1.0 };
         let x = samples.x0.iter().zip(lag).map(|(x0, lag)| (x0 + lag) * along).collect();
-        let unit = length.map(|_| "nm".to_owned());
+        let (unit, force_unit) = match (length, force) {
+            (None, _) => (SIGMA, K_SIGMA),
+            (Some(_), None) => ("nm", "nm"),
+            (Some(_), Some(_)) => ("nm", "nN"),
+        };
         Ok(Self {
             t: samples.t.clone(),
             rows: ForceTrack { x, force: lag.iter().map(|lag| lag * across).collect() },
             path: run.parameters.support_path.clone(),
-            force_unit: force.map(|_| "nN".to_owned()).or_else(|| unit.clone()),
             unit,
+            force_unit,
         })
     }
 

@@ -12,11 +12,11 @@ use stickslip_units::Unit;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionFound {
-    /// Unit of lengths: nm, or that of the data; null if it is unknown.
+    /// Unit of lengths: nm, or σ for a run without scales; null if it is unknown.
     pub length_unit: Option<String>,
-    /// Unit of forces: nN, or that of the data; null if it is unknown.
+    /// Unit of forces: nN, or that of the data, kσ for a run without scales; null if it is unknown.
     pub force_unit: Option<String>,
-    /// Unit of the work: fJ; null if that of lengths or of forces is unknown, for a work in units of force times length.
+    /// Unit of the work: fJ, or kσ²; null if that of lengths or of forces is unknown, for a work in units of force times length.
     pub work_unit: Option<String>,
     /// Kinetic friction force: half of the mean difference between trace and retrace beyond twice the distance to the static
     /// peak.
@@ -93,6 +93,9 @@ pub struct LoopColumns {
 /// m in nm, N in nN, and nN nm in fJ.
 const NANO: f64 = 1e9;
 const FEMTOJOULES: f64 = 1e-3;
+/// Units of lengths and forces of the model.
+pub(crate) const SIGMA: &str = "σ";
+pub(crate) const K_SIGMA: &str = "kσ";
 
 impl Question for Friction {
     const FORMAT: &'static str = "stickslip/friction";
@@ -100,8 +103,16 @@ impl Question for Friction {
 }
 
 impl Friction {
+    /// Whether positions are in σ and forces in kσ, as those of a run without scales.
+    fn is_of_model(&self) -> bool {
+        self.unit.as_deref() == Some(SIGMA) && self.force_unit.as_deref() == Some(K_SIGMA)
+    }
+
     /// The factor of the positions to nm, if their unit is known.
     fn nanometres(&self) -> Result<Option<f64>, Refused> {
+        if self.is_of_model() {
+            return Ok(None);
+        }
         let one = |unit: &String| {
             Unit::Length.one(unit).map(|one| NANO * one).ok_or_else(|| Refused {
                 parameter: "unit".into(),
@@ -150,37 +161,43 @@ impl Ask for Friction {
         let refused = |error: LoopError| Refused::whole("trace and retrace", error);
         let found = measured.numbers().map_err(refused)?;
         let has_force = self.nanonewtons()?.is_some();
-        let length_unit = self.unit.as_ref().map(|_| "nm".to_owned());
+        let is_of_model = self.is_of_model();
+        let length_unit =
+            self.unit.as_ref().map(|_| if is_of_model { SIGMA } else { "nm" }.to_owned());
         let force_unit = if has_force { Some("nN".into()) } else { self.force_unit.clone() };
-        let is_joule = length_unit.is_some() && has_force;
-        let units = (length_unit, force_unit, is_joule);
-        let remarks = (!is_joule).then(|| UNKNOWN.into()).into_iter().collect();
+        let work_unit = match (is_of_model, &length_unit) {
+            (true, _) => Some("kσ²"),
+            (false, Some(_)) if has_force => Some("fJ"),
+            _ => None,
+        };
+        let remarks = work_unit.is_none().then(|| UNKNOWN.into()).into_iter().collect();
+        let units = (length_unit, force_unit, work_unit.map(str::to_owned));
         Ok((FrictionFound::of(&measured, &found, units), remarks))
     }
 }
 
 /// A warning about units.
 const UNKNOWN: &str = "the work is not in fJ: the unit of positions or forces is unknown; headings such as x_nm,force_nN, --unit and \
-                       --force-unit give it, and --stiffness or --sensitivity the force of a deflection or a voltage; runs have them if `run` had --sigma, --stiffness and \
-                       --damping";
+                       --force-unit give it, and --stiffness or --sensitivity the force of a deflection or a voltage";
 
 impl FrictionFound {
     fn of(
         measured: &FrictionLoop,
         found: &LoopNumbers,
-        (length_unit, force_unit, is_joule): (Option<String>, Option<String>, bool),
+        (length_unit, force_unit, work_unit): (Option<String>, Option<String>, Option<String>),
     ) -> Self {
+        let work = if work_unit.as_deref() == Some("fJ") { FEMTOJOULES } else { 1.0 };
         let [x, trace, retrace] = measured.rows().map(<[f64]>::to_vec);
         Self {
             length_unit,
             force_unit,
-            work_unit: is_joule.then(|| "fJ".into()),
+            work_unit,
             kinetic: found.friction.into(),
             mean: found.mean.into(),
             static_peak: found.static_peak.into(),
             peak_ratio: found.peak_ratio,
             hysteresis: found.mean.times(2.0).into(),
-            work: found.work.times(if is_joule { FEMTOJOULES } else { 1.0 }).into(),
+            work: found.work.times(work).into(),
             offset: found.offset.into(),
             reversal: found.reversal,
             stiffness: found.stiffness.into(),
@@ -194,6 +211,7 @@ impl FrictionFound {
         let force = self.force_unit.clone().unwrap_or_default();
         let slope = match (self.force_unit.as_deref(), self.length_unit.as_deref()) {
             (Some("nN"), Some(_)) => "N/m".into(),
+            (Some(K_SIGMA), Some(SIGMA)) => "k".into(),
             (Some(force), Some(length)) => format!("{force}/{length}"),
             _ => String::new(),
         };

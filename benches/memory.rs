@@ -32,7 +32,7 @@ fn a_step(memory: &mut Policy, to_and_fro: f64) {
     black_box((slope, curvature));
 }
 
-/// Time of so many steps on about so many nodes: the memory is filled anew before it has grown by a
+/// Time of a number of steps on about a number of nodes: the memory is filled anew before it has grown by a
 /// tenth.
 fn timed(name: &str, tip: &TipFunction, nodes: usize, steps: u64) -> Duration {
     let before_it_grows = (nodes / (10 * STAGES)).max(1) as u64;

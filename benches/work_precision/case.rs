@@ -39,7 +39,7 @@ impl Case {
     }
 }
 
-/// Processor and number of cores, as Linux tells them.
+/// Processor and number of cores, as Linux reports them.
 pub(super) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(0, usize::from);
     let known = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

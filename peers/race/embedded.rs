@@ -10,7 +10,7 @@ use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, Trajectory, run}
 
 /// (name, α, kick)
 const MOTIONS: [(&str, f64, f64); 2] = [("onset", case::ALPHA, 0.01), ("stick-slip", 1.2, 0.05)];
-/// Of an ensemble: so many values of α, from and to these.
+/// The ensemble: number of values of α, and the first and the last.
 const ENSEMBLE: (usize, f64, f64) = (256, 1.1, 1.3);
 /// Fits of the modes are those of runs to these tolerances, in digits.
 const FITS: std::ops::RangeInclusive<i32> = 5..=11;

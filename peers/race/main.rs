@@ -65,7 +65,7 @@ fn timed<T>(mut work: impl FnMut() -> T) -> (T, f64) {
     }
 }
 
-/// Seconds that this thread has spent on a processor, where the system tells.
+/// Seconds that this thread has spent on a processor, where the system reports it.
 fn processor_seconds() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;

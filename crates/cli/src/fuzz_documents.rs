@@ -167,7 +167,7 @@ fn commands(name: &str) -> Vec<(&'static str, bool)> {
         ("plot in.json -o OUT.svg --units units.json", false),
     ];
     if name.starts_with("verify") || name.starts_with("units") {
-        // Without a picture; whoever looks for one reads as far as the format.
+        // Without a picture: a command that draws one reads as far as the format.
         lines.truncate(1);
     }
     if name.starts_with("run") || name.starts_with("raster") {

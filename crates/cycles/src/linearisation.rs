@@ -78,7 +78,7 @@ impl Linearisation {
     pub(super) fn correction(&self, fixed: &Direction) -> Option<Change> {
         let n = self.len();
         let mut wanted = DVector::zeros(n + 2);
-        // ζ closes by itself: it is that of a motion that has gone on for ever.
+        // ζ needs no equation: it is that of a motion that has lasted indefinitely.
         wanted[0] = -self.gap;
         for i in 0..n {
             wanted[i] -= self.end.row(i)[n + 2];
@@ -145,7 +145,7 @@ impl Linearisation {
     }
 }
 
-/// Deals with every step, of which it tells the number and the share of the period, in turn; how far rt - x0 gets.
+/// Passes the steps to a function in turn, each with its number and its fraction of the period; returns the change of rt - x0.
 /// The sums are as in [`Linearisation::new`].
 pub(super) fn along(
     equation: &Embedding,

@@ -50,7 +50,7 @@ pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
     let near = |m: &Complex<f64>, other: &Complex<f64>| {
         (m - other).norm() <= SAME.0 + SAME.1 * m.norm().min(1.0)
     };
-    // What grows is of the motion, whatever told it.
+    // Growing deviations belong to the motion, whichever sum of exponentials gave them.
     found.retain(|m| m.norm() >= 1.0 - SAME.1 || others.iter().any(|other| near(m, other)));
     Some(found)
 }

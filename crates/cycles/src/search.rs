@@ -376,7 +376,7 @@ impl SteadyMotion {
             Err(StabilityError::NoCrossing { .. } | StabilityError::Unsettled { .. }) => None,
             Err(error) => return Err(error),
         };
-        // Under the basic law α alone tells: no roots need be counted.
+        // In the basic model α alone decides: no roots are counted.
         if wider.is_papers() && *tip != TipFunction::Cosine {
             let is_stable = critical.is_none_or(|at| model.alpha() <= at.alpha);
             return Ok(Self { critical, is_stable });

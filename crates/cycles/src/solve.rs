@@ -78,8 +78,8 @@ const FAR_BEYOND: f64 = 30.0;
 /// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it: the
 /// solution on it begins with the fine sum.
 const NEARLY_MET: f64 = 100.0;
-/// A mesh whose residual is farther off than this many times the allowed one tells roughly what mesh meets it. The next
-/// one aims at a multiple of the allowed residual, and costs half as much.
+/// Residual, relative to the allowed one, beyond which a mesh gives a rough estimate only of the mesh that is needed. The next
+/// mesh then aims at a multiple of the allowed residual, and costs half as much.
 const FAR_OFF: f64 = 3000.0;
 const HALFWAY: f64 = 40.0;
 /// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that

@@ -27,7 +27,7 @@ pub(crate) fn linear(low: f64, high: f64, count: f64) -> Vec<Tick> {
     let largest = low.abs().max(high.abs());
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     if last - first < 1.0 && count < MOST_TRIED {
-        // A single tick tells no scale.
+        // A single tick defines no scale.
         return linear(low, high, 1.7 * count);
     }
     let ticks = (last - first).clamp(0.0, 100.0) as usize;

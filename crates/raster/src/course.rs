@@ -229,8 +229,8 @@ impl<'a> Course<'a> {
         InitialSurface::flat().with(Relief::expanded(earlier, along))
     }
 
-    /// The run of a line, each step passed to the writer and then to `made`, with whether it leads on to where nobody
-    /// has read; `None` if it is given up.
+    /// The run of a line. Each step goes to the writer and then to `made`, with whether it leads on to positions that no line
+    /// has read; `None` if the run is given up.
     fn run(
         &self,
         job: &Job,

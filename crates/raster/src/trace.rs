@@ -140,7 +140,7 @@ impl Writer {
         self.publish_to(i64::MAX);
     }
 
-    /// The same in a trace that nobody has read so far.
+    /// The same in a trace that no line has read so far.
     pub(crate) fn finish_anew(self, trace: Arc<Trace>) {
         Self { trace, to: i64::MIN, ..self }.finish();
     }

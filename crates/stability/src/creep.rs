@@ -97,7 +97,7 @@ fn bessel(kappa: f64) -> Spectrum {
     Spectrum { roots, certificate }
 }
 
-/// The zeros of z³ + a z² + b z + c: a real one by bisection, the other two of what is left.
+/// The zeros of z³ + a z² + b z + c: a real one by bisection, the other two from the quadratic factor.
 fn cubic([a, b, c]: [f64; 3]) -> [Complex64; 3] {
     let value = |z: f64| ((z + a) * z + b) * z + c;
     let bound = 1.0 + a.abs().max(b.abs()).max(c.abs());

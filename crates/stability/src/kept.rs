@@ -27,7 +27,7 @@ impl<T> Kept<T> {
             return made;
         }
         let made = Arc::new(make());
-        // What nobody waited for may be unfinished.
+        // A cancelled computation may be unfinished.
         if !stop::is_asked() {
             let mut kept = lock();
             if kept.len() == MOST {

@@ -18,7 +18,7 @@
 //! let tip = Tip(TipFunction::gaussian(1.0)?);
 //! let run = Run::new(tip, Indentation::given(1.2), 1.0, 50.0).ask(&Context::default())?; // α = 1.2, r = 1, to t = 50
 //! assert_eq!(run.regime.to_string(), "steady"); // below αc = 1.879
-//! // What is not a whole document of the format asked for is refused with a reason.
+//! // A text that is no complete document of the requested format is refused with a reason.
 //! let refused = read::<RunDocument>("{}", RunDocument::FORMAT).unwrap_err();
 //! assert!(refused.to_string().contains("format is missing"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -23,7 +23,7 @@ impl<'a> SurfaceAcross<'a> {
     /// The surface of a tip that moved along `trajectory` in this scenario.
     ///
     /// # Errors
-    /// The initial surface cannot be had, or the footprint is f(x) alone.
+    /// The initial surface cannot be computed, or the footprint is f(x) alone.
     pub fn new(
         scenario: &'a PlanarScenario,
         trajectory: &'a Trajectory,

@@ -97,7 +97,7 @@ pub(crate) fn parse_profile(
     scales: Option<&KnownScales>,
 ) -> Result<Columns, String> {
     let mut sheet = whole(table, &["x,u", "t,x,u"])?;
-    // The time only tells surfaces apart, in whatever unit.
+    // The time only distinguishes surfaces, in any unit.
     if sheet.columns.len() == 3 {
         let t = sheet.columns.remove(0);
         sheet.headings.remove(0);

@@ -50,7 +50,7 @@ impl Drop for Unfinished {
 pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
     loop {
         let file = new(&prefix(target), folder)?;
-        // Not every file system has locks; without them nobody takes the file for one left behind.
+        // Some file systems have no locks; without them no program treats the file as abandoned.
         file.as_file().lock().ok();
         // Between its birth and its lock, it may have been.
         if file.path().exists() {

@@ -219,7 +219,7 @@ impl Continuation {
                         return Some((next, turn));
                     }
                 }
-                // A shorter step leads to a cycle that round-off keeps as far from the residual asked for.
+                // Round-off keeps a cycle at a shorter step as far from the requested residual.
                 Err(NotClosed::Coarse(_)) if coarse == MOST_COARSE => return None,
                 Err(NotClosed::Coarse(_)) => coarse += 1,
                 Err(NotClosed::Lost) => {}

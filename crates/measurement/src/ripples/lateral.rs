@@ -1,8 +1,8 @@
 //! Lateral forces on the lines that made the ripples, beside the ripples.
 //!
 //! The lag of the tip behind its support, as a function of the position R of the support, is a wave with the wave vector of the
-//! ripples. Its amplitude, in σ, tells how far α is above the threshold, for which the heights alone have only the shape of a
-//! ripple; without the stiffness k of the lever it is k that follows. Its phase against the crests is that of the model if
+//! ripples. Its amplitude, in σ, determines how far α is above the threshold, for which the heights alone have only the shape of a
+//! ripple. If the stiffness k of the lever is unknown, the amplitude determines k instead. Its phase against the crests is that of the model if
 //! both images have the same positions.
 
 use super::RippleError;

@@ -31,10 +31,10 @@ impl End<'_> {
         *self.linear.get_or_init(|| if stop::is_asked() { Linear::Unknown } else { of() })
     }
 
-    /// Whether steady motion is stable: by α alone where that tells, for a quarter of the work.
+    /// Whether steady motion is stable: from α alone where that decides, at a quarter of the work.
     pub(super) fn steady_is_stable(&self) -> bool {
-        let told = if self.linear.get().is_some() { None } else { by_alpha(&self.scenario.model) };
-        told.unwrap_or_else(|| matches!(self.linear(), Linear::Stable(_)))
+        let known = if self.linear.get().is_some() { None } else { by_alpha(&self.scenario.model) };
+        known.unwrap_or_else(|| matches!(self.linear(), Linear::Stable(_)))
     }
 
     /// Whether the tip stays at l0.

@@ -47,7 +47,7 @@ impl Patch {
         Self { value: inverse, along: self.along.map(|l| -(l * square)), rest }
     }
 
-    /// A lower bound of |f - t| over all real t ≤ 0: the distance of f from what is left of 0 on the real axis.
+    /// A lower bound of |f - t| over all real t ≤ 0: the distance of f from the negative real axis.
     pub(super) fn distance_to_negative(&self) -> f64 {
         let least = |part: fn(&Complex64) -> f64| {
             let slopes: f64 = self.along.iter().map(|l| part(l).abs()).sum();

@@ -57,7 +57,7 @@ impl Polynomial {
             if here.is_away(half) {
                 continue;
             }
-            // Narrower, what is left is the cell's own extent.
+            // At a smaller half-width the extent of the cell itself dominates.
             if depth > MOST_HALVINGS || half * here.slope().value.norm() < here.value().reach() {
                 return false;
             }

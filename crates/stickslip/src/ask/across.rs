@@ -46,7 +46,7 @@ pub(super) fn found(
 /// The result of a run that took this many seconds and has at least one step.
 ///
 /// # Errors
-/// The initial surface cannot be had.
+/// The initial surface cannot be computed.
 pub fn became_across(
     scenario: &PlanarScenario,
     running: &WatchedAcross,

@@ -178,7 +178,7 @@ impl Continue {
             let model = cycle.model();
             let at = if self.over == OverName::Alpha { model.alpha() } else { model.r() };
             count += 1;
-            // How far a branch goes, and whether it turns back, nobody knows before.
+            // The length of a branch, and whether it turns back, is unknown in advance.
             match context.reached(None, &format!("{count} cycles, {name} = {}", digits(at, 6))) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
@@ -250,7 +250,7 @@ impl Continue {
             f.branch.special.iter().map(move |special| SpecialDocument::of(i, special))
         });
         let from = |f: &Found| f.from.map(|(branch, place)| offsets[branch] + place);
-        // In steady creep α/r is what counts; under a depth limit, or where the surface heals, no tip is held for ever.
+        // Steady creep depends on α/r; with a depth limit or healing no tip stays trapped.
         let law: stickslip_tip::Wider = self.law.into();
         let ratio = trapping_alpha(&self.tip.0, 1.0).ok().filter(|_| law.traps());
         let trapping = ratio.map(|ratio| match self.over {

@@ -217,7 +217,7 @@ impl<'a, M: Memory> Integrator<'a, M> {
                 }
                 // Once: where both sides end at once, the step was too long to tell.
                 Err(Retry::OtherSide) => h *= if self.turn() { 1.0 } else { 0.3 },
-                // A step that round-off keeps from becoming shorter would be tried for ever.
+                // A step that round-off keeps from becoming shorter would be tried indefinitely.
                 Err(Retry::ToKnot(shorter)) => {
                     h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
                 }

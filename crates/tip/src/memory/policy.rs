@@ -150,7 +150,7 @@ impl Policy {
         }
     }
 
-    /// What takes over from a direct sum; nothing where nobody waits for it, and whoever goes on decides anew.
+    /// The successor of a direct sum; `None` after a cancellation, so that a resumed run decides anew.
     fn without_direct(
         &self,
         past: impl Iterator<Item = (f64, f64)>,

@@ -38,7 +38,7 @@ pub enum PlanarError {
     /// The distance of rows of noise is not finite or too small.
     #[error("rows of noise must be at least {LEAST_SPACING} apart across the scan, not {0:?}")]
     NoiseSpacing(f64),
-    /// The initial surface cannot be had.
+    /// The initial surface cannot be computed.
     #[error(transparent)]
     InitialSurface(#[from] TextureError),
     /// The footprint is f(x) alone, which does not determine the force across.

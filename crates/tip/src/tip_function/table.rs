@@ -223,7 +223,7 @@ mod tests {
     #[test]
     fn a_table_of_the_triple_gaussian_gives_it_back() {
         let exact = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        // Finer than the Gaussians need be wide: what is left is their saturation error.
+        // Finer than the width of the Gaussians requires: only their saturation error remains.
         let x: Vec<f64> = (0..=120).map(|i| 0.1 * f64::from(i)).collect();
         let f: Vec<f64> = x.iter().map(|&x| exact.value(x)).collect();
         let table = TipFunction::table(&x, &f).unwrap();

@@ -43,7 +43,7 @@ pub(super) fn compare(session: &Session, arguments: &CompareArguments) -> Result
     let sampling = &parameters.sampling;
     let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
     let cells = Cells::of(arguments, &plan)?;
-    // Its own steps, unless times are asked for, which it would have to step to.
+    // The steps of the grid itself, unless times are requested, at which it would have to stop.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
     let times = if is_asked { parameters.times(&plan)? } else { vec![] };
     let job = Job::open::<RasterCompareDocument>(session, &place.outlet, place.plot.as_deref())?;
@@ -241,7 +241,7 @@ fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failu
     }
     let seconds = clock.elapsed().as_secs_f64();
     let needed = seconds * lines as f64 / done;
-    // Before a line is done nobody knows what lines take.
+    // The time of a line is unknown before the first one is done.
     let is_known = done >= 1.0 && seconds >= PATIENCE.min(limit) && needed > limit;
     if !is_known && seconds <= limit {
         return None;

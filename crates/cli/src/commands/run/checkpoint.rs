@@ -117,7 +117,7 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     let unreadable = |error: io::Error| refused(format!("cannot be read: {error}"));
     let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
     let mut bytes = vec![];
-    // No more than tells that it is something else.
+    // Only as many bytes as identify the kind of file.
     (&mut file).take(MAGIC.len() as u64).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes != MAGIC {
         return Err(refused(

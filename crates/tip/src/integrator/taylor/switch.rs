@@ -112,7 +112,7 @@ mod tests {
 
     const ORDER: usize = 20;
 
-    /// A groove in which both ways get equally far, for ever: trials become rare.
+    /// A groove in which both methods always get equally far: trials become rare.
     #[test]
     fn where_neither_way_is_ahead_trials_become_rare() {
         let mut switch = Switch::new(false);

@@ -60,7 +60,7 @@ fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block])
     }
 }
 
-/// What is asked of a series before it is made a step.
+/// Properties of a series that decide the step made from it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Outlook {
     /// Of x0, over the whole step.

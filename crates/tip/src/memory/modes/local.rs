@@ -12,7 +12,7 @@ pub(super) struct LocalGroove {
     radius: f64,
     degree: usize,
     coefficients: [f64; HIGHEST_DEGREE + 1],
-    /// At the center, once it has been asked for.
+    /// The height at the center, once it has been evaluated.
     height: Option<f64>,
 }
 

@@ -62,7 +62,7 @@ impl Pencil {
         Some(Self { spacing, vectors, singular: order.into_iter().map(size).collect() })
     }
 
-    /// The number of terms from which on what is left out, per sample, may be below `error`.
+    /// The smallest number of terms for which the remainder, per sample, may be below `error`.
     pub(super) fn fewest_terms(&self, error: f64) -> usize {
         self.singular.partition_point(|s| *s > error)
     }

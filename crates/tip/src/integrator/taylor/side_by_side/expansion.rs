@@ -132,7 +132,7 @@ mod tests {
                 support: lanes(&|lane| 0.5 + 0.2 * lane as f64),
                 extension: lanes(&|lane| 1.0 - 0.3 * lane as f64),
             };
-            // Twice: what is left of the first does not matter to the second.
+            // Twice: values of the first expansion do not influence the second.
             for _ in 0..2 {
                 for (n, entry) in expansion.start().iter_mut().enumerate() {
                     *entry = acting.alpha * lanes(&|lane| number(lane, n + 1));

@@ -68,7 +68,7 @@ fn value(series: &[Lanes], at: Lanes) -> Lanes {
     series.iter().rev().fold(Lanes::ZERO, |value, coefficient| value * at + *coefficient)
 }
 
-/// What is asked of series over lengths.
+/// Requirements on the series over lengths.
 struct Outlook {
     moved: Lanes,
     fastest: Lanes,

@@ -41,6 +41,18 @@ pub enum WiderError {
     Inertia(f64),
 }
 
+impl WiderError {
+    /// The name of the parameter, and its value.
+    #[must_use]
+    pub fn parameter(self) -> (&'static str, f64) {
+        match self {
+            Self::DepthLimit(b) => ("depth_limit", b),
+            Self::HealingTime(time) => ("healing_time", time),
+            Self::Inertia(mass) => ("inertia", mass),
+        }
+    }
+}
+
 impl Default for Wider {
     fn default() -> Self {
         Self { depth_limit: None, healing_time: None, inertia: None, spring: true }

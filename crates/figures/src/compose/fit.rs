@@ -53,7 +53,7 @@ fn models(fit: &FitDocument) -> Vec<ModelParameters> {
             depth_limit: value("depth_limit"),
             healing_time: value("healing_time"),
             inertia: value("inertia"),
-            no_spring: false,
+            ..Law::default()
         },
         ..ModelParameters::papers(tip.clone(), alpha, None, r)
     });

@@ -103,7 +103,7 @@ impl Values {
             depth_limit: self.get(Name::DepthLimit),
             healing_time: self.get(Name::HealingTime),
             inertia: self.get(Name::Inertia),
-            spring: true,
+            ..Wider::default()
         };
         Model::under(wider, tip, alpha, r).ok()
     }

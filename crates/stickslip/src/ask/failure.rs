@@ -102,11 +102,7 @@ impl From<Refused> for Failure {
 
 impl From<WiderError> for Refused {
     fn from(error: WiderError) -> Self {
-        let (parameter, value) = match error {
-            WiderError::DepthLimit(b) => ("depth_limit", b),
-            WiderError::HealingTime(time) => ("healing_time", time),
-            WiderError::Inertia(mass) => ("inertia", mass),
-        };
+        let (parameter, value) = error.parameter();
         Self::number(parameter, value, error)
     }
 }

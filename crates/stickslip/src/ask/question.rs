@@ -131,6 +131,8 @@ struct TipFields {
     f: Option<Vec<f64>>,
 }
 
+const UNKNOWN: &str = "a tip has a name (triple-gaussian, gaussian, bessel, cosine), or gaussians, or layers, or x and f";
+
 impl TipFields {
     fn tip(self) -> Result<TipFunction, String> {
         let whole = |tip: TipDocument| tip.tip().map_err(|error| error.to_string());
@@ -151,12 +153,11 @@ impl TipFields {
                 judge_details(&tip).map_err(|error| error.to_string())?;
                 Ok(tip)
             }
-            (Some("bessel"), None, None, None) => named(TipName::Bessel),
-            (Some("cosine"), None, None, None) => named(TipName::Cosine),
-            (Some("gaussian"), None, None, None) => named(TipName::Gaussian),
-            (None | Some("triple-gaussian"), None, None, None) => named(TipName::TripleGaussian),
-            _ => Err("a tip has a name (triple-gaussian, gaussian, bessel, cosine), or gaussians, or layers, or x and f"
-                .into()),
+            (None, None, None, None) => named(TipName::TripleGaussian),
+            (Some(name), None, None, None) => {
+                named(serde_json::from_value(name.into()).map_err(|_| UNKNOWN)?)
+            }
+            _ => Err(UNKNOWN.into()),
         }
     }
 }

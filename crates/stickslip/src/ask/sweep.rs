@@ -129,6 +129,15 @@ impl Axes {
 }
 
 impl Sweep {
+    /// The law with one of the values of each parameter.
+    fn law(&self, mut one: impl FnMut(AxisName, &[f64]) -> Option<f64>) -> Law {
+        let mut law = Law { no_spring: self.no_spring, ..Law::default() };
+        law.depth_limit = one(AxisName::DepthLimit, &self.depth_limit);
+        law.healing_time = one(AxisName::HealingTime, &self.healing_time);
+        law.inertia = one(AxisName::Inertia, &self.inertia);
+        law
+    }
+
     /// The grid of these parameters, the seeds varying fastest.
     ///
     /// # Errors
@@ -136,12 +145,7 @@ impl Sweep {
     pub fn grid(self) -> Result<SweepParameters, Failure> {
         self.judge()?;
         let mut axes = Axes::default();
-        let law = Law {
-            depth_limit: axes.number(AxisName::DepthLimit, &self.depth_limit),
-            healing_time: axes.number(AxisName::HealingTime, &self.healing_time),
-            inertia: axes.number(AxisName::Inertia, &self.inertia),
-            no_spring: false,
-        };
+        let law = self.law(|name, values| axes.number(name, values));
         let run = self.run(&mut axes);
         let several = |values: &Vec<f64>| values.len() > 1;
         let grid = SweepParameters {
@@ -185,12 +189,7 @@ impl Sweep {
             return Err(Refused::number("tolerance", self.tolerance, why).into());
         }
         // At the lowest end of each range: if it is valid, all points are.
-        let law = Law {
-            depth_limit: lowest(&self.depth_limit),
-            healing_time: lowest(&self.healing_time),
-            inertia: lowest(&self.inertia),
-            no_spring: self.no_spring,
-        };
+        let law = self.law(|_, values| lowest(values));
         for tip in &self.tips {
             law.dragged(&tip.0)?;
         }

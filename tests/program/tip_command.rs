@@ -1,6 +1,7 @@
 //! `stickslip tip`: profiles as instruments write them, in, tip files that every command takes, out.
 
 use crate::folder::{Folder, said};
+use serde_json::json;
 
 /// exp(-x²/2) of width 30 nm, 12 nm deep, off centre, tilted, with noise of 1 % made by a fixed rule.
 fn profile(rows: i32, heading: &str) -> String {
@@ -145,6 +146,11 @@ fn one_half_has_no_two_sides() {
 
 /// An image in metres, 2 nm a pixel along x and 3 nm across, of a pit of width 20 nm and 35 nm.
 fn image(noise: f64) -> Vec<u8> {
+    image_of(|x, y| (-0.5 * ((x / 20.0).powi(2) + (y / 35.0).powi(2))).exp(), noise)
+}
+
+/// The same of any pit.
+fn image_of(pit: impl Fn(f64, f64) -> f64, noise: f64) -> Vec<u8> {
     let (columns, rows) = (100_i32, 90_i32);
     let mut header = String::from("Gwyddion Simple Field 1.0\n");
     for (name, value) in [
@@ -165,8 +171,7 @@ fn image(noise: f64) -> Vec<u8> {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let random = 12_f64.sqrt() * (f64::from(state) / f64::from(u32::MAX) - 0.5);
             let (x, y) = (2.0 * f64::from(i) + 1.0 - 104.0, 3.0 * f64::from(j) + 1.5 - 130.0);
-            let pit = (-0.5 * ((x / 20.0).powi(2) + (y / 35.0).powi(2))).exp();
-            let height = 4.0 + 0.01 * x - 9.0 * (pit + noise * random);
+            let height = 4.0 + 0.01 * x - 9.0 * (pit(x, y) + noise * random);
             bytes.extend(((1e-9 * height) as f32).to_le_bytes());
         }
     }
@@ -193,6 +198,55 @@ fn an_image_becomes_a_tip_of_two_dimensions() {
     folder.refuses(&format!("{line} --width-y 2"), &["--width-y 2", "its own"]);
     folder.write("pit.gsf", &image(0.02)[..5000]);
     folder.refuses("tip pit.gsf", &["pit.gsf", "100 × 90"]);
+}
+
+/// From an image to lines and rasters of a tip that gives way across them: those of the footprint itself.
+#[test]
+fn an_image_of_a_tip_is_followed_across_the_scan() {
+    let folder = Folder::new("tip_image_across");
+    // Center and width along, width across, in units of 20 nm.
+    let lobes = [(1.0, 0.0, 1.0, 1.5), (-0.3, 1.8, 0.8, 1.2), (-0.3, -1.8, 0.8, 1.2)];
+    let f = |x: f64, y: f64| -> f64 {
+        let term = |(a, c, w, v): (f64, f64, f64, f64)| {
+            a * (-0.5 * (((x - c) / w).powi(2) + (y / v).powi(2))).exp()
+        };
+        lobes.map(term).iter().sum()
+    };
+    folder.write("pit.gsf", image_of(|x, y| f(x / 20.0, y / 20.0), 0.0));
+    folder.prints("tip pit.gsf --sigma 20nm --resamples 2 -o image.json");
+    let apex = f(0.0, 0.0);
+    let gaussians: Vec<_> = lobes
+        .map(|(a, c, w, v)| json!({"amplitude": a / apex, "center": c, "width": w, "width_y": v}))
+        .into();
+    folder.write("formula.json", json!({"gaussians": gaussians}).to_string());
+    let farthest = |line: &str, name: &str| {
+        let [image, formula] = ["image", "formula"].map(|tip| {
+            folder.prints_json(&format!("{line} --tip-file {tip}.json --sample-every 1"))
+        });
+        let samples = |document: &serde_json::Value| -> Vec<f64> {
+            let lines = document["lines"].as_array().cloned().unwrap_or(vec![document.clone()]);
+            let of = |line: &serde_json::Value| line["samples"][name].as_array().unwrap().clone();
+            lines.iter().flat_map(of).map(|x| x.as_f64().unwrap()).collect()
+        };
+        let pairs = samples(&image).into_iter().zip(samples(&formula));
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let across = "--stiffness-across 0.4 --kick-across 0.3 --r 1";
+    let line = format!("run --alpha 1.3 {across} --until 36");
+    let raster = format!("raster --alpha 0.4 {across} --pitch 1 --lines 4 --length 15");
+    // What single precision leaves of the widths is 5e-6.
+    for (line, allowed) in [(line, 2e-4), (raster, 2e-4)] {
+        for name in ["x0", "y0"] {
+            let miss = farthest(&line, name);
+            println!("{line} {name}: {miss:e}");
+            assert!(miss < allowed, "{line} {name}: {miss:e}");
+        }
+    }
+    let [a, b] = ["image", "formula"].map(|tip| {
+        let line = format!("stability --tip-file {tip}.json --r 1 --pitch 1 --stiffness-across 1");
+        folder.prints_json(&line)["critical"]["alpha"].as_f64().unwrap()
+    });
+    assert!((a / b - 1.0).abs() < 1e-5, "{a} {b}");
 }
 
 /// One image in other units, of which the header may be in Latin-1.

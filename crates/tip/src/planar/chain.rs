@@ -17,7 +17,7 @@ use super::bells::Bells;
 use super::ground::Ground;
 use super::layers::{LANES, Lanes, ROOTS, add_product, dot, total};
 use super::part::Part;
-use super::spline::Jet;
+use super::spline::Partials;
 use super::weighing::Weighing;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 use multiversion::multiversion;
@@ -40,7 +40,7 @@ pub(super) struct Acting {
     /// w now and σ/b, with a depth limit.
     pub(super) depth: Option<(f64, f64)>,
     /// Height and derivatives of the initial surface, undecayed part, unless it is flat.
-    pub(super) relief: Option<Jet>,
+    pub(super) relief: Option<Partials>,
 }
 
 /// Second derivatives of the surface under the tip: along, mixed, across.

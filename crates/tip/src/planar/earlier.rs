@@ -10,7 +10,7 @@
 //! Therefore a surface that was carved with f(x,y) = Σ_l g_l(x) h_l(y) consists of rows, each a function of x, at
 //! whatever y the tip was. Unlike layers about a center, rows need no change of the center and no bound on positions.
 
-use crate::collocation::Stages;
+use super::jet::Jet;
 use crate::elementary::exp;
 use crate::footprint::{Across, Footprint};
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -36,17 +36,6 @@ struct Reading {
     /// q and the factor v b/(√(2π) s q).
     width: f64,
     scale: f64,
-}
-
-/// Height, slopes and curvatures (along, mixed, across) of a surface at a position.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct GrooveJet {
-    /// u
-    pub height: f64,
-    /// `u_x` and `u_y`
-    pub slope: [f64; 2],
-    /// `u_xx`, `u_xy` and `u_yy`
-    pub curvature: [f64; 3],
 }
 
 /// The heights of one layer of the footprint on all rows, and their slopes along the rows.
@@ -159,33 +148,6 @@ impl Reading {
     }
 }
 
-/// The grooves of earlier lines under a step.
-pub(super) struct Under<'a> {
-    pub(super) grooves: &'a EarlierGrooves,
-    /// Position of the tip at the start of the step.
-    pub(super) from: [f64; 2],
-    /// Undecayed part at each stage.
-    pub(super) left: Stages,
-}
-
-impl Under<'_> {
-    /// The surface at stage i, at this displacement.
-    pub(super) fn at(&self, i: usize, [d, e]: [f64; 2]) -> GrooveJet {
-        self.grooves.at(self.from[0] + d, self.from[1] + e).times(self.left[i])
-    }
-}
-
-impl GrooveJet {
-    /// The surface multiplied by a factor.
-    pub(super) fn times(self, factor: f64) -> Self {
-        Self {
-            height: factor * self.height,
-            slope: self.slope.map(|slope| factor * slope),
-            curvature: self.curvature.map(|curvature| factor * curvature),
-        }
-    }
-}
-
 /// Number of rows that are evaluated together.
 const BLOCK: usize = 32;
 
@@ -215,9 +177,9 @@ impl EarlierGrooves {
 
     /// The surface at a position in the frame of the line; 0 beyond the ends of the rows.
     #[must_use]
-    pub fn at(&self, x: f64, y: f64) -> GrooveJet {
+    pub fn at(&self, x: f64, y: f64) -> Jet {
         let (x, y) = (self.origin + self.sign * x, self.y + y);
-        let mut jet = GrooveJet::default();
+        let mut jet = Jet::default();
         for (reading, heights, slopes) in &self.layers {
             if heights.range().contains(&x) {
                 self.add(reading, (heights, slopes), (x, y), &mut jet);
@@ -233,7 +195,7 @@ impl EarlierGrooves {
         reading: &Reading,
         (heights, slopes): (&Rows, &Rows),
         at: (f64, f64),
-        jet: &mut GrooveJet,
+        jet: &mut Jet,
     ) {
         let (x, y) = at;
         let (low, high) = (y - reading.reach(), y + reading.reach());
@@ -358,7 +320,7 @@ mod tests {
             let i = f64::from(i);
             let (x, y) = (20.0 * (0.618 * i).fract() - 5.0, 9.0 * (0.755 * i).fract() - 3.5);
             let wanted = direct(x, y);
-            let numbers = |jet: GrooveJet, sign: f64| {
+            let numbers = |jet: Jet, sign: f64| {
                 let ([a, b], [c, d, e]) = (jet.slope, jet.curvature);
                 [jet.height, sign * a, b, c, sign * d, e]
             };
@@ -372,6 +334,6 @@ mod tests {
         }
         println!("{worst:?}");
         assert!(worst.iter().all(|miss| *miss < 1e-12), "{worst:?}");
-        assert_eq!(there.at(1e6, 0.0), GrooveJet::default());
+        assert_eq!(there.at(1e6, 0.0), Jet::default());
     }
 }

@@ -4,7 +4,7 @@
 //! cell by cell.
 
 use super::layers::{LANES, Lanes, recenter};
-use super::modes::Jet;
+use super::modes::Integrals;
 use super::past::Layered;
 use super::visits::{restore_steady, save_steady};
 use crate::TipFunction;
@@ -102,7 +102,7 @@ impl Layered for Fields {
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
     }
 
-    fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+    fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         let left = self.fading.left().unwrap_or(1.0);
         let of_steady = self.steady.map_or([0.0; 3], |past| past.groove(&self.along, displacement));
         for (told, of_past) in jet.iter_mut().zip(of_steady) {

@@ -6,13 +6,13 @@
 //!     R_ab' = x0' R_{a+1,b} + y0' R_{a,b+1} - R_ab/T
 //! ```
 
-use super::spline::Jet;
+use super::spline::Partials;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER};
 
 /// Coefficients of powers of time of all `R_ab`.
 #[derive(Debug, Clone)]
 pub(super) struct Ground {
-    rows: Vec<Jet>,
+    rows: Vec<Partials>,
 }
 
 impl Ground {
@@ -21,13 +21,13 @@ impl Ground {
     }
 
     /// Sets the initial values.
-    pub(super) fn start(&mut self, jet: &Jet) {
+    pub(super) fn start(&mut self, jet: &Partials) {
         self.rows.clear();
         self.rows.push(*jet);
     }
 
     /// Coefficients of order k.
-    pub(super) fn at(&self, k: usize) -> &Jet {
+    pub(super) fn at(&self, k: usize) -> &Partials {
         &self.rows[k]
     }
 
@@ -74,7 +74,7 @@ mod tests {
         let power = |x: f64, n: usize, k: usize| {
             if n < k { 0.0 } else { falling(n, k) * x.powi((n - k) as i32) }
         };
-        let jet: Jet = std::array::from_fn(|a| {
+        let jet: Partials = std::array::from_fn(|a| {
             std::array::from_fn(|b| {
                 let term =
                     |n: usize| c(n / 4, n % 4) * power(x[0], n / 4, a) * power(y[0], n % 4, b);

@@ -11,7 +11,7 @@
 //! directions. They cost more than exponentials, which are valid on one side only, and yield no series.
 
 use super::layers::{LANES, Lanes, recenter};
-use super::modes::Jet;
+use super::modes::Integrals;
 use super::past::Layered;
 use crate::elementary::exp;
 use crate::memory::SteadyPast;
@@ -194,7 +194,7 @@ impl Layered for Lattice {
         self.forget();
     }
 
-    fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+    fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
         let from = index((displacement - self.reach - self.first) / self.spacing);
         let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);

@@ -39,7 +39,7 @@ pub(super) struct Modes {
 }
 
 /// For each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
-pub(super) type Jet<'a> = [&'a mut [Lanes]; 3];
+pub(super) type Integrals<'a> = [&'a mut [Lanes]; 3];
 
 impl Modes {
     /// An empty memory.
@@ -173,7 +173,7 @@ impl Modes {
     }
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    pub(super) fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+    pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
         let exponentials = self.exponents.iter().flat_map(|exponents| {
             let (re, im) = of_lanes(*exponents, displacement);

@@ -3,6 +3,7 @@
 use super::bells::Bells;
 use super::fields::Fields;
 use super::frame::Frame;
+use super::jet::Jet;
 use super::lattice::Lattice;
 use super::layers::{LANES, Lanes, dot, values};
 use super::modes::Modes;
@@ -145,9 +146,9 @@ impl Part {
         self.past.at(d, &mut [&mut *value, &mut *first, &mut *second]);
         let bend = self.bells.bend(eta, groups, scratch);
         Jet {
-            value: dot(phi, value),
-            push: [dot(phi, first), dot(slope, value) / v],
-            bend: [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
+            height: dot(phi, value),
+            slope: [dot(phi, first), dot(slope, value) / v],
+            curvature: [dot(phi, second), dot(slope, first) / v, dot(bend, value) / (v * v)],
         }
     }
 
@@ -160,8 +161,15 @@ impl Part {
     /// The same for a function of x with its derivatives, instead of g.
     fn of_line(&self, [g, g1, g2]: [f64; 3], y: f64) -> Jet {
         let [h, h1, h2] = self.bells.jet(y);
-        Jet { value: g * h, push: [g1 * h, g * h1], bend: [g2 * h, g1 * h1, g * h2] }
+        Jet { height: g * h, slope: [g1 * h, g * h1], curvature: [g2 * h, g1 * h1, g * h2] }
     }
+}
+
+/// The sum of jets of all products of the footprint.
+pub(super) fn sum(parts: &[Part], of: impl FnMut(&Part) -> Jet) -> Jet {
+    let mut sum = Jet::default();
+    parts.iter().map(of).for_each(|jet| sum.add(1.0, &jet));
+    sum
 }
 
 /// Scratch space for layers.
@@ -169,28 +177,4 @@ impl Part {
 pub(super) struct Room {
     layers: Vec<Lanes>,
     scratch: Vec<Lanes>,
-}
-
-/// An integral over f, or f itself, with first and second derivatives.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Jet {
-    pub(super) value: f64,
-    pub(super) push: [f64; 2],
-    pub(super) bend: [f64; 3],
-}
-
-impl Jet {
-    /// Adds another one times a factor.
-    pub(super) fn add(&mut self, factor: f64, jet: &Self) {
-        self.value += factor * jet.value;
-        self.push.iter_mut().zip(jet.push).for_each(|(sum, push)| *sum += factor * push);
-        self.bend.iter_mut().zip(jet.bend).for_each(|(sum, bend)| *sum += factor * bend);
-    }
-
-    /// The sum over all products of the footprint.
-    pub(super) fn sum(parts: &[Part], of: impl FnMut(&Part) -> Self) -> Self {
-        let mut sum = Self::default();
-        parts.iter().map(of).for_each(|jet| sum.add(1.0, &jet));
-        sum
-    }
 }

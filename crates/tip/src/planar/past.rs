@@ -2,7 +2,7 @@
 //! memory without exponentials.
 
 use super::layers::Lanes;
-use super::modes::{Jet, Modes};
+use super::modes::{Integrals, Modes};
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
 
@@ -28,7 +28,7 @@ pub(super) trait Layered {
     fn remember(&mut self, position: &[f64], weighted: &[Lanes]);
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    fn at(&self, displacement: f64, jet: &mut Jet<'_>);
+    fn at(&self, displacement: f64, jet: &mut Integrals<'_>);
 
     /// Largest allowed distance of the tip behind its farthest point.
     fn retreat(&self) -> f64;
@@ -95,7 +95,7 @@ impl Past {
     }
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    pub(super) fn at(&self, displacement: f64, jet: &mut Jet<'_>) {
+    pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         match (&self.other, &self.modes) {
             (Some(other), _) if self.goes_back => other.at(displacement, jet),
             (_, modes) => modes.iter().for_each(|modes| modes.at(displacement, jet)),

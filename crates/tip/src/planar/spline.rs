@@ -12,7 +12,7 @@ use crate::relief::{Axis, Piece};
 use crate::spline::CubicSpline;
 
 /// `∂x^a ∂y^b u` in row a and column b: all that a cubic has.
-pub(super) type Jet = [[f64; 4]; 4];
+pub(super) type Partials = [[f64; 4]; 4];
 
 /// What a spline is made of, with respect to x and y.
 #[derive(Debug, Clone)]
@@ -76,7 +76,7 @@ impl Bicubic {
     }
 
     /// Height and derivatives at (x, y) of the polynomial of a patch.
-    pub(super) fn jet(&self, patch: &Patch, [x, y]: [f64; 2]) -> Jet {
+    pub(super) fn jet(&self, patch: &Patch, [x, y]: [f64; 2]) -> Partials {
         let Some(column) = patch.x.index else { return [[0.0; 4]; 4] };
         let along = weights(&self.x[column..], x);
         let (rows, across) = match patch.y.index {
@@ -133,7 +133,7 @@ mod tests {
         Bicubic::through(x, y, &u, Ends::Level)
     }
 
-    fn jet_at(spline: &Bicubic, at: [f64; 2]) -> Jet {
+    fn jet_at(spline: &Bicubic, at: [f64; 2]) -> Partials {
         spline.jet(&spline.patch(at, [true; 2], 0.0), at)
     }
 

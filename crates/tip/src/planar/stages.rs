@@ -15,9 +15,8 @@
 //! and w multiplies the columns of b in all three equations.
 
 use super::chain::Curvatures;
-use super::earlier::{GrooveJet, Under};
-use super::part::{Jet, Part, Room};
-use super::texture::{Field, Texture};
+use super::jet::Jet;
+use super::part::{Part, Room, sum};
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 use crate::step::{Depth, Factors, Inertia, Matrix};
 
@@ -39,18 +38,16 @@ pub(super) struct StageEquations<'a> {
     pub(super) left: Stages,
     pub(super) inertia: Option<&'a Inertia>,
     pub(super) depth: Option<Depth>,
-    /// The grooves of earlier lines, if there are any.
-    pub(super) under: Option<Under<'a>>,
     /// The initial surface, unless it is flat about the tip.
-    pub(super) relief: Option<Relief<'a>>,
+    pub(super) under: Option<Under<'a>>,
 }
 
-/// The initial surface about the tip.
-pub(super) struct Relief<'a> {
-    pub(super) texture: &'a Texture,
-    pub(super) field: &'a Field,
+/// The surface at the start of the run, under a step.
+pub(super) struct Under<'a> {
+    /// The surface at a position, without decay.
+    pub(super) surface: &'a dyn Fn([f64; 2]) -> Jet,
     /// Position of the tip at the start of the step.
-    pub(super) at: [f64; 2],
+    pub(super) from: [f64; 2],
     /// Undecayed part at each stage.
     pub(super) left: Stages,
 }
@@ -104,9 +101,8 @@ impl StageEquations<'_> {
         let (mut previous, mut ratio) = (f64::INFINITY, 1.0);
         let mut jacobian = Jacobian { free: None, limited: None };
         // Positions are rounded, and with them the slopes of the initial surface.
-        let rounding =
-            |relief: &Relief<'_>| f64::EPSILON * relief.at[0].abs().max(relief.at[1].abs());
-        let round_off = ROUND_OFF.max(self.relief.as_ref().map_or(0.0, rounding));
+        let rounding = |Under { from: [x, y], .. }: &Under<'_>| f64::EPSILON * x.abs().max(y.abs());
+        let round_off = ROUND_OFF.max(self.under.as_ref().map_or(0.0, rounding));
         for iterations in 1..=MOST_ITERATIONS {
             let forces = self.forces(&at);
             if ratio > SLOWEST_WITH_OLD_JACOBIAN {
@@ -201,18 +197,15 @@ impl StageEquations<'_> {
         let mut room = Room::default();
         let [along, across, _] = at;
         for (i, (&d, &e)) in along.iter().zip(across).enumerate() {
-            let jet = Jet::sum(self.parts, |part| part.at(d, self.y + e, &mut room));
+            let jet = sum(self.parts, |part| part.at(d, self.y + e, &mut room));
             let strength = self.alpha * self.left[i];
-            forces.curvatures = jet.bend.map(|bend| -strength * bend);
+            forces.curvatures = jet.curvature.map(|bend| -strength * bend);
             forces.add(strength, i, &jet, [d, self.stiffness * e]);
-            if let Some(relief) = &self.relief {
-                forces.add_relief(i, &relief.jet(i, [d, e]));
+            if let Some(under) = &self.under {
+                forces.add_surface(i, &under.jet(i, [d, e]));
             }
             forces.slope[0][0][i][i] -= 1.0;
             forces.slope[1][1][i][i] -= self.stiffness;
-            if let Some(under) = &self.under {
-                forces.add_earlier(i, &under.at(i, [d, e]));
-            }
         }
         self.add_own(at, &mut forces);
         forces
@@ -224,7 +217,7 @@ impl StageEquations<'_> {
         for i in 0..STAGES {
             for k in 0..STAGES {
                 let (x, y) = (d[i] - d[k], e[i] - e[k]);
-                let jet = Jet::sum(self.parts, |part| part.of_visit(x, y));
+                let jet = sum(self.parts, |part| part.of_visit(x, y));
                 let strength = self.alpha * self.carving[i][k] * weights[k];
                 forces.add(strength, i, &jet, [0.0; 2]);
                 forces.move_visit(strength, (i, k), &jet);
@@ -236,12 +229,10 @@ impl StageEquations<'_> {
     }
 }
 
-impl Relief<'_> {
-    /// At a displacement from the start of the step.
+impl Under<'_> {
+    /// The surface at a displacement from the start of the step.
     fn jet(&self, stage: usize, [d, e]: [f64; 2]) -> Jet {
-        let jet = self.texture.jet(self.field, [self.at[0] + d, self.at[1] + e]);
-        let of = |a: usize, b: usize| self.left[stage] * jet[a][b];
-        Jet { value: of(0, 0), push: [of(1, 0), of(0, 1)], bend: [of(2, 0), of(1, 1), of(0, 2)] }
+        (self.surface)([self.from[0] + d, self.from[1] + e]).times(self.left[stage])
     }
 }
 
@@ -252,45 +243,38 @@ impl Forces {
     /// Adds a groove of this strength under stage i, less the pull of the springs, and derivatives of the groove by
     /// the position of the stage.
     fn add(&mut self, strength: f64, i: usize, jet: &Jet, springs: [f64; 2]) {
-        for (of, (push, spring)) in jet.push.iter().zip(springs).enumerate() {
+        for (of, (push, spring)) in jet.slope.iter().zip(springs).enumerate() {
             self.value[of][i] += strength * push - spring;
             self.slope[2][of][i][i] -= strength * push;
         }
-        self.value[2][i] -= strength * jet.value;
+        self.value[2][i] -= strength * jet.height;
         for (of, by) in PAIRS {
-            self.slope[of][by][i][i] += strength * jet.bend[of + by];
+            self.slope[of][by][i][i] += strength * jet.curvature[of + by];
         }
     }
 
     /// Adds the initial surface under stage i.
-    fn add_relief(&mut self, i: usize, jet: &Jet) {
+    fn add_surface(&mut self, i: usize, jet: &Jet) {
         self.add(-1.0, i, jet, [0.0; 2]);
-        self.curvatures.iter_mut().zip(jet.bend).for_each(|(sum, bend)| *sum += bend);
-    }
-
-    /// Adds the grooves of earlier lines under stage i.
-    fn add_earlier(&mut self, i: usize, at: &GrooveJet) {
-        let GrooveJet { height, slope, curvature } = *at;
-        self.add(-1.0, i, &Jet { value: height, push: slope, bend: curvature }, [0.0; 2]);
-        self.curvatures.iter_mut().zip(curvature).for_each(|(sum, bend)| *sum += bend);
+        self.curvatures.iter_mut().zip(jet.curvature).for_each(|(sum, bend)| *sum += bend);
     }
 
     /// Derivatives of the same groove by the position of stage k, which carved it.
     fn move_visit(&mut self, strength: f64, (i, k): (usize, usize), jet: &Jet) {
         for of in 0..2 {
-            self.slope[2][of][i][k] += strength * jet.push[of];
+            self.slope[2][of][i][k] += strength * jet.slope[of];
         }
         for (of, by) in PAIRS {
-            self.slope[of][by][i][k] -= strength * jet.bend[of + by];
+            self.slope[of][by][i][k] -= strength * jet.curvature[of + by];
         }
     }
 
     /// Derivatives by the height at stage k, on which its weight depends.
     fn weigh(&mut self, change: f64, (i, k): (usize, usize), jet: &Jet) {
         for of in 0..2 {
-            self.slope[of][2][i][k] += change * jet.push[of];
+            self.slope[of][2][i][k] += change * jet.slope[of];
         }
-        self.slope[2][2][i][k] -= change * jet.value;
+        self.slope[2][2][i][k] -= change * jet.height;
     }
 }
 
@@ -321,6 +305,7 @@ fn size([along, across, height]: &Unknowns, heights: &Stages) -> f64 {
 mod tests {
     use super::super::part::Storage;
     use super::super::products::Products;
+    use super::super::texture::Texture;
     use super::*;
     use crate::memory::Retreat;
     use crate::step::healing;
@@ -350,6 +335,7 @@ mod tests {
         let inertia = Inertia::new(0.4, 0.6, 0.7);
         let limit = Depth { limit: 1.7, side: -1.0 };
         let texture = Texture::waves();
+        let field = texture.field([0.5, 0.1], [true; 2], 0.0);
         for (inertia, depth) in
             [(None, None), (Some(&inertia), None), (Some(&inertia), Some(limit))]
         {
@@ -364,13 +350,11 @@ mod tests {
                 left: RADAU.c.map(|c| 1.0 - 0.2 * c),
                 inertia,
                 depth,
-                relief: Some(Relief {
-                    texture: &texture,
-                    field: &texture.field([0.5, 0.1], [true; 2], 0.0),
-                    at: [0.5, 0.1],
+                under: Some(Under {
+                    surface: &|at| Jet::of(&texture.jet(&field, at)),
+                    from: [0.5, 0.1],
                     left: RADAU.c.map(|c| 0.8 - 0.1 * c),
                 }),
-                under: None,
             };
             let start = [
                 RADAU.c.map(|c| 0.7 * c - 0.2),

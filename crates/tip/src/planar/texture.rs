@@ -1,6 +1,6 @@
 //! The initial surface u0(x,y) as far as no tip has carved it: tables and noise.
 
-use super::spline::{Bicubic, Ends, Jet, Patch};
+use super::spline::{Bicubic, Ends, Partials, Patch};
 use crate::relief::{Piece, noise_heights, noise_points};
 use crate::run::Scenario;
 use crate::series::{SeriesError, checked};
@@ -137,7 +137,7 @@ impl Texture {
     #[must_use]
     pub fn height_and_slopes(&self, x: f64, y: f64) -> [f64; 3] {
         let part = |part: &Bicubic| part.jet(&part.patch([x, y], [true; 2], 0.0), [x, y]);
-        let add = |[u, along, across]: [f64; 3], jet: Jet| {
+        let add = |[u, along, across]: [f64; 3], jet: Partials| {
             [u + jet[0][0], along + jet[1][0], across + jet[0][1]]
         };
         self.parts.iter().map(part).fold([0.0; 3], add)
@@ -159,7 +159,7 @@ impl Texture {
     }
 
     /// Height and derivatives at any point of the polynomial of a field.
-    pub(super) fn jet(&self, field: &Field, at: [f64; 2]) -> Jet {
+    pub(super) fn jet(&self, field: &Field, at: [f64; 2]) -> Partials {
         let mut sum = [[0.0; 4]; 4];
         for (part, patch) in self.parts.iter().zip(&field.patches) {
             let jet = part.jet(patch, at);

@@ -1,6 +1,6 @@
 //! The memory `direct` in two coordinates: the definition, a sum of f over all positions within reach.
 
-use super::part::Jet;
+use super::jet::Jet;
 use crate::TipFunction;
 use crate::memory::{Fading, Record, SteadyPast};
 use crate::state::{Damaged, Reader, State};

@@ -139,6 +139,18 @@ fn a_table_is_followed() {
     holds("table", &scenario, &of_formula, 360);
 }
 
+/// Rows so dense are narrow Gaussians that nearly cancel: no exponentials fit them to this tolerance, and a convolution
+/// takes their place.
+#[test]
+fn a_dense_table_is_followed_at_a_tight_tolerance() {
+    let tip = table(|x, y| saddle([x, y])[0], 0.1);
+    let mut scenario = line((tip, plain()), 1.3, 0.3, [0.05, 0.2], 24.0);
+    scenario.along.tolerance = 1e-10;
+    let (name, why) = PlanarRunning::new(&scenario).unwrap().memory();
+    assert_eq!(name, "fft", "{why}");
+    holds("dense table", &scenario, &with(&scenario, Footprint::new(saddle)), 300);
+}
+
 /// Rough at every point: no few products are near it.
 #[test]
 fn a_footprint_of_many_products_is_refused() {

@@ -3,6 +3,9 @@
 #![allow(clippy::disallowed_methods, reason = "oracles are those of the C library")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[path = "../../../../tests/support/gauss.rs"]
+mod gauss;
+
 mod convergence;
 mod footprints;
 mod lattice;

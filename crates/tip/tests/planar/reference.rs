@@ -11,10 +11,8 @@
 //! over earlier steps is the method's own quadrature, and so is that over the step under way. A steady past is a list of
 //! visits like any other. At a zero of h a step ends, found by false position. Nothing here is shared with the library: no layers, no exponentials, no forgetting.
 
-use gauss_quad::legendre::GaussLegendre;
-use std::num::NonZeroUsize;
+use crate::gauss::{Method, STAGES, rule};
 
-const STAGES: usize = 4;
 /// Corrections below so many roundings of a position end an iteration.
 const ROUNDINGS: f64 = 4.0;
 const MOST_ITERATIONS: usize = 200;
@@ -93,40 +91,6 @@ impl Footprint {
 
     fn jet(&self, at: [f64; 2]) -> [f64; 3] {
         (self.0)(at)
-    }
-}
-
-/// Gauss's rule on the unit interval.
-pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
-    let rule = GaussLegendre::new(NonZeroUsize::new(n).unwrap());
-    let pair = |(x, w): &(f64, f64)| (0.5 * (1.0 + x), 0.5 * w);
-    let mut rule: Vec<_> = rule.as_node_weight_pairs().iter().map(pair).collect();
-    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rule
-}
-
-/// Nodes c, weights b, matrix a = `∫_0^{c_i} ℓ_k`.
-struct Method {
-    c: [f64; STAGES],
-    b: [f64; STAGES],
-    a: [[f64; STAGES]; STAGES],
-}
-
-impl Method {
-    fn new() -> Self {
-        let rule = gauss(STAGES);
-        let c: [f64; STAGES] = std::array::from_fn(|i| rule[i].0);
-        let lagrange = |k: usize, x: f64| -> f64 {
-            (0..STAGES).filter(|&j| j != k).map(|j| (x - c[j]) / (c[k] - c[j])).product()
-        };
-        let integral = |k: usize, end: f64| -> f64 {
-            rule.iter().map(|(x, w)| w * end * lagrange(k, x * end)).sum()
-        };
-        Self {
-            b: std::array::from_fn(|k| rule[k].1),
-            a: std::array::from_fn(|i| std::array::from_fn(|k| integral(k, c[i]))),
-            c,
-        }
     }
 }
 
@@ -237,7 +201,7 @@ impl Problem {
     /// Visits of a tip that moved along the line with the velocity r for ever.
     fn steady_visits(&self) -> Vec<Visit> {
         let Some(end) = self.steady_past else { return vec![] };
-        let (panels, rule) = (60, gauss(8));
+        let (panels, rule) = (60, rule(8));
         let length = FAR_BEHIND / f64::from(panels);
         let panel = |i: u32| {
             rule.iter().map(move |(x, w)| (length * (f64::from(i) + x), w * length / self.r))

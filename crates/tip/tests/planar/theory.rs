@@ -20,7 +20,7 @@ fn transform(lambda: Complex<f64>) -> Complex<f64> {
         let bell = |c: f64| (-0.5 * (y - c) * (y - c)).exp();
         bell(0.0) - 0.5 * (bell(2.0) + bell(-2.0))
     };
-    let rule = super::reference::gauss(12);
+    let rule = crate::gauss::rule(12);
     let panel = |i: u32| rule.iter().map(move |(x, w)| (0.25 * (f64::from(i) + x), 0.25 * w));
     (0..48).flat_map(panel).map(|(y, w)| w * g(y) * (-lambda * y).exp()).sum()
 }

@@ -4,6 +4,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::disallowed_methods, reason = "a reference may have the bits of its machine")]
 
+#[path = "../../../../tests/support/gauss.rs"]
+mod gauss;
+
 mod orbits;
 mod reference;
 mod runs;

@@ -5,12 +5,12 @@
 //!     radial:      -M rω² = -α ∫ J1(2r sin(ωτ/2)) sin(ωτ/2) e^{-τ/T}dτ + Ω rω - K r
 //! ```
 
-use super::reference::gauss;
+use crate::gauss::rule;
 use stickslip_tip::walker::{WalkerPast, WalkerScenario, run};
 
 /// Tangential and radial force of the field on a circle.
 fn forces(scenario: &WalkerScenario, radius: f64, frequency: f64) -> [f64; 2] {
-    let (rule, healing) = (gauss(20), scenario.healing_time);
+    let (rule, healing) = (rule(20), scenario.healing_time);
     // Panels so short that the phase changes by less than 1 within each.
     let length = (0.5 / (radius * frequency)).min(healing);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]

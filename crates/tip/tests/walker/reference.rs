@@ -8,51 +8,16 @@
 //! is the method's own quadrature. J1 is that of the C library. Nothing here is shared with the library: no plane waves, no
 //! series, no forgetting.
 
-use gauss_quad::legendre::GaussLegendre;
-use std::num::NonZeroUsize;
+use crate::gauss::{Method, STAGES};
 use stickslip_tip::walker::WalkerScenario;
 
-const STAGES: usize = 4;
 const MOST_ITERATIONS: usize = 200;
-
-/// Gauss's rule on the unit interval.
-pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
-    let rule = GaussLegendre::new(NonZeroUsize::new(n).unwrap());
-    let pair = |(x, w): &(f64, f64)| (0.5 * (1.0 + x), 0.5 * w);
-    let mut rule: Vec<_> = rule.as_node_weight_pairs().iter().map(pair).collect();
-    rule.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rule
-}
 
 /// Where the particle was, when, and for how long.
 struct Visit {
     t: f64,
     at: [f64; 2],
     spent: f64,
-}
-
-struct Method {
-    c: [f64; STAGES],
-    b: [f64; STAGES],
-    a: [[f64; STAGES]; STAGES],
-}
-
-impl Method {
-    fn new() -> Self {
-        let rule = gauss(STAGES);
-        let c: [f64; STAGES] = std::array::from_fn(|i| rule[i].0);
-        let lagrange = |k: usize, x: f64| -> f64 {
-            (0..STAGES).filter(|&j| j != k).map(|j| (x - c[j]) / (c[k] - c[j])).product()
-        };
-        let integral = |k: usize, end: f64| -> f64 {
-            rule.iter().map(|(x, w)| w * end * lagrange(k, x * end)).sum()
-        };
-        Self {
-            b: std::array::from_fn(|k| rule[k].1),
-            a: std::array::from_fn(|i| std::array::from_fn(|k| integral(k, c[i]))),
-            c,
-        }
-    }
 }
 
 /// ∇J0(|d|) = -J1(|d|) d/|d|

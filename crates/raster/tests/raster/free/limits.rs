@@ -5,7 +5,7 @@
 use super::lines::{footprint, scanned};
 use stickslip_raster::{Area, Free, Line, Path, Plan, RasterError, Scanned, Scanning, volume};
 use stickslip_tip::planar::PlanarError;
-use stickslip_tip::{MemoryChoice, Model};
+use stickslip_tip::{Model};
 
 fn plan(stiffness: f64, path: Path) -> Plan {
     let (footprint, _) = footprint(0.0, 1.0);
@@ -97,7 +97,4 @@ fn free_rasters_that_cannot_be_are_refused() {
     assert!(Scanning::new(&Plan { free: None, ..large }).is_ok());
     let kicked = plan(1.0, Path::OneWay).with_free(Free { kick: f64::NAN, ..Free::new(1.0) });
     assert!(matches!(of(refused(&kicked)), PlanarError::Kick(_)));
-    let mut by_fft = plan(1.0, Path::OneWay);
-    by_fft.law.memory = MemoryChoice::Fft;
-    assert_eq!(of(refused(&by_fft)), PlanarError::Unavailable("the memory fft"));
 }

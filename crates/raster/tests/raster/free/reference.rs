@@ -10,9 +10,9 @@
 //! ends of steps, its equations solved by plain iteration. Nothing here is shared with the library: no layers, no rows, no
 //! exponentials, no Fourier transforms, no forgetting.
 
+use crate::gauss::{Method, STAGES, lagrange};
 use std::array::from_fn;
 
-const STAGES: usize = 4;
 const MOST_ITERATIONS: usize = 200;
 /// Corrections below this end an iteration.
 const ENOUGH: f64 = 1e-12;
@@ -61,39 +61,6 @@ pub(crate) struct Reference {
     at: [f64; 2],
     /// x' of a tip with inertia.
     velocity: f64,
-}
-
-/// Gauss's method on four nodes: c, b and a.
-struct Method {
-    c: [f64; STAGES],
-    b: [f64; STAGES],
-    a: [[f64; STAGES]; STAGES],
-}
-
-impl Method {
-    /// The polynomial that is 1 at node k and 0 at the others.
-    fn lagrange(&self, k: usize, x: f64) -> f64 {
-        let others = (0..STAGES).filter(|&j| j != k);
-        others.map(|j| (x - self.c[j]) / (self.c[k] - self.c[j])).product()
-    }
-
-    /// Nodes are the roots of the fourth Legendre polynomial, (35 x⁴ - 30 x² + 3)/8; weights are integrals of the polynomials
-    /// of Lagrange, which two Gauss points on each of two halves yield exactly.
-    fn new() -> Self {
-        let root = |sign: f64| ((3.0 + sign * 2.0 * 1.2_f64.sqrt()) / 7.0).sqrt();
-        let (far, near) = (root(1.0), root(-1.0));
-        let c = [-far, -near, near, far].map(|x| 0.5 * (1.0 + x));
-        let nodes = Self { c, b: [0.0; STAGES], a: [[0.0; STAGES]; STAGES] };
-        let half = 0.5 / 3.0_f64.sqrt();
-        let integral = |k: usize, end: f64| -> f64 {
-            let node = |i: f64| 0.5 * end * (i + 0.5);
-            let of = |i: f64| {
-                [-half, half].map(|h| 0.25 * end * nodes.lagrange(k, node(i) + 0.5 * end * h))
-            };
-            [0.0, 1.0].into_iter().flat_map(of).sum()
-        };
-        Self { b: from_fn(|k| integral(k, 1.0)), a: from_fn(|i| from_fn(|k| integral(k, c[i]))), c }
-    }
 }
 
 impl Law {
@@ -162,7 +129,7 @@ impl Reference {
             h * (0..STAGES).map(|k| method.a[i][k] * values[k][j]).sum::<f64>()
         };
         let continued = |i: usize, j: usize| -> f64 {
-            (0..STAGES).map(|k| method.lagrange(k, 1.0 + method.c[i]) * before[k][j]).sum()
+            (0..STAGES).map(|k| lagrange(&method.c, k, 1.0 + method.c[i]) * before[k][j]).sum()
         };
         let rates = from_fn(|i| from_fn(|j| continued(i, j)));
         let mut stages =

@@ -1,9 +1,9 @@
 //! Steps by collocation, with their error control.
 
-use super::super::earlier::Under;
+use super::super::jet::Jet;
 use super::super::part::Part;
 use super::super::scenario::PlanarError;
-use super::super::stages::{Relief, Solution, StageEquations, Unknowns};
+use super::super::stages::{Solution, StageEquations, Under, Unknowns};
 use super::Integrator;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
@@ -76,7 +76,8 @@ impl Integrator<'_> {
             (frame.radius() - frame.eta(self.y).abs()) * bells.width()
         };
         let room = self.parts.iter().map(room).fold(f64::INFINITY, f64::min);
-        let equations = self.equations(h, inertia.as_ref());
+        let surface = |at| self.initial(at);
+        let equations = self.equations(h, inertia.as_ref(), &surface);
         let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
         self.work.newton_iterations += solved.iterations;
         let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
@@ -107,7 +108,12 @@ impl Integrator<'_> {
         Some(Heights { start: corner.height, nodes })
     }
 
-    fn equations<'b>(&'b self, h: f64, inertia: Option<&'b Inertia>) -> StageEquations<'b> {
+    fn equations<'b>(
+        &'b self,
+        h: f64,
+        inertia: Option<&'b Inertia>,
+        surface: &'b dyn Fn([f64; 2]) -> Jet,
+    ) -> StageEquations<'b> {
         // At the end of a step forces are their limits from before: they may jump there.
         let last = (self.t + h).next_down();
         let force = |j: usize, c: f64| self.force[j].value((self.t + h * c).min(last));
@@ -129,21 +135,12 @@ impl Integrator<'_> {
                 .corner
                 .zip(wider.depth_limit)
                 .map(|(corner, limit)| Depth { limit, side: corner.side }),
-            relief: (!self.field.is_flat()).then(|| Relief {
-                texture: &self.texture,
-                field: &self.field,
-                at: [self.position(), self.y],
-                left: RADAU.c.map(|c| self.relief_left(self.t + h * c)),
+            under: (self.earlier.is_some() || !self.field.is_flat()).then(|| Under {
+                surface,
+                from: [self.position(), self.y],
+                left: RADAU.c.map(|c| self.left(self.t + h * c)),
             }),
-            under: self.under(h),
         }
-    }
-
-    /// The surface of earlier scans under a step.
-    fn under(&self, h: f64) -> Option<Under<'_>> {
-        let grooves = self.earlier?;
-        let left = RADAU.c.map(|c| self.wider().left_after(self.t + h * c - self.start));
-        Some(Under { grooves, from: [self.position(), self.y], left })
     }
 
     /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.

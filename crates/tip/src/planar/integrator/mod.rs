@@ -5,15 +5,16 @@ mod saved;
 mod series;
 
 use super::chain::{Chain, Curvatures};
-use super::earlier::{EarlierGrooves, GrooveJet};
+use super::earlier::EarlierGrooves;
 use super::frame::Layers;
 use super::history::Step;
+use super::jet::Jet;
 use super::layers::Lanes;
-use super::part::{Jet, Part, Room, Storage};
+use super::part::{Part, Room, Storage, sum};
 use super::past::TooFar;
 use super::products::Products;
 use super::scenario::{PlanarError, PlanarScenario};
-use super::spline;
+use super::spline::Partials;
 use super::texture::{Field, Texture};
 use crate::collocation::Stages;
 use crate::history::Heights;
@@ -173,7 +174,7 @@ impl<'a> Integrator<'a> {
                 part.remember_steady(&past);
             }
         }
-        integrator.corner = Corner::of(model, integrator.groove_now().value, target);
+        integrator.corner = Corner::of(model, integrator.groove_now().height, target);
         Ok(integrator)
     }
 
@@ -314,24 +315,29 @@ impl<'a> Integrator<'a> {
 
     /// Forces on the tip at its position, along and across, after any jump there.
     fn forces_now(&self) -> [f64; 2] {
-        let under = self.groove_now().push;
+        let under = self.groove_now().slope;
         let force = self.force.map(|force| force.value(self.t.next_up()));
         [self.extension + force[0] - under[0], force[1] - self.stiffness * self.y - under[1]]
     }
 
     /// The surface under the tip.
     fn groove_now(&self) -> Jet {
-        let (alpha, mut room) = (self.model.alpha(), Room::default());
-        let past = Jet::sum(&self.parts, |part| part.at(0.0, self.y, &mut room));
-        let relief = self.relief_now().unwrap_or_default();
-        let earlier = self.earlier_now();
-        let push = [relief[1][0], relief[0][1]];
-        let bend = [relief[2][0], relief[1][1], relief[0][2]];
-        Jet {
-            value: relief[0][0] + earlier.height - alpha * past.value,
-            push: [0, 1].map(|i: usize| push[i] + earlier.slope[i] - alpha * past.push[i]),
-            bend: [0, 1, 2].map(|i: usize| bend[i] + earlier.curvature[i] - alpha * past.bend[i]),
+        let mut room = Room::default();
+        let past = sum(&self.parts, |part| part.at(0.0, self.y, &mut room));
+        let mut surface = self.initial([self.position(), self.y]).times(self.left(self.t));
+        surface.add(-self.model.alpha(), &past);
+        surface
+    }
+
+    /// The surface at the start of the run, at a position in the present field: the initial one, and grooves of earlier
+    /// lines.
+    fn initial(&self, at: [f64; 2]) -> Jet {
+        let mut surface =
+            self.earlier.map_or_else(Jet::default, |grooves| grooves.at(at[0], at[1]));
+        if !self.field.is_flat() {
+            surface.add(1.0, &Jet::of(&self.texture.jet(&self.field, at)));
         }
+        surface
     }
 
     /// Sets the field that contains the tip, or that it is about to enter.
@@ -344,17 +350,17 @@ impl<'a> Integrator<'a> {
     }
 
     /// Undecayed part of the initial surface, from the start of the run to t.
-    fn relief_left(&self, t: f64) -> f64 {
+    fn left(&self, t: f64) -> f64 {
         self.wider().left_after(t - self.start)
     }
 
     /// Undecayed part of the initial surface under the tip, with derivatives, unless it is flat.
-    fn relief_now(&self) -> Option<spline::Jet> {
+    fn relief_now(&self) -> Option<Partials> {
         if self.field.is_flat() {
             return None;
         }
         let (jet, left) =
-            (self.texture.jet(&self.field, [self.position(), self.y]), self.relief_left(self.t));
+            (self.texture.jet(&self.field, [self.position(), self.y]), self.left(self.t));
         Some(jet.map(|row| row.map(|entry| left * entry)))
     }
 
@@ -372,13 +378,6 @@ impl<'a> Integrator<'a> {
             leaves(range, from, (parts, displacement[j]), |part| at(j, part))
         };
         [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
-    }
-
-    /// The grooves of earlier lines under the tip.
-    fn earlier_now(&self) -> GrooveJet {
-        let left = self.wider().left_after(self.t - self.start);
-        let under = self.earlier.map(|grooves| grooves.at(self.position(), self.y));
-        under.map_or_else(GrooveJet::default, |jet| jet.times(left))
     }
 
     /// Changes the side of the kink for the next attempt; false if the other side has been tried.

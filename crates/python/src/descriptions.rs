@@ -1,13 +1,13 @@
-//! What the program tells of itself: its commands and their options.
+//! Commands and options of the program.
 
 use pyo3::prelude::*;
 use stickslip_cli::hosted;
 
-/// Name, whether it stands without one, what stands for its value (None: a switch), delimiter, whether it may be
-/// repeated, and its help.
+/// An option: name, whether it is positional, placeholder of its value (None for a switch), delimiter, whether it may be
+/// repeated, and help.
 type Described = (String, bool, Option<String>, Option<char>, bool, String);
 
-/// The options of a command, or of one below it; None where there is none of that name.
+/// The options of a command or subcommand; None if there is no command of that name.
 #[pyfunction]
 pub(crate) fn options(path: Vec<String>) -> Option<Vec<Described>> {
     let path: Vec<&str> = path.iter().map(String::as_str).collect();
@@ -18,7 +18,7 @@ pub(crate) fn options(path: Vec<String>) -> Option<Vec<Described>> {
     Some(found)
 }
 
-/// The commands, and what each does.
+/// The commands, each with a description.
 #[pyfunction]
 pub(crate) fn commands() -> Vec<(String, String)> {
     hosted::commands()

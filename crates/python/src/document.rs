@@ -1,4 +1,4 @@
-//! A document in Rust's memory, and what Python may ask of it.
+//! A document in Rust's memory, with methods for Python.
 
 use crate::failed::unusable;
 use crate::fields;
@@ -18,17 +18,17 @@ use stickslip_figures::{
 };
 use stickslip_tip::Trajectory;
 
-/// What a command has made, or a file held.
+/// The result of a command, or the content of a file.
 #[pyclass(frozen, module = "stickslip._native")]
 pub(crate) struct Document {
     document: Mutex<Box<dyn hosted::Document>>,
-    /// What Python has of it, where it is a run.
+    /// The samples of a run, which Python owns.
     samples: Option<Taken>,
     trajectory: OnceLock<Trajectory>,
-    /// What was found, in a line.
+    /// The result in one line.
     #[pyo3(get)]
     headline: String,
-    /// What was found, in aligned lines.
+    /// The result in aligned lines.
     #[pyo3(get)]
     text: String,
 }
@@ -48,7 +48,7 @@ impl Document {
         self.document.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Some work on the whole document, other threads of Python running on.
+    /// Applies `work` to the whole document, while other threads of Python run.
     pub(crate) fn whole<T: Send>(
         &self,
         py: Python<'_>,
@@ -65,7 +65,7 @@ impl Document {
         }))
     }
 
-    /// The same for a part of a run that has nothing to do with its samples.
+    /// Applies `work` to a run and its trajectory; the samples are not needed.
     fn of_run<T: Send>(
         &self,
         py: Python<'_>,
@@ -93,7 +93,7 @@ impl Document {
         names.map_err(unusable)
     }
 
-    /// A field by its name, None where it is null or not there.
+    /// A field by its name; None if it is null or absent.
     fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         if let ("samples", Some(samples)) = (name, &self.samples) {
             let dict = PyDict::new(py);
@@ -106,12 +106,12 @@ impl Document {
         found.map_err(unusable)?.map(|value| python(py, value)).transpose()
     }
 
-    /// Its table: columns by name, in order; words are lists.
+    /// The table: columns by name, in order; columns of words are lists.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         use stickslip::Column;
         let own = |column: Column<'_>| match column {
             Column::Words(words, _) => Err(words.iter().collect::<Vec<_>>()),
-            // A column of numbers stays one where none of them is there: NaN.
+            // A column of missing numbers is an array of NaN.
             numbers => Ok(numbers.array().map_or_else(Vec::new, |array| array.values.into_owned())),
         };
         let columns = self.whole(py, |document| {
@@ -128,7 +128,7 @@ impl Document {
         Ok(dict)
     }
 
-    /// As the program writes it.
+    /// The JSON text, as the program writes it.
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.whole(py, |document| serde_json::to_string(document.serialized()))?;
         text.map_err(unusable)
@@ -182,12 +182,12 @@ impl Document {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// First and last time of a run, as its history has them.
+    /// First and last time in the history of a run.
     fn span(&self, py: Python<'_>) -> PyResult<(f64, f64)> {
         self.of_run(py, |_, trajectory| Ok((trajectory.start(), trajectory.end())))
     }
 
-    /// Rows l, x0, velocity and lag of a run at times t, NaN where there is none.
+    /// Rows l, x0, velocity and lag of a run at times t; NaN if a quantity is not defined.
     fn motion<'py>(
         &self,
         py: Python<'py>,
@@ -198,7 +198,7 @@ impl Document {
         matrix(py, (4, rows.len() / 4), rows)
     }
 
-    /// Heights u(x,t) of a run: a row for each t.
+    /// Heights u(x,t) of a run, one row for each t.
     fn heights<'py>(
         &self,
         py: Python<'py>,

@@ -1,20 +1,20 @@
-//! The program's refusals as Python's exceptions.
+//! Errors of the program as exceptions of Python.
 
 use pyo3::PyErr;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use std::fmt::Display;
 use stickslip_cli::hosted::Refusal;
 
-/// Unusable input is a ValueError, what failed at run time a RuntimeError, with the program's own words.
+/// A ValueError for unusable input, a RuntimeError for a failure at run time, with the message of the program.
 pub(crate) fn raised(refusal: Refusal) -> PyErr {
     match refusal {
-        Refusal::Input(said) => PyValueError::new_err(said),
-        Refusal::Run(said) => PyRuntimeError::new_err(said),
-        Refusal::Stopped(said) => PyKeyboardInterrupt::new_err(said),
+        Refusal::Input(message) => PyValueError::new_err(message),
+        Refusal::Run(message) => PyRuntimeError::new_err(message),
+        Refusal::Stopped(message) => PyKeyboardInterrupt::new_err(message),
     }
 }
 
-/// A ValueError of these words.
-pub(crate) fn unusable(said: impl Display) -> PyErr {
-    PyValueError::new_err(said.to_string())
+/// A ValueError with this message.
+pub(crate) fn unusable(message: impl Display) -> PyErr {
+    PyValueError::new_err(message.to_string())
 }

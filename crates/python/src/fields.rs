@@ -1,4 +1,4 @@
-//! The fields of a document, one at a time: a million points are not written out to look at a regime.
+//! Single fields of a document, so that a regime is read without serialising a million points.
 
 use serde::ser::{Error as _, Impossible, Serialize, SerializeMap, SerializeStruct, Serializer};
 use serde_json::{Error, Value, to_value};
@@ -6,7 +6,7 @@ use serde_json::{Error, Value, to_value};
 /// The names of the fields.
 ///
 /// # Errors
-/// It is no struct.
+/// The document is not a struct.
 pub(crate) fn names(document: &(impl Serialize + ?Sized)) -> Result<Vec<String>, Error> {
     let found = document.serialize(Fields { wanted: None, names: vec![], key: None, found: None });
     Ok(found?.names)
@@ -15,7 +15,7 @@ pub(crate) fn names(document: &(impl Serialize + ?Sized)) -> Result<Vec<String>,
 /// The field of this name, if there is one.
 ///
 /// # Errors
-/// It is no struct, or the field cannot be written.
+/// The document is not a struct, or the field cannot be serialised.
 pub(crate) fn field(
     document: &(impl Serialize + ?Sized),
     wanted: &str,
@@ -24,7 +24,7 @@ pub(crate) fn field(
     Ok(document.serialize(Fields { wanted, names: vec![], key: None, found: None })?.found)
 }
 
-/// What has been seen of a struct.
+/// A serialiser that collects the names of fields and one value.
 struct Fields<'a> {
     wanted: Option<&'a str>,
     names: Vec<String>,
@@ -59,7 +59,7 @@ impl<'a> SerializeStruct for Fields<'a> {
     }
 }
 
-/// Of a struct that holds another's fields as its own.
+/// A struct with flattened fields is serialised as a map.
 impl<'a> SerializeMap for Fields<'a> {
     type Ok = Fields<'a>;
     type Error = Error;
@@ -80,7 +80,7 @@ impl<'a> SerializeMap for Fields<'a> {
 }
 
 fn no_struct<T>() -> Result<T, Error> {
-    Err(Error::custom("no document: it has no fields"))
+    Err(Error::custom("not a document: it has no fields"))
 }
 
 macro_rules! refused {

@@ -1,6 +1,7 @@
-//! The native half of the Python package `stickslip`: the program's commands run in this process, as the shell runs
-//! them. What is asked for are the program's options, so that numbers, defaults, refusals and words are its own; what
-//! comes back is a [`Document`](document::Document) in Rust's memory, of which Python sees what it asks for.
+//! The native module of the Python package `stickslip`: the commands of the program, executed in this process.
+//!
+//! Arguments are the options of the program, so that defaults, error messages and results equal those of a shell. The result is a
+//! [`Document`](document::Document) in Rust's memory; Python reads single fields of it.
 
 mod descriptions;
 mod document;

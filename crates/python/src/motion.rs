@@ -1,4 +1,4 @@
-//! A run at any time and place: its dense solution, and the surface that it leaves.
+//! The dense solution of a run, and its surface u(x,t).
 
 use crate::failed::unusable;
 use pyo3::PyResult;
@@ -7,7 +7,7 @@ use stickslip::RunDocument;
 use stickslip_surface::Surface;
 use stickslip_tip::{Support, Trajectory};
 
-/// Rows l, x0, velocity and lag at times `t`, NaN where the support has none of them.
+/// Rows l, x0, velocity and lag at times `t`; NaN if a quantity is not defined for the support.
 pub(crate) fn at(trajectory: &Trajectory, t: &[f64]) -> PyResult<Vec<f64>> {
     let (start, end) = (trajectory.start(), trajectory.end());
     if let Some(t) = t.iter().find(|t| !(start..=end).contains(*t)) {
@@ -30,7 +30,7 @@ pub(crate) fn at(trajectory: &Trajectory, t: &[f64]) -> PyResult<Vec<f64>> {
     Ok([l, x0, velocity, lag].concat())
 }
 
-/// u(x,t) as `stickslip surface` has it, a row for each t.
+/// Heights u(x,t), one row for each t; the same numbers as those of `stickslip surface`.
 pub(crate) fn heights(
     run: &RunDocument,
     trajectory: &Trajectory,

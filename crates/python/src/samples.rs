@@ -1,5 +1,7 @@
-//! The samples of a run, which go to Python without a copy: its arrays take over the memory in which the run was
-//! recorded. The document gets them back, as copies, where it is written or drawn.
+//! The samples of a run, which are moved to Python without a copy.
+//!
+//! The arrays of Python own the memory in which the run was recorded. The document receives copies while it is written or
+//! drawn.
 
 use crate::value::array;
 use numpy::{PyArray1, PyArrayMethods};
@@ -8,11 +10,11 @@ use std::any::Any;
 use stickslip::{RunDocument, Samples};
 use stickslip_cli::hosted::Document;
 
-/// The columns of a run that Python has.
+/// The columns of a run that Python owns.
 pub(crate) struct Taken(Vec<(&'static str, Py<PyArray1<f64>>)>);
 
 impl Taken {
-    /// Takes the samples out of a document, if it is a run.
+    /// Moves the samples out of a document, if it is a run.
     pub(crate) fn from(py: Python<'_>, document: &mut dyn Document) -> Option<Self> {
         let samples = samples(document.any_mut())?;
         let mut taken = vec![];
@@ -24,7 +26,7 @@ impl Taken {
         Some(Self(taken))
     }
 
-    /// Name and numbers.
+    /// The columns with their names.
     pub(crate) fn columns(&self) -> impl Iterator<Item = (&'static str, &Py<PyArray1<f64>>)> {
         self.0.iter().map(|(name, array)| (*name, array))
     }
@@ -36,7 +38,7 @@ impl Taken {
     }
 }
 
-/// Puts copies back.
+/// Moves copies into the document.
 pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Vec<f64>)>) {
     let Some(samples) = samples(document.any_mut()) else { return };
     for (name, numbers) in copies {
@@ -54,7 +56,7 @@ pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Ve
     }
 }
 
-/// Forgets copies.
+/// Removes the copies.
 pub(crate) fn forget(document: &mut dyn Document) {
     if let Some(samples) = samples(document.any_mut()) {
         drop(columns(samples));
@@ -65,7 +67,7 @@ fn samples(document: &mut dyn Any) -> Option<&mut Samples> {
     document.downcast_mut::<RunDocument>().map(|run| &mut run.samples)
 }
 
-/// The columns that are there, moved out.
+/// The existing columns, moved out.
 fn columns(samples: &mut Samples) -> [(&'static str, Option<Vec<f64>>); 9] {
     let Samples { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = samples;
     [

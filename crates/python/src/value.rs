@@ -1,7 +1,7 @@
-//! From a document to Python: structs are dicts, names are strings, sequences of numbers are arrays.
+//! Conversion of a document to Python: structs are dicts, names are strings, sequences of numbers are arrays.
 //!
-//! A sequence whose entries are all numbers, or null, is an array of float64, NaN where it is null; one of rows of
-//! equal length is an array of two axes; any other is a list. An empty one is an empty array.
+//! A sequence of numbers and nulls is an array of float64, with NaN for null. A sequence of rows of equal length is an array
+//! with two axes. Any other sequence is a list. An empty sequence is an empty array.
 
 use numpy::ndarray::Array2;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString};
 use serde_json::Value;
 
-/// The value in Python; arrays cannot be written to, as the document that they are of does not change.
+/// The value in Python. Arrays are read-only, because the document does not change.
 pub(crate) fn python(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>> {
     Ok(match value {
         Value::Null => py.None().into_bound(py),
@@ -31,14 +31,14 @@ pub(crate) fn python(py: Python<'_>, value: Value) -> PyResult<Bound<'_, PyAny>>
     })
 }
 
-/// Numbers in Rust's memory as an array, which then has it.
+/// An array that takes ownership of the numbers.
 pub(crate) fn array(py: Python<'_>, numbers: Vec<f64>) -> Bound<'_, PyArray1<f64>> {
     let array = PyArray1::from_vec(py, numbers);
     drop(array.readwrite().make_nonwriteable());
     array
 }
 
-/// The same of rows of equal length.
+/// An array of rows of equal length that takes ownership of the numbers.
 pub(crate) fn matrix(
     py: Python<'_>,
     (rows, columns): (usize, usize),
@@ -66,7 +66,7 @@ fn sequence(py: Python<'_>, entries: Vec<Value>) -> PyResult<Bound<'_, PyAny>> {
     Ok(PyList::new(py, values?)?.into_any())
 }
 
-/// The entries as numbers, if they are; nulls alone are none.
+/// The entries as numbers; None if an entry is not a number, or if all are null.
 fn numbers(entries: &[Value]) -> Option<Vec<f64>> {
     let number = |entry: &Value| if entry.is_null() { Some(f64::NAN) } else { entry.as_f64() };
     let numbers: Vec<f64> = entries.iter().map(number).collect::<Option<_>>()?;

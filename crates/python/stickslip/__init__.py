@@ -1,8 +1,8 @@
 """Stick-slip of an AFM tip on a soft surface: one closed delay equation instead of a PDE.
 
-The program's commands as functions: keyword arguments are its options, with underscores for hyphens, and what they
-give is what the program gives, to the last bit. All quantities are dimensionless: lengths in tip widths sigma, times
-in Gamma/k, forces in k sigma, heights in k sigma^2/a.
+The commands of the program are functions. Keyword arguments are its options, with underscores for hyphens, and results are
+bit for bit those of the program. All quantities are dimensionless: lengths in tip widths sigma, times in Gamma/k, forces in
+k sigma, heights in k sigma^2/a.
 
 >>> import stickslip
 >>> run = stickslip.run(alpha=1.2, r=1, kick=0.05, until=400)

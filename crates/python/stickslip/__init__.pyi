@@ -1,5 +1,5 @@
-"""Types of what is taken and given. Shapes: samples of a run are (n,), rows of a history (steps, nodes), surfaces are
-the shape of t followed by that of x."""
+"""Types of arguments and results. Shapes: samples of a run are (n,), rows of a history (steps, nodes), surfaces have the
+shape of t followed by that of x."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -13,16 +13,16 @@ __all__: list[str]
 
 _Array: TypeAlias = npt.NDArray[np.float64]
 _Path: TypeAlias = str | os.PathLike[str]
-# A number, or its digits.
+# A number, or its digits as text.
 _Number: TypeAlias = SupportsFloat | str
 _Numbers: TypeAlias = _Number | Sequence[SupportsFloat] | npt.NDArray[Any]
-# One, evenly (low, high, n), or a list or array of them.
+# A number, n values (low, high, n) at even distances, or a list or array of numbers.
 _Values: TypeAlias = _Number | tuple[_Number, _Number, int] | list[float] | npt.NDArray[Any]
 # A, T, W of A exp(-(t-T)^2/(2 W^2)).
 _Pulse: TypeAlias = tuple[_Number, _Number, _Number]
-# _Columns (x, f), a table of rows, a pandas Series or DataFrame, or what a .json file would hold.
+# Columns (x, f), a table of rows, a pandas Series or DataFrame, or the content of a .json file.
 _Columns: TypeAlias = Sequence[npt.ArrayLike] | npt.NDArray[Any] | Mapping[str, Any] | Result | Any
-# Several of them are a list, for columns are a tuple.
+# Several data are a list, because columns are a tuple.
 _Data: TypeAlias = _Path | _Columns | list[Any]
 _Progress: TypeAlias = bool | Callable[[float | None, str], object] | None
 

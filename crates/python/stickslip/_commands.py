@@ -1,4 +1,4 @@
-"""The functions: each is a command of the program, its keyword arguments the options of that."""
+"""The functions of the package: each is a command of the program, with the options of the command as keyword arguments."""
 
 from ._call import call
 from ._options import options, signature
@@ -19,7 +19,7 @@ from ._results import (
 
 
 def command(*path, returns=Result):
-    """A function of a command, from one that has only its words for it."""
+    """Decorator: the function of a command, with the docstring of the decorated function."""
 
     def made(described):
         taken = signature(path, returns)
@@ -41,22 +41,22 @@ def command(*path, returns=Result):
 
 
 def listed(path):
-    """The options of a command for its help."""
-    lines = ["Options, as `stickslip " + " ".join(path) + " --help` has them:", ""]
+    """The options of a command, for its docstring."""
+    lines = ["Options, as in `stickslip " + " ".join(path) + " --help`:", ""]
     for name, option in options(path).items():
         lines.append(f"{name}: {option.value or 'True or False'}")
         lines.append(f"    {option.help}")
-    lines.append("progress: True, or a function of the part done (None where the end is not known) and words")
+    lines.append("progress: True, or a function of the part done (None if the end is not known) and of a text")
     lines.append("    Shows a bar of tqdm, or calls the function.")
     return "\n".join(lines)
 
 
 @command("run", returns=RunResult)
 def run():
-    """Integrates l'(t) = -alpha int_0^inf f'(r tau + l(t-tau) - l(t)) dtau - l(t) - F_ext(t), and says what becomes of it.
+    """Integrates l'(t) = -alpha int_0^inf f'(r tau + l(t-tau) - l(t)) dtau - l(t) - F_ext(t), and classifies the motion.
 
-    Gives a :class:`RunResult`: t, l, x0, velocity of shape (samples,), the dense solution ``sol(t)``, ``surface(x, t)``,
-    regime, period, amplitudes. Ctrl-C stops it; what was computed until then is the ``result`` of the KeyboardInterrupt.
+    Returns a :class:`RunResult`: t, l, x0, velocity of shape (samples,), the dense solution ``sol(t)``, ``surface(x, t)``,
+    regime, period, amplitudes. Ctrl-C stops it; the ``result`` of the KeyboardInterrupt is the run so far.
     tip is a name, or a footprint of your own: columns (x, f), a table of rows, a pandas Series or DataFrame, or
     {"gaussians": [{"amplitude": 1, "center": 0, "width": 1}]}."""
 
@@ -82,12 +82,12 @@ def boundary():
 
 @command("response", returns=ResponseResult)
 def response():
-    """The linear answer to weak pulses as a sum of modes: ``samples.t``, ``samples.l`` of shape (samples,)."""
+    """The linear response to weak pulses as a sum of modes: ``samples.t``, ``samples.l`` of shape (samples,)."""
 
 
 @command("cycle", returns=CycleResult)
 def cycle():
-    """The periodic motion at given alpha and r, stable or not, with its Floquet multipliers, without waiting for it.
+    """The periodic motion at given alpha and r, stable or not, with its Floquet multipliers, solved for directly.
 
     ``profile.t``, ``profile.l`` of shape (points,); period in Gamma/k, wavelength and amplitudes in sigma."""
 
@@ -101,15 +101,16 @@ def continue_branch():
 
 @command("sweep", returns=SweepResult)
 def sweep():
-    """What the tip settles into over a grid: a tuple (low, high, n) is that many values evenly, a list or array its own.
+    """The motion that the tip settles into, at each point of a grid. A tuple (low, high, n) gives n values at even distances, a
+    list or array its values.
 
-    ``to_xarray()`` is a Dataset over the axes; with output=FILE finished points are kept as they come, and the same
-    call goes on after an interrupt."""
+    ``to_xarray()`` is a Dataset over the axes. With output=FILE finished points are written at once, and the same call resumes
+    after an interrupt."""
 
 
 @command("sweep", "merge")
 def sweep_merge():
-    """Puts the parts of a sweep or a sweep_raster together, results or .json files in any order: what one sweep would have given."""
+    """Merges the parts of a sweep or a sweep_raster, results or .json files in any order, into the result of the whole sweep."""
 
 
 @command("sweep", "raster", returns=RasterSweepResult)
@@ -119,29 +120,30 @@ def sweep_raster():
 
 @command("raster", returns=RasterResult)
 def raster():
-    """An area scanned line by line: ``lines`` with their samples, the ``pattern`` of ripples that comes of it."""
+    """An area scanned line by line: ``lines`` with their samples, and the ``pattern`` of ripples."""
 
 
 @command("tip")
 def tip():
-    """A footprint from a measured profile: noisy, tilted, off centre, in nanometres; a file or columns (x, z), of which a
-    DataFrame's names may have units.
+    """A footprint from a measured profile, which may be noisy, tilted, off centre and in nanometres: a file or columns (x, z).
+    The column names of a DataFrame may contain units.
 
-    ``gaussians`` is f with f(0) = 1, ``sigma`` its width; what noise leaves open is ``low`` and ``high`` of each estimate. The
+    ``gaussians`` is f with f(0) = 1, ``sigma`` its width; ``low`` and ``high`` of each estimate bound a 95 % interval. The
     result is a tip: ``run(tip=stickslip.tip("pit.csv"), ...)``."""
 
 
 @command("fit", returns=FitResult)
 def fit():
-    """alpha, r and sigma from what was measured, by the limit cycle of l'(t) at alpha and r: files, or columns (x, z) of shape
-    (rows,), or DataFrames, of which the names may have units; a list is several data of the same kind, columns are a tuple.
+    """alpha, r and sigma from measured data, by comparison with the limit cycle of l(t) at alpha and r. Data are files, columns
+    (x, z) of shape (rows,), or DataFrames, whose column names may contain units. A list is several data of the same kind; columns
+    are a tuple.
 
-    ``estimates`` has value, low and high (95 %, by profile likelihood) of each number by its name: alpha and r without
-    dimension, width sigma in the unit of the data; ``correlations`` has a row for each, of shape (numbers, numbers); ``data``
-    each of the data beside the model, ``remarks`` what should be known before it is believed.
+    ``estimates`` has value, low and high (95 %, by profile likelihood) of each number by its name: alpha and r
+    dimensionless, width sigma in the unit of the data. ``correlations`` has the shape (numbers, numbers), ``data`` compares each of
+    the data with the model, and ``remarks`` are warnings to read before the result is used.
 
     ``image`` is an image of ripples: a .gsf file, a Dataset of :func:`stickslip.open`, or one of its channels. Its width and
-    pitch are numbers in nm, or text such as "30nm"; ``profile`` is the mean ripple beside that of the model."""
+    pitch are numbers in nm, or text such as "30nm"; ``profile`` is the mean ripple and that of the model."""
 
 
 @command("friction")
@@ -166,8 +168,8 @@ def units():
 
 @command("verify")
 def verify():
-    """Whether a saved run keeps its promise, by another memory and a tighter tolerance; RuntimeError if it does not, with
-    what was found as its ``result``."""
+    """Checks a saved run: repeats it with another memory and a tighter tolerance. RuntimeError if the difference is too large,
+    with the check as its ``result``."""
 
 
 __all__ = [name for name, value in globals().items() if hasattr(value, "__stickslip__")]

@@ -1,4 +1,4 @@
-"""The native half: documents in Rust's memory, and the program that makes them."""
+"""The native module: documents in Rust's memory, and the commands that compute them."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, final

@@ -2,12 +2,12 @@
 
 import os
 
-#: Endings of animations.
+#: Suffixes of animations.
 ANIMATIONS = ("gif", "webp", "apng")
 
 
 class Picture:
-    """What ``stickslip plot`` draws: shown by a notebook, saved by :meth:`save`."""
+    """The picture that ``stickslip plot`` draws. A notebook shows it; :meth:`save` writes it."""
 
     def __init__(self, document, **view):
         self._document = document
@@ -22,7 +22,7 @@ class Picture:
         return self.svg
 
     def save(self, path):
-        """Writes .svg, .png or .pdf, as the ending says."""
+        """Writes .svg, .png or .pdf, according to the suffix."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lstrip(".")
         if ending.lower() in ANIMATIONS:
@@ -33,8 +33,8 @@ class Picture:
 
 
 class Animation:
-    """What ``stickslip plot -o run.gif`` makes: a tip carving the surface, or a raster growing line by line. A notebook
-    plays it; :meth:`save` writes it."""
+    """The animation that ``stickslip plot -o run.gif`` makes: a tip carving the surface, or a raster growing line by line.
+    A notebook plays it; :meth:`save` writes it."""
 
     def __init__(self, document, **film):
         self._document = document
@@ -42,13 +42,13 @@ class Animation:
         self._apng = None
 
     def _repr_png_(self):
-        """APNG, which browsers play, and of which other viewers of notebooks show the first frame."""
+        """The animation as APNG. Browsers play it; other viewers of notebooks show the first frame."""
         if self._apng is None:
             self._apng = self._document.animation("apng", **self._film)
         return self._apng
 
     def save(self, path):
-        """Writes .gif, .webp or .apng, as the ending says."""
+        """Writes .gif, .webp or .apng, according to the suffix."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lstrip(".")
         animation = self._document.animation(ending, **self._film)

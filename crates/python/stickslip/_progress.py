@@ -1,4 +1,4 @@
-"""Who is told how far the work has come."""
+"""Progress of a computation: a bar, or calls of a function."""
 
 import re
 from contextlib import contextmanager
@@ -6,19 +6,19 @@ from contextlib import contextmanager
 
 @contextmanager
 def told(progress):
-    """What the program calls as it goes on: nothing, a bar of tqdm, or the caller's own function."""
+    """The function that the program calls during the computation: None, a bar of tqdm, or the function of the caller."""
     if progress is None or progress is False:
         yield None
     elif callable(progress):
         last = [None, ""]
 
-        def tell(part, counted):
+        def report(part, counted):
             last[:] = part, counted
             progress(part, counted)
 
-        yield tell
+        yield report
         if last[0] is not None and last[0] < 1:
-            # The program counts at intervals: what is done is done.
+            # The program reports at intervals; the last report may precede the end.
             progress(1.0, re.sub(r"^\S+ of (\S+)", r"\1 of \1", last[1]))
     else:
         with bar() as shown:
@@ -27,7 +27,7 @@ def told(progress):
 
 @contextmanager
 def bar():
-    """A bar, in a notebook one of its own kind."""
+    """A bar of tqdm, for a terminal or a notebook."""
     try:
         from tqdm.auto import tqdm
     except ImportError:

@@ -1,4 +1,4 @@
-"""Parts of a document: dicts whose entries are attributes too."""
+"""Parts of a document: dicts with their entries as attributes."""
 
 
 class Record(dict):
@@ -15,7 +15,7 @@ class Record(dict):
 
 
 def recorded(value):
-    """The value with records for dicts, however deep."""
+    """The value with every dict, at any depth, as a :class:`Record`."""
     if isinstance(value, dict):
         return Record((name, recorded(part)) for name, part in value.items())
     if isinstance(value, list):

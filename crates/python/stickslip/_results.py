@@ -1,4 +1,4 @@
-"""What the commands give: documents of the program, their fields as attributes, their numbers as arrays."""
+"""Results of the commands: documents of the program, with fields as attributes and numbers as arrays."""
 
 import json
 import os
@@ -10,14 +10,13 @@ from ._picture import Animation, Picture
 from ._records import Record, recorded
 
 Motion = namedtuple("Motion", "l x0 velocity lag")
-Motion.__doc__ = """The motion at some times, arrays of the shape of these: l = rt - r - x0, x0 and the lag R - x0 in
-sigma, the velocity in k sigma/Gamma; NaN where the support has none of them."""
+Motion.__doc__ = """The motion at given times, arrays of the shape of the times: l = rt - r - x0, x0 and the lag R - x0 in sigma, the
+velocity in k sigma/Gamma; NaN if the support does not define a quantity."""
 
 
 class Result:
     """A document of the program. Its fields, named as in its JSON Schema (``stickslip schema``), are attributes:
-    structs are dicts with attributes, sequences of numbers are arrays of float64 that cannot be written to, with NaN
-    for null."""
+    structs are dicts with attributes, sequences of numbers are read-only arrays of float64, with NaN for null."""
 
     def __init__(self, document):
         self._document = document
@@ -37,16 +36,16 @@ class Result:
 
     @property
     def success(self):
-        """Whether all that was asked for was done."""
+        """Whether the computation was completed."""
         return not ("interrupted" in self._document.names() and self.interrupted)
 
     @property
     def message(self):
-        """What was found, in a line."""
+        """The result in one line."""
         return self._document.headline
 
     def to_json(self):
-        """The document as the program writes it."""
+        """The JSON text of the document, as the program writes it."""
         return self._document.json()
 
     def to_dict(self):
@@ -64,7 +63,7 @@ class Result:
             file.write(self.to_json() + "\n")
 
     def columns(self):
-        """Its table: arrays by name, NaN where there is no value; words are lists."""
+        """The table of the document: arrays by name, with NaN for missing values; columns of words are lists."""
         return self._document.columns()
 
     def plot(self, *, width=None, dpi=None, x_range=None, y_range=None):
@@ -80,7 +79,7 @@ class Result:
         return Animation(self._document, **film)
 
     def to_xarray(self):
-        """Its table as an xarray Dataset over its first column, and what defines it as attributes."""
+        """The table as an xarray Dataset over its first column, with the parameters as attributes."""
         columns = self.columns()
         return dataset(self, columns, next(iter(columns), None), physical(self))
 
@@ -93,8 +92,8 @@ class Result:
 
 
 class RunResult(Result):
-    """A run. t, l, x0, velocity and lag are arrays of the samples, without copies; l or lag is None where the support
-    has none."""
+    """A run. t, l, x0, velocity and lag are arrays of the samples, without copies; l or lag is None if the support
+    does not define it."""
 
     @property
     def regime(self):
@@ -131,29 +130,29 @@ class RunResult(Result):
 
     @property
     def period(self):
-        """Of stick-slip, in Gamma/k; None of other regimes."""
+        """Period of stick-slip, in Gamma/k; None in other regimes."""
         return self._of_oscillation("period")
 
     @property
     def wavelength(self):
-        """Of the ripples, in sigma; None of other regimes."""
+        """Wavelength of the ripples, in sigma; None in other regimes."""
         return self._of_oscillation("wavelength")
 
     @property
     def amplitude_x0(self):
-        """Half of what x0 swings about even motion, in sigma; None of other regimes."""
+        """Amplitude of x0 about uniform motion, half peak-to-peak, in sigma; None in other regimes."""
         return self._of_oscillation("amplitude_x0")
 
     @property
     def amplitude_u(self):
-        """Half of the height of the ripples, in k sigma^2/a; None of other regimes."""
+        """Amplitude of the ripples, half peak-to-peak, in k sigma^2/a; None in other regimes."""
         return self._of_oscillation("amplitude_u")
 
     def sol(self, t):
         """The dense solution at times t within the run, scalar or of any shape: a :class:`Motion`.
 
-        Accurate to the tolerance of the run everywhere, not only at its samples. ValueError outside of the run, or
-        where the history was left out."""
+        Accurate to the tolerance of the run at all times, not only at its samples. ValueError outside of the run, or if the
+        history was omitted."""
         import numpy as np
 
         times = np.asarray(t, dtype=float)
@@ -192,7 +191,7 @@ class ContinueResult(Result):
     """Branches of cycles, and the special points on them."""
 
     def to_xarray(self):
-        """A list of Datasets, a branch each, over the point's place on it."""
+        """A list of Datasets, one for each branch, over the number of the point."""
         there = physical(self, "branches")
         return [dataset(self, branch, None, there[i] if there else {}) for i, branch in enumerate(self.branches)]
 
@@ -202,11 +201,11 @@ class StabilityResult(Result):
 
 
 class BoundaryResult(Result):
-    """Where steady motion ends: alpha over r."""
+    """The boundary of steady motion: alpha over r."""
 
 
 class ResponseResult(Result):
-    """The linear answer to pulses, as a sum of modes."""
+    """The linear response to pulses, as a sum of modes."""
 
     def to_xarray(self):
         """The samples as an xarray Dataset over t."""
@@ -214,10 +213,10 @@ class ResponseResult(Result):
 
 
 class RasterResult(Result):
-    """Lines scanned over one surface, and the pattern that comes of it."""
+    """Lines scanned over one surface, and their pattern."""
 
     def to_xarray(self):
-        """The samples as an xarray Dataset over line and sample, with the y of each line; NaN where a line has fewer."""
+        """The samples as an xarray Dataset over line and sample, with the y of each line; shorter lines end with NaN."""
         import numpy as np
         import xarray
 
@@ -281,7 +280,7 @@ class LoadMapResult(Result):
 
 
 class SweepResult(Result):
-    """What the tip settles into over a grid: ``columns()`` has a row for each point."""
+    """The motion that the tip settles into, over a grid: ``columns()`` has a row for each point."""
 
     def to_xarray(self):
         """An xarray Dataset over the axes of the grid; points of other parts are NaN."""
@@ -301,13 +300,13 @@ class RasterSweepResult(Result):
 
 
 class FitResult(Result):
-    """Numbers of the law as measured data have them."""
+    """Parameters of the model, fitted to measured data."""
 
     @property
     def estimates(self):
-        """Of each number fitted, by its name, value, low and high: a 95 % interval, None where the data do not bound it."""
+        """By name, the value of each fitted number with its 95 % interval (low, high); a bound is None if the data have none."""
         if "numbers" not in self._document.names():
-            # Of an image.
+            # The fit of an image.
             return Record((name, getattr(self, name)) for name in ("alpha", "r", "wavelength", "crest_angle", "amplitude"))
         return Record((number.name, number.estimate) for number in self.numbers)
 
@@ -331,24 +330,24 @@ KINDS = {
 
 
 def result_of(document):
-    """The result that a document is."""
+    """The result of the class that belongs to the format of a document."""
     return KINDS.get(document.field("format"), Result)(document)
 
 
 def load(path):
-    """The document of any kind that a .json file holds, be it the program that wrote it or :meth:`Result.save`.
+    """The result in a .json file, written by the program or by :meth:`Result.save`.
 
-    ValueError where it cannot be read or is no such document."""
+    ValueError if the file cannot be read or is not a document."""
     return result_of(_native.load(os.fspath(path)))
 
 
 def loads(text):
-    """The document of any kind that a text holds."""
+    """The result in a JSON text."""
     return result_of(_native.read(text))
 
 
 def dataset(result, columns, over, there=None):
-    """Columns of equal length as a Dataset over one of them, or over their rows; in nm, s and nN where `there` has them."""
+    """Columns of equal length as a Dataset over one of them, or over the row; in nm, s and nN if `there` contains them."""
     import numpy as np
     import xarray
 
@@ -359,7 +358,7 @@ def dataset(result, columns, over, there=None):
 
 
 def attributes(result):
-    """What defines a result, where it is a number or a word; NetCDF has no truth values."""
+    """The parameters of a result that are numbers or texts; NetCDF has no truth values."""
     parameters = result.parameters.items()
     kept = {name: value for name, value in parameters if isinstance(value, (int, float, str))}
     return {name: int(value) if isinstance(value, bool) else value for name, value in kept.items()}
@@ -388,7 +387,7 @@ def in_words(suffix):
 
 
 def with_units(columns, there):
-    """Each column with its attributes: where it is there in nm, s or nN, these values and their unit."""
+    """Each column with its attributes: the values in nm, s or nN with their unit if they exist."""
     found = {}
     for name, column in columns.items():
         if name == "lateral_force":

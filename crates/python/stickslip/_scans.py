@@ -1,4 +1,4 @@
-"""What commands take of an image: a Dataset of :func:`stickslip.open`, or a channel or a profile of one (xarray)."""
+"""Input of commands from images: a Dataset of :func:`stickslip.open`, a channel or a profile of it (xarray)."""
 
 import warnings
 
@@ -10,12 +10,12 @@ HEIGHTS = ("height", "topography", "z", "height sensor", "zsensor", "measuredhei
 
 
 def is_array(value):
-    """Whether it is a DataArray."""
+    """Whether a value is a DataArray."""
     return type(value).__module__.startswith("xarray.") and hasattr(value, "coords") and hasattr(value, "name")
 
 
 def is_dataset(value):
-    """Whether it is a Dataset."""
+    """Whether a value is a Dataset."""
     return type(value).__module__.startswith("xarray.") and hasattr(value, "data_vars")
 
 
@@ -32,13 +32,13 @@ def heights(name, dataset):
     chosen = min(lengths, key=rank)
     if len(lengths) > 1:
         rest = ", ".join(str(key) for key in lengths if key != chosen)
-        said = f'{name}: the channel "{chosen}" is used; others are {rest}: choose by scan["{chosen}"]'
-        warnings.warn(said, StickslipWarning, stacklevel=6)
+        message = f'{name}: the channel "{chosen}" is used; others are {rest}: choose by scan["{chosen}"]'
+        warnings.warn(message, StickslipWarning, stacklevel=6)
     return lengths[chosen]
 
 
 def in_nanometres(array):
-    """Values, and their unit: lengths in nm, others as they are."""
+    """Values with their unit: lengths in nm, others unchanged."""
     import numpy as np
 
     unit, one = si(str(array.attrs.get("units", "")))
@@ -47,7 +47,7 @@ def in_nanometres(array):
 
 
 def profile_columns(name, arrays):
-    """Headings and columns of profiles over the same positions: a position, then the value of each."""
+    """Headings and columns of profiles over the same positions: the positions, then the values of each profile."""
     import numpy as np
 
     first = arrays[0]
@@ -83,12 +83,12 @@ def image_file(name, array):
 
 
 def area_columns(name, dataset):
-    """y, start and length of each line, in nm, in the order of the rows."""
+    """Columns y, start and length of each line, in nm, in the order of the rows."""
     import numpy as np
 
     x, y = (dataset[over].values for over in ("x", "y"))
     if len(x) < 2 or len(y) < 2:
-        raise ValueError(f"{name}: {len(x)} × {len(y)} pixels: no area")
+        raise ValueError(f"{name}: {len(x)} × {len(y)} pixels: not an area")
     width = 1e9 * float(x[-1] - x[0]) * len(x) / (len(x) - 1)
     lines = 1e9 * (y - y[0])
     return ["y (nm)", "start (nm)", "length (nm)"], [lines, np.zeros(len(y)), np.full(len(y), width)]

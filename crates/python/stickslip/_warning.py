@@ -1,5 +1,5 @@
-"""What the program says beside a result."""
+"""Warnings that accompany a result."""
 
 
 class StickslipWarning(UserWarning):
-    """Something that may have been overlooked, in the program's words."""
+    """A warning of the program, such as a remark of a document."""

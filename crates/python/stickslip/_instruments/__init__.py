@@ -25,8 +25,8 @@ READERS = {
 def open(path, channel=None):  # noqa: A001
     """Images of an instrument, .gwy, .gsf, .spm (and .000, .001, …), .ibw, .sxm or .jpk, as an xarray Dataset.
 
-    Each channel is a variable over y and x, by its name in the file; ``" retrace"`` is appended for the way back if both
-    ways are there. Positions are in m. Attributes of a channel: ``units`` (SI), ``scan`` ("trace" or "retrace").
+    Each channel is a variable over y and x with its name in the file; ``" retrace"`` is appended if the file also has the
+    trace. Positions are in m. Attributes of a channel: ``units`` (SI), ``scan`` ("trace" or "retrace").
     Attributes of the Dataset, if the header has them: ``line_rate_Hz``, ``velocity_m_per_s`` of the support along a
     line, ``pitch_m``, the distance of the lines, ``scan_angle_deg``, ``slow_scan`` ("up" or "down") and
     ``normal_stiffness_N_per_m``, the spring constant of the cantilever for bending (the k of the model is the lateral
@@ -61,7 +61,7 @@ def reader_of(path):
     found = next((reader for suffix, reader in READERS.items() if name.endswith(suffix)), None)
     last = os.path.splitext(name)[1]
     if found is None and len(last) == 4 and last[1:].isdigit():
-        # As older versions of Nanoscope number their files.
+        # Older versions of Nanoscope number their files.
         found = READERS[".spm"]
     if found is None:
         raise ValueError(

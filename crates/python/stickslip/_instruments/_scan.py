@@ -15,7 +15,7 @@ BASES = ("m", "N", "V", "A", "Hz", "s", "W", "Pa", "deg", "rad", "°")
 
 
 def si(unit):
-    """A unit as a base unit and its size in that: nm is ("m", 1e-9). Unknown units are left as they are."""
+    """A unit as a base unit and the factor to it: nm is ("m", 1e-9). Unknown units are unchanged."""
     unit = unit.strip()
     if unit in BASES or unit[:1] not in PREFIXES or unit[1:] not in BASES:
         return {"Å": ("m", 1e-10), "º": ("deg", 1.0), "°": ("deg", 1.0)}.get(unit, (unit, 1.0))
@@ -30,8 +30,8 @@ def centres(count, extent, offset=0.0):
 
 
 def evenly_scanned(lines, height, width, line_rate=None, velocity=None):
-    """Attributes for the lines of a scan: their distance, and the velocity along them. A line is scanned there and back
-    in one period of the line rate."""
+    """Attributes for the lines of a scan: their distance, and the velocity along them. A period of the line
+    rate contains trace and retrace."""
     found = {"pitch_m": height / lines}
     if line_rate:
         found["line_rate_Hz"] = line_rate
@@ -64,8 +64,8 @@ def dataset_of(path, scan, wanted):
     kept = [(name, c) for name, c in named if np.array_equal(c.x, first.x) and np.array_equal(c.y, first.y)]
     if len(kept) < len(named):
         left = ", ".join(sorted({name for name, _ in named} - {name for name, _ in kept}))
-        said = f"{path}: {left} have another size than {named[0][0]}: open them by channel="
-        warnings.warn(said, StickslipWarning, stacklevel=3)
+        message = f"{path}: {left} have another size than {named[0][0]}: open them by channel="
+        warnings.warn(message, StickslipWarning, stacklevel=3)
     variables = {}
     for name, channel in kept:
         attributes = {"units": channel.unit, "scan": channel.scan, "long_name": channel.name}
@@ -79,7 +79,7 @@ def dataset_of(path, scan, wanted):
 
 
 def variable_names(channels):
-    """A name for each channel, all different: its own, with "retrace" and a number where needed."""
+    """A unique name for each channel: its own, with "retrace" and a number if necessary."""
     ways = {}
     for channel in channels:
         ways.setdefault(channel.name, set()).add(channel.scan)

@@ -10,7 +10,7 @@ from ._scan import Channel, Scan, centres, evenly_scanned, number, si
 
 
 def read(path):
-    judge_length(path)
+    check_length(path)
     container = gwyfile.load(path)
     keys = [re.fullmatch(r"/(\d+)/data", key) for key in container]
     ids = sorted(int(key[1]) for key in keys if key)
@@ -24,8 +24,8 @@ def read(path):
     return Scan([c for c, _ in found], attributes, "down")
 
 
-def judge_length(path):
-    """Refuses a file that is cut off, in which gwyfile would search for ever."""
+def check_length(path):
+    """Raises ValueError for a truncated file, in which gwyfile would search indefinitely."""
     with open(path, "rb") as file:
         size = os.fstat(file.fileno()).st_size
         start = file.read(64)
@@ -55,12 +55,12 @@ def unit_of(field, key):
     return str(unit.get("unitstr", "")) if unit is not None else ""
 
 
-# Endings of titles by which Gwyddion's import tells the two ways apart.
+# Suffixes of titles by which Gwyddion's import distinguishes trace and retrace.
 WAYS = {"trace": "trace", "forward": "trace", "retrace": "retrace", "backward": "retrace"}
 
 
 def way(title):
-    """A title without the direction of the scan, and that: ``Height (Retrace)`` or ``Z [Backward]``."""
+    """A title without the direction of the scan, and the direction: ``Height (Retrace)`` or ``Z [Backward]``."""
     ending = re.search(r"[\s_]*[\[(]?\b(trace|forward|retrace|backward)\b[\])]?$", title, re.IGNORECASE)
     if not ending or not ending.start():
         return title, None
@@ -68,7 +68,7 @@ def way(title):
 
 
 def metadata(meta):
-    """The scan parameters among the metadata, which Gwyddion keeps as text in the words of each instrument."""
+    """The scan parameters among the metadata, which Gwyddion stores as text with the names of each instrument."""
     found = {}
     if meta is None:
         return found

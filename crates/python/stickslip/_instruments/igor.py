@@ -36,7 +36,7 @@ def decoded(text):
 
 
 def note_of(wave):
-    """The parameters that the instrument appends; of repeated ones the last, which is that of the end of the scan."""
+    """The parameters that the instrument appends. The last of repeated ones counts: it belongs to the end of the scan."""
     lines = re.split(r"[\r\n]+", decoded(wave.get("note", b"")))
     return {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in lines)}
 
@@ -51,7 +51,7 @@ def axis(wave, i, count):
 
 
 def way(label):
-    """A label without the direction of the scan, and that; labels are doubled letters at times: ``HeightTracee``."""
+    """A label without the direction of the scan, and the direction; some labels repeat a letter: ``HeightTracee``."""
     found = re.fullmatch(r"(.+?)(Trace|Retrace)e?", label)
     return (found[1], found[2].lower()) if found else (label, None)
 

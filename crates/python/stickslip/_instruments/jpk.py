@@ -1,6 +1,6 @@
 """Images of JPK (Bruker), .jpk and .jpk-qi-image: TIFF with private tags, by tifffile.
 
-The tags are those of JPKImageSpec 2.0. A channel has several slots, calibrations of the same integers: the default one counts.
+The tags are those of JPKImageSpec 2.0. A channel has several slots, calibrations of the same integers; the default slot is used.
 """
 
 import math
@@ -13,7 +13,7 @@ WIDTH, HEIGHT, ANGLE, COLUMNS, ROWS = 0x8042, 0x8043, 0x8044, 0x8046, 0x8047
 LINE_RATE, DUTY = 0x8049, 0x804A
 CHANNEL, RETRACE, TITLE = 0x8050, 0x8051, 0x8052
 SLOTS, DEFAULT = 0x8080, 0x8081
-# Of the first slot; each further one is 0x30 later.
+# Tags of the first slot; those of each further slot are 0x30 higher.
 SLOT, UNIT, SCALING, FACTOR, OFFSET, STRIDE = 0x8090, 0x80A2, 0x80A3, 0x80A4, 0x80A5, 0x30
 
 

@@ -37,7 +37,7 @@ def read(path):
             if len(image) < columns * rows:
                 raise ValueError(f"cut off within {about.get('Name')}")
             image = one * image.reshape(rows, columns).astype(float)
-            # Rows and the way back are in the order of the scan.
+            # Rows and retraces are stored in the order of the scan.
             image = image if is_up else image[::-1]
             image = image if scan == "trace" else image[:, ::-1]
             channels.append(Channel(about.get("Name", "channel").replace("_", " "), unit, scan, image, x, y))
@@ -52,7 +52,7 @@ def fields(text):
 
 def attributes(header, rows, height, width, is_up):
     found = {"format": "Nanonis", "slow_scan": "up" if is_up else "down"}
-    # Seconds for a line, on the way there.
+    # Seconds for the trace of a line.
     seconds = number(header.get("SCAN_TIME", ""))
     velocity = width / seconds if seconds else None
     found.update(evenly_scanned(rows, height, width, velocity=velocity))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ._scan import Channel, Scan, centres, evenly_scanned, number, si
 
-# Nominal bytes of a pixel, with which the scale counts; newer versions store four whatever these are.
+# Types by bytes of a pixel. The scale refers to the nominal number; newer versions store four bytes in any case.
 TYPES = {2: "<i2", 4: "<i4", 8: "<i8"}
 
 
@@ -31,7 +31,7 @@ def read(path):
 
 
 def sections_of(content):
-    """Titles and fields of the header's lists; None if it has no end."""
+    """Titles and fields of the header's lists; None if the header has no end."""
     end = content.find(b"\\*File list end")
     if not content.startswith(b"\\*") or end < 0:
         return None
@@ -70,7 +70,7 @@ def channel(content, image, common):
 
 
 def scale_of(text, common):
-    """Unit and full scale, in that, of ``V [Sens. Zsens] (0.0067 V/LSB) 440 V``."""
+    """Unit and full scale (in the unit) of ``V [Sens. Zsens] (0.0067 V/LSB) 440 V``."""
     found = re.match(r"\S+\s*(?:\[([^\]]*)\])?\s*\([^)]*\)\s*(\S+)\s*(\S*)", text)
     if not found or number(found[2]) is None:
         return "", 256.0**2

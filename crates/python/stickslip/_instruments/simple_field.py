@@ -35,7 +35,7 @@ def read(path):
 
 
 def bytes_of(x, y, values, unit, height):
-    """The bytes of a .gsf file of an even grid, positions in `unit` and values in `height`; empty for none."""
+    """The bytes of a .gsf file of an even grid, positions in `unit` and values in `height`, each empty if unknown."""
     spacing = [float(at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 1.0 for at in (x, y)]
     header = {
         "XRes": len(x),

@@ -108,7 +108,7 @@ impl RunArguments {
 /// Excludes an option together with --resume: a checkpoint contains all options, and only the outputs may be changed.
 fn not_on_resume(argument: Arg) -> Arg {
     match argument.get_id().as_str() {
-        "resume" | "output" | "plot" | "print" => argument,
+        "resume" | "output" | "plot" | "print" | "quiet" => argument,
         _ => argument.conflicts_with("resume"),
     }
 }

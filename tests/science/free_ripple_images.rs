@@ -87,8 +87,9 @@ fn question(image: MeasuredImage) -> FitImage {
     }
 }
 
+/// Whether an interval, which may have no end, contains a number.
 fn holds(estimate: &EstimateDocument, truth: f64) -> bool {
-    estimate.low.is_some_and(|low| low <= truth) && estimate.high.is_some_and(|high| truth <= high)
+    estimate.low.is_none_or(|low| low <= truth) && estimate.high.is_none_or(|high| truth <= high)
 }
 
 fn fitted(question: FitImage) -> FitImageDocument {

@@ -8,7 +8,7 @@ use crate::session::Session;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fs::File;
-use std::io::{self, Cursor, Read};
+use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 use stickslip::{self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable};
 
@@ -125,7 +125,7 @@ pub(crate) fn run_in(
     if !session.supplies(path) && !path.metadata().is_ok_and(|file| file.is_file()) {
         return Ok(None);
     }
-    let mut bytes = open(session, option, path)?.bytes().map_while(Result::ok);
+    let mut bytes = BufReader::new(open(session, option, path)?).bytes().map_while(Result::ok);
     if bytes.find(|byte| !byte.is_ascii_whitespace()) != Some(b'{') {
         return Ok(None);
     }

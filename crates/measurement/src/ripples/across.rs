@@ -53,21 +53,35 @@ struct Weights {
     value: Vec<[f64; POINTS]>,
 }
 
+/// The phase at a point.
+fn angle(point: usize) -> f64 {
+    TAU * (point % POINTS) as f64 / POINTS as f64
+}
+
+/// The distance from one point to another, in points, within a wavelength.
+fn distance(i: usize, k: usize) -> usize {
+    (i + POINTS - k) % POINTS
+}
+
 /// A real periodic function from its transform at 0, 1, …, at the points.
 fn at_points(transform: impl Fn(usize) -> Complex64) -> [f64; POINTS] {
     let terms: Vec<Complex64> = (0..=HARMONICS).map(transform).collect();
     std::array::from_fn(|m| {
-        let wave = |k: usize| Complex64::cis(TAU * ((k * m) % POINTS) as f64 / POINTS as f64);
-        let sum: f64 = (1..=HARMONICS).map(|k| 2.0 * (terms[k] * wave(k)).re).sum();
-        (terms[0].re + sum) / POINTS as f64
+        let wave = |k: usize| 2.0 * (terms[k] * Complex64::cis(angle(k * m))).re;
+        (terms[0].re + (1..=HARMONICS).map(wave).sum::<f64>()) / POINTS as f64
     })
 }
 
-/// The force balances at the points of a pattern, and their derivatives.
-struct Balance {
-    residual: DVector<f64>,
-    /// By s, Y and α.
-    jacobian: Option<[DMatrix<f64>; 3]>,
+/// Kernels of the integral, less that of the mean, and of the derivative by x.
+fn calculus(q: f64) -> [[f64; POINTS]; 2] {
+    let number = |k: usize| Complex64::new(0.0, k as f64 * q);
+    let integral = at_points(|k| if k == 0 { Complex64::new(0.0, 0.0) } else { 1.0 / number(k) });
+    [integral, at_points(number)]
+}
+
+/// A kernel applied to values, at a point.
+fn folded(kernel: &[f64; POINTS], values: &[f64], i: usize) -> f64 {
+    (0..POINTS).map(|k| kernel[distance(i, k)] * values[k]).sum()
 }
 
 /// Values of a pattern at the points.
@@ -148,18 +162,16 @@ impl Lines {
         };
         at.slowness = 1.0 / r;
         at.c[0] = Complex64::new(0.5 * swing / r, 0.0);
+        let law = (r, stiffness);
         for _ in 0..ITERATIONS {
             let weights = self.weights(at.q, kappa);
-            let here = self.balance(&at, &weights, (r, stiffness), true)?;
-            if here.residual.amax() < ENOUGH * r.max(1.0) {
+            let here = self.balance(&at, &weights, law)?;
+            if here.amax() < ENOUGH * r.max(1.0) {
                 return self.found_across(at, kappa);
             }
             let beside = Unknowns { q: at.q + STEP, ..at.clone() };
-            let weights = self.weights(beside.q, kappa);
-            let beside = self.balance(&beside, &weights, (r, stiffness), false)?;
-            let by_q = (beside.residual - &here.residual) / STEP;
-            let jacobian = assembled(&here, &by_q, r)?;
-            let step = jacobian.lu().solve(&here.residual)?;
+            let by_q = (self.balance(&beside, &self.weights(beside.q, kappa), law)? - &here) / STEP;
+            let step = self.jacobian(&at, &weights, law, &by_q).lu().solve(&here)?;
             at = at.moved(&step)?;
         }
         None
@@ -186,79 +198,104 @@ impl Lines {
         Weights { slope, value }
     }
 
-    /// `None` for a tip that moves backward.
-    fn balance(
+    /// Calls a function for each pair of points, on a line and on one before it or itself, with the weights of g' and g and with
+    /// h, h' and h'' between the two.
+    fn pairs(
         &self,
-        at: &Unknowns,
         weights: &Weights,
-        (r, stiffness): (f64, f64),
-        with_jacobian: bool,
-    ) -> Option<Balance> {
-        let Values { slowness, across } = at.values();
-        if !slowness.iter().all(|s| *s > 0.0) {
-            return None;
-        }
-        let mut forces = [[0.0; POINTS]; 2];
-        let zero = || DMatrix::<f64>::zeros(2 * POINTS, POINTS);
-        let (mut by_s, mut by_y) = (zero(), zero());
+        across: &[f64],
+        mut each: impl FnMut((usize, usize), [f64; 2], [f64; 3]),
+    ) {
         let lines = (self.earlier + 1) as usize;
         for (n, (slope, value)) in weights.slope.iter().zip(&weights.value).enumerate() {
             let layer = &self.layers[n / lines];
             let away = (n % lines) as f64 * self.pitch;
             for i in 0..POINTS {
                 for k in 0..POINTS {
-                    let m = (i + POINTS - k) % POINTS;
-                    let [h, h1, h2] = derivatives(&layer.across, away + across[i] - across[k]);
-                    let (s, along, beside) = (slowness[k], slope[m], value[m]);
-                    forces[0][i] += along * h * s;
-                    forces[1][i] += beside * h1 * s;
-                    if with_jacobian {
-                        by_s[(i, k)] += along * h;
-                        by_s[(POINTS + i, k)] += beside * h1;
-                        let [along, beside] = [along * h1 * s, beside * h2 * s];
-                        by_y[(i, k)] -= along;
-                        by_y[(i, i)] += along;
-                        by_y[(POINTS + i, k)] -= beside;
-                        by_y[(POINTS + i, i)] += beside;
-                    }
+                    let m = distance(i, k);
+                    let between = derivatives(&layer.across, away + across[i] - across[k]);
+                    each((i, k), [slope[m], value[m]], between);
                 }
             }
         }
-        // θ less its mean slope, and dY/dx.
-        let integral = at_points(|k| match k {
-            0 => Complex64::new(0.0, 0.0),
-            k => Complex64::new(0.0, -1.0 / (k as f64 * at.q)),
+    }
+
+    /// The forces along and across the lines, over α.
+    fn forces(&self, weights: &Weights, Values { slowness, across }: &Values) -> DVector<f64> {
+        let mut forces = DVector::zeros(2 * POINTS);
+        self.pairs(weights, across, |(i, k), [along, beside], [h, h1, _]| {
+            forces[i] += along * h * slowness[k];
+            forces[POINTS + i] += beside * h1 * slowness[k];
         });
-        let derivative = at_points(|k| Complex64::new(0.0, k as f64 * at.q));
-        let folded = |kernel: &[f64; POINTS], values: &[f64], i: usize| -> f64 {
-            (0..POINTS).map(|k| kernel[(i + POINTS - k) % POINTS] * values[k]).sum()
-        };
-        let mut residual = DVector::zeros(2 * POINTS);
-        let mut by_alpha = DMatrix::zeros(2 * POINTS, 1);
-        for i in 0..POINTS {
-            let lag = r * (at.mean + folded(&integral, &slowness, i));
-            let turn = folded(&derivative, &across, i);
-            residual[i] = 1.0 / slowness[i] - at.alpha * forces[0][i] - lag;
-            residual[POINTS + i] =
-                turn / slowness[i] - at.alpha * forces[1][i] + stiffness * across[i];
-            (by_alpha[i], by_alpha[POINTS + i]) = (-forces[0][i], -forces[1][i]);
-            if with_jacobian {
-                for k in 0..POINTS {
-                    let m = (i + POINTS - k) % POINTS;
-                    by_s[(i, k)] = -at.alpha * by_s[(i, k)] - r * integral[m];
-                    by_s[(POINTS + i, k)] *= -at.alpha;
-                    by_y[(i, k)] *= -at.alpha;
-                    by_y[(POINTS + i, k)] =
-                        derivative[m] / slowness[i] - at.alpha * by_y[(POINTS + i, k)];
-                }
-                let square = slowness[i] * slowness[i];
-                by_s[(i, i)] -= 1.0 / square;
-                by_s[(POINTS + i, i)] -= turn / square;
-                by_y[(POINTS + i, i)] += stiffness;
-            }
+        forces
+    }
+
+    /// Residuals of both force balances at the points; `None` for a tip that moves backward.
+    fn balance(
+        &self,
+        at: &Unknowns,
+        weights: &Weights,
+        (r, stiffness): (f64, f64),
+    ) -> Option<DVector<f64>> {
+        let values = at.values();
+        let Values { slowness, across } = &values;
+        if !slowness.iter().all(|s| *s > 0.0) {
+            return None;
         }
-        let jacobian = with_jacobian.then_some([by_s, by_y, by_alpha]);
-        Some(Balance { residual, jacobian })
+        let [integral, derivative] = calculus(at.q);
+        let mut residual = -at.alpha * self.forces(weights, &values);
+        for i in 0..POINTS {
+            let lag = r * (at.mean + folded(&integral, slowness, i));
+            residual[i] += 1.0 / slowness[i] - lag;
+            let turn = folded(&derivative, across, i);
+            residual[POINTS + i] += turn / slowness[i] + stiffness * across[i];
+        }
+        Some(residual)
+    }
+
+    /// The derivatives of the residuals by α, q, the mean, the parts of c_2, … and Y.
+    fn jacobian(
+        &self,
+        at: &Unknowns,
+        weights: &Weights,
+        (r, stiffness): (f64, f64),
+        by_q: &DVector<f64>,
+    ) -> DMatrix<f64> {
+        let values = at.values();
+        let Values { slowness, across } = &values;
+        let [mut by_s, mut by_y] = [0, 1].map(|_| DMatrix::zeros(2 * POINTS, POINTS));
+        self.pairs(weights, across, |(i, k), [along, beside], [h, h1, h2]| {
+            by_s[(i, k)] -= at.alpha * along * h;
+            by_s[(POINTS + i, k)] -= at.alpha * beside * h1;
+            let [along, beside] = [along * h1, beside * h2].map(|v| at.alpha * v * slowness[k]);
+            by_y[(i, k)] += along;
+            by_y[(i, i)] -= along;
+            by_y[(POINTS + i, k)] += beside;
+            by_y[(POINTS + i, i)] -= beside;
+        });
+        let [integral, derivative] = calculus(at.q);
+        for i in 0..POINTS {
+            for k in 0..POINTS {
+                by_s[(i, k)] -= r * integral[distance(i, k)];
+                by_y[(POINTS + i, k)] += derivative[distance(i, k)] / slowness[i];
+            }
+            let square = slowness[i] * slowness[i];
+            by_s[(i, i)] -= 1.0 / square;
+            by_s[(POINTS + i, i)] -= folded(&derivative, across, i) / square;
+            by_y[(POINTS + i, i)] += stiffness;
+        }
+        let mut all = DMatrix::zeros(2 * POINTS, 2 * POINTS);
+        all.set_column(0, &-self.forces(weights, &values));
+        all.set_column(1, by_q);
+        all.view_mut((0, 2), (POINTS, 1)).fill(-r);
+        for k in 2..=HARMONICS {
+            let wave =
+                |part: fn(f64) -> f64| DVector::from_fn(POINTS, |i, _| 2.0 * part(angle(k * i)));
+            all.set_column(2 * k - 1, &(&by_s * wave(f64::cos)));
+            all.set_column(2 * k, &(&by_s * -wave(f64::sin)));
+        }
+        all.view_mut((0, POINTS), (2 * POINTS, POINTS)).copy_from(&by_y);
+        all
     }
 
     fn found_across(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
@@ -269,8 +306,7 @@ impl Lines {
                 layer.along.fourier(k_number * at.q) * layer.across.fourier(k_number * kappa)
             };
             let point = |i: usize| {
-                let phase = TAU * ((k * i) % POINTS) as f64 / POINTS as f64;
-                Complex64::from_polar(slowness[i], -phase - k_number * kappa * across[i])
+                Complex64::from_polar(slowness[i], -angle(k * i) - k_number * kappa * across[i])
             };
             let mean = (0..POINTS).map(point).sum::<Complex64>() / POINTS as f64;
             -mean * (at.alpha / self.pitch * self.layers.iter().map(layer).sum::<f64>())
@@ -322,33 +358,13 @@ fn neutral_near(
     None
 }
 
-/// The Jacobian by α, q, the mean, the parts of c_2, … and Y.
-fn assembled(here: &Balance, by_q: &DVector<f64>, r: f64) -> Option<DMatrix<f64>> {
-    let [by_s, by_y, by_alpha] = here.jacobian.as_ref()?;
-    let mut all = DMatrix::zeros(2 * POINTS, 2 * POINTS);
-    all.set_column(0, &by_alpha.column(0));
-    all.set_column(1, by_q);
-    all.view_mut((0, 2), (POINTS, 1)).fill(-r);
-    for k in 2..=HARMONICS {
-        let wave = |part: fn(f64) -> f64| {
-            DVector::from_fn(POINTS, |i, _| part(TAU * ((k * i) % POINTS) as f64 / POINTS as f64))
-        };
-        all.set_column(2 * k - 1, &(by_s * wave(|phase| 2.0 * phase.cos())));
-        all.set_column(2 * k, &(by_s * wave(|phase| -2.0 * phase.sin())));
-    }
-    all.view_mut((0, POINTS), (2 * POINTS, POINTS)).copy_from(by_y);
-    Some(all)
-}
-
 impl Unknowns {
     /// θ' and Y at the points.
     fn values(&self) -> Values {
         let slowness = (0..POINTS)
             .map(|i| {
-                let phase = |k: usize| TAU * ((k * i) % POINTS) as f64 / POINTS as f64;
-                let sum: f64 =
-                    (1..=HARMONICS).map(|k| (self.c[k - 1] * Complex64::cis(phase(k))).re).sum();
-                self.slowness + 2.0 * sum
+                let wave = |k: usize| (self.c[k - 1] * Complex64::cis(angle(k * i))).re;
+                self.slowness + 2.0 * (1..=HARMONICS).map(wave).sum::<f64>()
             })
             .collect();
         Values { slowness, across: self.across.clone() }

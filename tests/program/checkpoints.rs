@@ -47,7 +47,7 @@ fn checkpoints_that_cannot_be_gone_on_with_are_refused() {
     }
     // The output is not what it was.
     folder.write("run.jsonl", "something else");
-    let output = folder.stickslip("run --resume run.ck");
+    let output = folder.stickslip("run --resume run.ck --quiet");
     assert_eq!(output.status.code(), Some(1));
     assert!(said(&output).contains("run.jsonl"), "{}", said(&output));
     assert_eq!(folder.read("run.jsonl"), b"something else");

@@ -149,7 +149,7 @@ def fit():
 @command("friction")
 def friction():
     """Friction forces and work of a loop of lateral force, in nN and fJ where the units are known: files or columns (x, force)
-    of trace and retrace, or one of three columns (x, trace, retrace).
+    of trace and retrace, or one of three columns (x, trace, retrace); or a run whose support returns, or two runs.
 
     ``kinetic``, ``mean``, ``static_peak``, ``hysteresis``, ``work``, ``offset`` and ``stiffness`` have value, low and high
     (95 %)."""

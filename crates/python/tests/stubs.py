@@ -42,8 +42,8 @@ NAMED = {
     "friction": "_Data",
     "run": "_Path | Result",
     "measured": "_Path | _Columns",
-    "trace": "_Path | _Columns",
-    "retrace": "_Path | _Columns",
+    "trace": "_Path | _Columns | Result",
+    "retrace": "_Path | _Columns | Result",
 }
 # Lengths of measured data have units.
 LENGTHS = {("fit", "width"), ("fit", "pitch")}

@@ -219,3 +219,15 @@ def test_a_document_is_not_saved_under_the_name_of_a_table(tmp_path):
         assert not (tmp_path / name).exists()
     result.save(tmp_path / "x.json")
     assert stickslip.load(tmp_path / "x.json").to_json() == result.to_json()
+
+
+def test_friction_of_a_run_is_that_of_its_samples():
+    path = ([0, 50, 100, 150, 200], [0, 50, 0, 50, 0])
+    run = stickslip.run(tip="gaussian", alpha=1.5, r=1, healing_time=30, support_path=path, until=200, sample_every=0.05)
+    found = stickslip.friction(run)
+    t, x, force = np.asarray(run.t), np.asarray(run.x0) + np.asarray(run.lag), np.asarray(run.lag)
+    trace, retrace = ((t > 100) & (t <= 150)), ((t > 150) & (t <= 200))
+    table = stickslip.friction((x[trace], force[trace]), (x[retrace], force[retrace]))
+    for name in ("kinetic", "mean", "static_peak", "work"):
+        assert getattr(found, name).value == pytest.approx(getattr(table, name).value, rel=1e-12)
+    assert found.force_unit == "kσ"

@@ -544,8 +544,8 @@ fn thresholds_across_the_scan() {
     says("docs/findings/README.md", &[format!("are {across:.5} and {axis:.5}, against {held:.5}")]);
     let zigzag = |stiffness| first_across(RasterPath::Zigzag, 0.5, Some(stiffness));
     assert!(zigzag(1.0).q.abs() < 1e-12);
-    passages.push(format!("threshold is {:.5}, close to", zigzag(1.0).alpha));
-    passages.push(format!("it is {:.5}, a quarter above", zigzag(3.0).alpha));
+    passages.push(format!("above {:.5}, close to", zigzag(1.0).alpha));
+    passages.push(format!("a quarter higher, {:.5}.", zigzag(3.0).alpha));
     says("docs/explanation/across.md", &passages);
 }
 

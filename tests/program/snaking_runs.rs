@@ -243,6 +243,7 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
         ("--kick-across 0.1", ["--kick-across 0.1", "--stiffness-across"]),
         ("--width-y 2", ["--width-y 2", "--stiffness-across"]),
         ("--stiffness-across 1 --tip bessel", ["--width-y", "give the width"]),
+        ("--stiffness-across 1 --tip bessel --width-y 1 --start flat", ["--tip", "walkers"]),
         (
             "--noise 0.1 --noise-spacing-across 1",
             ["--noise-spacing-across 1", "--stiffness-across"],

@@ -234,8 +234,8 @@ fn an_image_of_a_tip_is_followed_across_the_scan() {
     let across = "--stiffness-across 0.4 --kick-across 0.3 --r 1";
     let line = format!("run --alpha 1.3 {across} --until 36");
     let raster = format!("raster --alpha 0.4 {across} --pitch 1 --lines 4 --length 15");
-    // What single precision leaves of the widths is 5e-6.
-    for (line, allowed) in [(line, 2e-4), (raster, 2e-4)] {
+    // Widths of the image are right to 7e-6; lines amplify that to 2.3e-5 here, and those of the raster to 2.7e-4.
+    for (line, allowed) in [(line, 1e-4), (raster, 1e-3)] {
         for name in ["x0", "y0"] {
             let miss = farthest(&line, name);
             println!("{line} {name}: {miss:e}");

@@ -536,7 +536,9 @@ impl Run {
             PlanarError::InitialSurface(_) => Refused::whole("initial_surface", error).into(),
             PlanarError::NoFootprint => Refused::whole("width_y", error).into(),
             PlanarError::TwoSides => Refused::whole("tip", error).into(),
-            PlanarError::Products(_) => Refused::whole("tip", error).into(),
+            PlanarError::Products(_) | PlanarError::NeverFades => {
+                Refused::whole("tip", error).into()
+            }
             PlanarError::Fit(_) => {
                 let value = Some("modes".into());
                 Refused { parameter: "memory".into(), value, why: error.to_string() }.into()

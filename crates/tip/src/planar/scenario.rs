@@ -44,6 +44,11 @@ pub enum PlanarError {
     /// The footprint is f(x) alone, which does not determine the force across.
     #[error("two coordinates need a footprint f(x,y): give its width across the scan")]
     NoFootprint,
+    /// The footprint does not decay along the scan.
+    #[error(
+        "a tip that moves across the scan needs a footprint that decays along it, which J0 and the cosine do not; for J0 in the plane there are walkers"
+    )]
+    NeverFades,
     /// The sides of the footprint differ along x.
     #[error("two coordinates need a footprint with two equal sides: give one side of it")]
     TwoSides,
@@ -133,7 +138,10 @@ impl PlanarScenario {
     /// A footprint f(x) alone, or one of too many products.
     pub(super) fn products(&self) -> Result<Arc<Products>, PlanarError> {
         let model = &self.along.model;
-        let footprint = model.tip().footprint().ok_or(PlanarError::NoFootprint)?;
+        let footprint = model.tip().footprint().ok_or(match model.tip().reach() {
+            None => PlanarError::NeverFades,
+            Some(_) => PlanarError::NoFootprint,
+        })?;
         let accuracy = accuracy_needed(model, self.along.tolerance).max(FINEST);
         Ok(Products::cached(footprint, accuracy)?)
     }

@@ -236,6 +236,11 @@ fn what_is_not_there_is_refused_by_name() {
     assert!(matches!(error, PlanarError::Kick(_)), "{error}");
     let error = refused(|scenario| with_tip(scenario, TipFunction::default()));
     assert_eq!(error, PlanarError::NoFootprint);
+    let error = refused(|scenario| {
+        scenario.along.start = Start::Flat;
+        with_tip(scenario, TipFunction::Bessel);
+    });
+    assert_eq!(error, PlanarError::NeverFades);
     let error = refused(|s| with_law(s, Wider { spring: false, ..plain() }, 0.0));
     assert_eq!(error, PlanarError::Unavailable("a tip without a spring"));
     assert!(error.to_string().starts_with("a tip without a spring"), "{error}");

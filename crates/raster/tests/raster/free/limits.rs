@@ -4,8 +4,8 @@
 
 use super::lines::{footprint, scanned};
 use stickslip_raster::{Area, Free, Line, Path, Plan, RasterError, Scanned, Scanning, volume};
+use stickslip_tip::Model;
 use stickslip_tip::planar::PlanarError;
-use stickslip_tip::{Model};
 
 fn plan(stiffness: f64, path: Path) -> Plan {
     let (footprint, _) = footprint(0.0, 1.0);

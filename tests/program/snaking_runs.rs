@@ -205,7 +205,7 @@ fn surfaces_of_runs_across_are_those_that_their_tip_left() {
     folder.refuses("surface damaged.json", &["damaged", "y0 of step"]);
 }
 
-/// Other memories make other errors; each run is resumed, and verified by the lattice.
+/// Other memories make other errors; each run is resumed, and verified by another one.
 #[test]
 fn each_memory_follows_a_tip_across_the_scan() {
     let folder = Folder::new("memories_across");
@@ -219,6 +219,8 @@ fn each_memory_follows_a_tip_across_the_scan() {
         let run = folder.json("run.json");
         assert_eq!(run["work"]["memory"], memory);
         assert_eq!(run["verification"]["kept"], true);
+        let other = if memory == "fft" { "direct" } else { "fft" };
+        assert_eq!(run["verification"]["memory"], other);
         for name in ["l", "y0"] {
             for i in 0..3 {
                 let [a, b] = [&run, &by_modes].map(|run| number(&run["samples"][name][i]));

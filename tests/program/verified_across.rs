@@ -19,7 +19,7 @@ fn runs_across_are_verified_from_history_samples_and_lines() {
     let document = folder.prints_json(&format!("{RUN} --verify"));
     validate(&folder, "run", &document);
     let verification = &document["verification"];
-    assert_eq!((&verification["kept"], &verification["memory"]), (&json!(true), &json!("lattice")));
+    assert_eq!((&verification["kept"], &verification["memory"]), (&json!(true), &json!("fft")));
     assert!(verification["y0"]["largest"].as_f64().unwrap() > 0.0 && verification["u"].is_null());
     folder.write("run.json", document.to_string());
     let saved = folder.prints_json("verify run.json");
@@ -31,7 +31,7 @@ fn runs_across_are_verified_from_history_samples_and_lines() {
     again["y0"]["largest"] = verification["y0"]["largest"].clone();
     assert_eq!(&again, verification);
     let output = folder.stickslip(&format!("{RUN} --verify -o run.csv"));
-    assert!(said(&output).contains("verified with lattice: l is off by"), "{}", said(&output));
+    assert!(said(&output).contains("verified with fft: l is off by"), "{}", said(&output));
     let text = String::from_utf8(folder.prints("verify run.json --format text")).unwrap();
     assert!(text.contains("y0"), "{text}");
 

@@ -1,7 +1,8 @@
-//! Verification of a run in two coordinates: it is repeated by collocation over Gaussians on a lattice.
+//! Verification of a run in two coordinates: it is repeated with another memory, by collocation.
 //!
-//! The lattice and collocation share neither the exponentials nor the Taylor series of the run; they share the layers
-//! across the scan, whose number follows from the tolerance and is larger at a tighter one.
+//! `fft` repeats a run by `modes`. It shares neither exponentials nor Taylor series with it, but the layers across the scan,
+//! whose number follows from the tolerance and is larger at a tighter one. `direct`, which has no layers, repeats a run by
+//! `fft`.
 
 use super::compare::{AgainstSamples, Judgement, compare_all};
 use super::growth::{Probes, growth_within};
@@ -14,8 +15,6 @@ use std::ops::ControlFlow;
 use stickslip_tip::planar::{PlanarRunning, PlanarScenario, Step, Trajectory};
 use stickslip_tip::{MOST_STEPS, MemoryChoice, RunError, Scenario};
 
-/// Memory of the second run.
-const MEMORY: &str = "lattice";
 /// Share of the second run in the work; the rest is that of the perturbed run, by series.
 const SHARE: f64 = 0.9;
 
@@ -30,7 +29,7 @@ pub fn verify_across(
     trajectory: &Trajectory,
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Verification, VerificationError> {
-    let mut second = Second::of(scenario, trajectory.end(), observe);
+    let mut second = Second::of(scenario, trajectory.end(), observe)?;
     let mut steps = vec![];
     let growth = second.run(|step, _| {
         if steps.len() == MOST_STEPS {
@@ -67,7 +66,7 @@ pub fn verify_samples_across<I: Iterator<Item = Sample>>(
     let span = (along.start_time(), until);
     let mut compared = AgainstSamples::new(along.support(), samples, span, allowed);
     compared.begin();
-    let mut second = Second::of(scenario, until, observe);
+    let mut second = Second::of(scenario, until, observe)?;
     let growth = second.run(|step, before| {
         compared.see_across(step, before);
         Ok(())
@@ -78,23 +77,28 @@ pub fn verify_samples_across<I: Iterator<Item = Sample>>(
 
 /// The second run and its perturbed copy.
 struct Second<O> {
-    /// The scenario with a tighter tolerance. Its end is that of the run, on which noise depends,
+    /// The scenario with another memory and a tighter tolerance. Its end is that of the run, on which noise depends,
     scenario: PlanarScenario,
+    /// Name of the memory.
+    memory: &'static str,
     /// and this the end of what is compared.
     until: f64,
     observe: O,
 }
 
 impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
-    fn of(run: &PlanarScenario, until: f64, observe: O) -> Self {
+    fn of(run: &PlanarScenario, until: f64, observe: O) -> Result<Self, VerificationError> {
+        let (memory, name) = match PlanarRunning::new(run)?.memory() {
+            ("fft", _) => (MemoryChoice::Direct, "direct"),
+            _ => (MemoryChoice::Fft, "fft"),
+        };
         let with = |tolerance: f64| {
-            let memory = MemoryChoice::Auto;
             let along = Scenario { tolerance, memory, ..run.along.clone() };
             PlanarScenario { along, ..run.clone() }
         };
         let can_be_met = |tolerance: f64| with(tolerance).validate().is_ok();
         let tolerance = tightest(run.along.tolerance, can_be_met);
-        Self { scenario: with(tolerance), until, observe }
+        Ok(Self { scenario: with(tolerance), memory: name, until, observe })
     }
 
     /// Repeats the run, and measures the growth of errors by the perturbed run. `see` is called with each step, and the
@@ -105,7 +109,7 @@ impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
     ) -> Result<Growth, VerificationError> {
         let scenario = self.scenario.clone();
         let mut here = ProbesAcross::of(&scenario, self.until);
-        self.repeat(PlanarRunning::on_lattice(&scenario)?, (0.0, SHARE), |step, before| {
+        self.repeat(PlanarRunning::new(&scenario)?, (0.0, SHARE), |step, before| {
             here.see(step, before);
             see(step, before)
         })?;
@@ -150,7 +154,7 @@ impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
         let [l, y] = judgements.map(|judgement| judgement.worst);
         let wrong = judgements.iter().filter_map(|judgement| judgement.trusted_until);
         Verification {
-            memory: MEMORY,
+            memory: self.memory,
             tolerance: self.scenario.along.tolerance,
             l,
             y: Some(y),
@@ -164,7 +168,8 @@ impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
 
 /// The run of a tip that starts at a slightly different point, shifted in both coordinates.
 fn twin(scenario: &PlanarScenario, shift: f64) -> PlanarScenario {
-    let along = Scenario { kick: scenario.along.kick + shift, ..scenario.along.clone() };
+    let (kick, memory) = (scenario.along.kick + shift, MemoryChoice::Auto);
+    let along = Scenario { kick, memory, ..scenario.along.clone() };
     let kick_across = scenario.kick_across + shift;
     PlanarScenario { along, kick_across, ..scenario.clone() }
 }

@@ -1,5 +1,5 @@
 //! Verification of a run: it is repeated with another memory and a tighter tolerance, and a perturbed run measures
-//! the growth of errors. A run in two coordinates is repeated on a lattice, without exponentials and without series.
+//! the growth of errors. A run in two coordinates by `modes` is repeated by `fft`, and one by `fft` by `direct`.
 
 mod across;
 mod compare;

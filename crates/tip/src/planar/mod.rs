@@ -12,7 +12,8 @@
 //! one-dimensional grooves, which the same positions carve with different weights (`layers`). With
 //! exponentials for g the past is one complex number for each exponential and each layer (`modes`), and the equations
 //! are a polynomial system (`chain`). If the tip retreats beyond the range of validity of the exponentials, Gaussians
-//! on a lattice replace them (`lattice`): this occurs after slips of heavy tips, and where the support turns. As κ_y
+//! on a lattice replace them (`lattice`): this occurs after slips of heavy tips, and where the support turns. The memory `fft`
+//! convolves densities of all layers (`fields`), and `direct` sums over all positions (`visits`). As κ_y
 //! → ∞ the motion becomes that of [`run`](crate::run()).
 
 mod bells;

@@ -35,8 +35,6 @@ const MOST_SLACK: f64 = 30.0;
 pub(super) enum Storage {
     /// Exponentials that allow for this retreat, with a lattice for retreats beyond it or without one.
     Modes(Retreat, bool),
-    /// The lattice alone.
-    Lattice,
     /// Densities, convolved by FFT.
     Fft,
     /// All positions.
@@ -59,7 +57,6 @@ impl Part {
                 });
                 Past::new(Modes::new(fit?), lattice().filter(|_| with_lattice))
             }
-            Storage::Lattice => Past::without_modes(Some(lattice().ok_or(FitError::NeverFades)?)),
             Storage::Fft => Past::without_modes(Some(Box::new(Fields::new(along)))),
             Storage::Direct => Past::without_modes(None),
         };

@@ -52,17 +52,6 @@ impl<'a> PlanarRunning<'a> {
         Ok(Self { until: scenario.along.until, integrator })
     }
 
-    /// Begins a scenario by collocation over Gaussians on a lattice along the scan: without the exponentials and the
-    /// Taylor series of [`new`](Self::new), for checks of it. Steps are several times slower. Such a run cannot be
-    /// resumed from a state.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn on_lattice(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
-        scenario.validate()?;
-        Ok(Self { until: scenario.along.until, integrator: Integrator::of_lattice(scenario)? })
-    }
-
     /// Resumes a run from a state written by [`save`](Self::save). Every later step equals that of the uninterrupted
     /// run, bit for bit.
     ///

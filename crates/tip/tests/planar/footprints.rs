@@ -2,10 +2,8 @@
 
 use super::lines::{holds, line, problem};
 use super::reference::{Footprint, Problem};
-use stickslip_tip::planar::{
-    PlanarError, PlanarRunning, PlanarScenario, ProductsError, Trajectory, run,
-};
-use stickslip_tip::{Gaussian2d, SupportPath, TipFunction, Wider};
+use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, ProductsError, run};
+use stickslip_tip::{Gaussian2d, MemoryChoice, SupportPath, TipFunction, Wider};
 
 /// The tip, and the same footprint for the reference, from amplitudes, centers and widths along and across.
 pub(crate) fn gaussians(terms: &[[f64; 5]]) -> (TipFunction, Footprint) {
@@ -90,7 +88,7 @@ fn sums_of_products_under_the_wider_law_are_followed() {
     }
 }
 
-/// Drawn back over its own groove, and by collocation on the lattice alone.
+/// Drawn back over its own groove, by exponentials and by convolution.
 #[test]
 fn sums_of_products_are_followed_backwards() {
     const PATH: [(f64, f64); 4] = [(0.0, 0.0), (6.0, 6.0), (16.0, -4.0), (24.0, 5.0)];
@@ -99,9 +97,9 @@ fn sums_of_products_are_followed_backwards() {
     let (t, displacement) = PATH.into_iter().unzip();
     scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
     let by_modes = run(&scenario).unwrap();
-    let mut running = PlanarRunning::on_lattice(&scenario).unwrap();
-    let steps = std::iter::from_fn(|| running.step().unwrap()).collect();
-    let by_lattice = Trajectory::new(plain(), scenario.along.support(), steps);
+    let mut by_fft = scenario.clone();
+    by_fft.along.memory = MemoryChoice::Fft;
+    let by_fft = run(&by_fft).unwrap();
     let (_, footprint) = gaussians(&star());
     let support = |problem: &Problem, t: f64| {
         let piece = PATH.windows(2).find(|ends| t <= ends[1].0).unwrap_or(&PATH[2..]);
@@ -118,7 +116,7 @@ fn sums_of_products_are_followed_backwards() {
     };
     let problem = Problem { support, ..with(&scenario, footprint) };
     let motion = problem.motion(24.0, 480);
-    for (name, trajectory) in [("modes", &by_modes.trajectory), ("lattice", &by_lattice)] {
+    for (name, trajectory) in [("modes", &by_modes.trajectory), ("fft", &by_fft.trajectory)] {
         let mut worst = [0.0_f64; 2];
         for (t, [x, y]) in motion.t.iter().zip(&motion.position) {
             worst[0] = worst[0].max((trajectory.x0(*t) - x).abs());

@@ -8,7 +8,6 @@ mod gauss;
 
 mod convergence;
 mod footprints;
-mod lattice;
 mod limits;
 mod lines;
 mod memories;

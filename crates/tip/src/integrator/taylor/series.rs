@@ -64,6 +64,7 @@ impl Series {
 
     /// In parts of this length: coefficient k times its power k.
     #[must_use]
+    #[inline(always)]
     pub(crate) fn over(&self, length: f64) -> Self {
         let square = length * length;
         let mut power = [1.0, length, square, square * length];

@@ -72,6 +72,11 @@ pub(crate) struct Outlook {
 }
 
 impl Outlook {
+    /// That of a series in parts of this length.
+    pub(crate) fn over(series: &Series, length: f64) -> Self {
+        Self::of(&series.over(length))
+    }
+
     pub(crate) fn of(series: &Series) -> Self {
         let mut room = [[0.0; BLOCK]];
         let sums = OUTLOOK.sums(series, &mut room);

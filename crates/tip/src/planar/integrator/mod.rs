@@ -114,11 +114,6 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// The integrator without exponentials, and so without series.
-    pub(super) fn of_lattice(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
-        Self::with(scenario, Storage::Lattice, None)
-    }
-
     fn with(
         scenario: &'a PlanarScenario,
         storage: Storage,
@@ -207,7 +202,6 @@ impl<'a> Integrator<'a> {
     pub(super) fn memory(&self) -> (&'static str, String) {
         let (name, reason) = match (self.storage, self.instead_of_modes) {
             (Storage::Modes(..), _) => ("modes", "exponentials fit f'".into()),
-            (Storage::Lattice, _) => ("lattice", "requested".into()),
             (Storage::Direct, _) => return ("direct", "requested".into()),
             (Storage::Fft, Some(FitError::NotMet { wanted, .. })) => {
                 ("fft", format!("modes do not fit f' to {wanted:.1e}"))

@@ -129,7 +129,8 @@ impl Integrator<'_> {
         over = over.min(self.longest_step()).min(self.longest_healing());
         let limited = self.reach_of_piece();
         let longest = (FARTHEST * limited).min(self.visits.farthest(over * self.healing()));
-        let outlook = |over: f64| [along, across].map(|series| Outlook::of(&series.over(over)));
+        // Not by a map of the array, which copies series.
+        let outlook = |over: f64| [Outlook::over(along, over), Outlook::over(across, over)];
         let moved = |outlook: &[Outlook; 2]| self.effective([outlook[0].moved, outlook[1].moved]);
         let mut ahead = outlook(over);
         for _ in 0..MOST_SHORTENINGS {
@@ -281,7 +282,8 @@ impl Integrator<'_> {
     fn remember_series(&mut self, fastest: f64, total: f64) -> Result<(), PlanarError> {
         let healing = total * self.healing();
         let rule = self.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
-        let [x, y] = self.chain.displacement().each_ref().map(|series| series.over(total));
+        let [x, y] = self.chain.displacement();
+        let (x, y) = (x.over(total), y.over(total));
         self.velocity = [x.slope_at_end() / total, y.slope_at_end() / total];
         let (mut room_x, mut room_y) = (visits::ROOM, visits::ROOM);
         let (along, across) = (rule.table.sums(&x, &mut room_x), rule.table.sums(&y, &mut room_y));

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 # A file from memory: a text, bytes, a document, or columns with their headings.
-Supply = str | bytes | Document | Sequence[tuple[str, npt.NDArray[np.float64]]]
+_Supply = str | bytes | Document | Sequence[tuple[str, npt.NDArray[np.float64]]]
 
 @final
 class Document:
@@ -43,11 +43,11 @@ class Document:
 
 def call(
     words: Sequence[str],
-    supplies: Sequence[tuple[str, Supply]],
+    supplies: Sequence[tuple[str, _Supply]],
     progress: Callable[[float | None, str], object] | None = None,
 ) -> tuple[Document | None, list[str]]: ...
 def call_runs(
-    commands: Sequence[tuple[Sequence[str], Sequence[tuple[str, Supply]]]],
+    commands: Sequence[tuple[Sequence[str], Sequence[tuple[str, _Supply]]]],
     progress: Callable[[float | None, str], object] | None = None,
 ) -> tuple[list[tuple[Document | None, str | None]], list[tuple[int, str]]]: ...
 def load(path: str) -> Document: ...

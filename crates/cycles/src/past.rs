@@ -3,7 +3,6 @@
 use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
-use std::cell::RefCell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::with_inverses;
@@ -19,9 +18,10 @@ pub(super) struct Past<'a> {
     left: Vec<Stages>,
 }
 
-/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation.
+/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation. Who linearises again keeps
+/// them, because a new allocation takes longer than writing them.
 #[derive(Default)]
-struct Numbers {
+pub(super) struct Numbers {
     /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `e^{-s_j d_i}`
@@ -32,38 +32,20 @@ struct Numbers {
     zeta: Vec<Complex<f64>>,
 }
 
-thread_local! {
-    /// Buffers for reuse on this thread: a new allocation would take longer than writing them.
-    static ROOM: RefCell<Vec<Numbers>> = const { RefCell::new(vec![]) };
-}
 /// Number of steps whose exponentials are computed together.
 const TOGETHER: usize = 16;
-/// Number of buffers kept, and their largest number of steps and terms.
-const MOST_KEPT: usize = 2;
-const LARGEST_KEPT: usize = 10_000;
 
 impl Numbers {
-    fn with_room_for(count: usize) -> Self {
-        let mut numbers = ROOM.with_borrow_mut(Vec::pop).unwrap_or_default();
-        numbers.exponentials.clear();
-        numbers.inverses.clear();
-        numbers.spent.clear();
-        numbers.zeta.clear();
-        numbers.exponentials.reserve(count);
-        numbers.inverses.reserve(count);
-        numbers.spent.reserve(count);
-        numbers
-    }
-}
-
-impl Drop for Past<'_> {
-    fn drop(&mut self) {
-        let numbers = std::mem::take(&mut self.numbers);
-        ROOM.with_borrow_mut(|room| {
-            if room.len() < MOST_KEPT && numbers.exponentials.capacity() <= LARGEST_KEPT {
-                room.push(numbers);
-            }
-        });
+    /// Empty, with room for this number of steps and terms.
+    fn emptied(mut self, count: usize) -> Self {
+        self.exponentials.clear();
+        self.inverses.clear();
+        self.spent.clear();
+        self.zeta.clear();
+        self.exponentials.reserve(count);
+        self.inverses.reserve(count);
+        self.spent.reserve(count);
+        self
     }
 }
 
@@ -84,13 +66,19 @@ pub(super) struct PastOfStep<'a> {
 }
 
 impl<'a> Past<'a> {
-    /// `None` after a request to stop. `carved` contains the weights and the decay of each step.
+    /// `None` after a request to stop. `carved` contains the weights and the decay of each step; `numbers` are those of an
+    /// earlier history, whose memory is used again.
     ///
     /// Over a step ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
-    pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
+    pub(super) fn of(
+        fit: &'a Fit,
+        orbit: &Orbit,
+        carved: &[Carved],
+        numbers: Numbers,
+    ) -> Option<Self> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
-        let mut numbers = Numbers::with_room_for(count);
+        let mut numbers = numbers.emptied(count);
         let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
         for (steps, carved) in orbit.stages.chunks(TOGETHER).zip(carved.chunks(TOGETHER)) {
             if stop::is_asked() {
@@ -127,6 +115,11 @@ impl<'a> Past<'a> {
         }
         past.follow();
         Some(past)
+    }
+
+    /// The numbers, for another history.
+    pub(super) fn into_numbers(self) -> Numbers {
+        self.numbers
     }
 
     /// ζ at the ends of all steps, from ζ at the start of the period.

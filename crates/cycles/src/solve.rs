@@ -3,7 +3,7 @@
 use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
-use super::linearisation::Linearisation;
+use super::linearisation::{Linearisation, Room};
 use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
@@ -118,6 +118,7 @@ pub(super) fn close_if(
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
     let meshes = if equation.wider.is_papers() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
     let (mut short_of_it, mut is_near) = (0, false);
+    let mut room = Room::default();
     for round in 0..meshes {
         let passes = [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)];
         for (solved, enough) in passes.into_iter().skip(usize::from(is_near)) {
@@ -127,7 +128,8 @@ pub(super) fn close_if(
                 equation.short = Arc::clone(&short);
             }
             let (e, o) = (&mut equation, &mut orbit);
-            let mut newton = Newton { equation: e, orbit: o, condition, precise: &short };
+            let mut newton =
+                Newton { equation: e, orbit: o, condition, precise: &short, room: &mut room };
             let Converged { linearisation, count, size } = newton.solve(solved, enough)?;
             iterations += count;
             work += equation.work((count * orbit.stages.len()) as f64);
@@ -168,7 +170,8 @@ pub(super) fn close_if(
                     linearisation
                 } else {
                     iterations += 1;
-                    let again = Linearisation::new(&equation, &orbit, condition.free, &fine);
+                    let again =
+                        Linearisation::new(&equation, &orbit, condition.free, &fine, &mut room);
                     again.map_err(|_| NotClosed::Lost)?
                 };
                 let linearisation = Arc::new(linearisation);
@@ -199,6 +202,7 @@ struct Newton<'a> {
     condition: Condition,
     /// The alternative sum, if the rough one leads to no solution.
     precise: &'a Arc<Fit>,
+    room: &'a mut Room,
 }
 
 /// The end of an iteration of Newton's method.
@@ -217,7 +221,8 @@ impl Newton<'_> {
         let free = self.condition.free;
         let (mut last, mut far) = (f64::INFINITY, 0);
         for count in 1..=MOST_ITERATIONS {
-            let linearisation = Linearisation::new(self.equation, self.orbit, free, solved);
+            let linearisation =
+                Linearisation::new(self.equation, self.orbit, free, solved, self.room);
             let linearisation = linearisation.map_err(|_| NotClosed::Lost)?;
             let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed::Lost)?;
             self.apply(&change)?;
@@ -286,7 +291,13 @@ impl Closed {
     pub(super) fn monodromy_in(&self, sum: &Arc<Fit>) -> Option<DMatrix<f64>> {
         let Self { equation, orbit, .. } = self;
         let precise = Embedding { short: Arc::clone(sum), ..equation.clone() };
-        let again = Linearisation::new(&precise, orbit, Parameter::Alpha, &equation.fine);
+        let again = Linearisation::new(
+            &precise,
+            orbit,
+            Parameter::Alpha,
+            &equation.fine,
+            &mut Room::default(),
+        );
         again.ok().map(|linearisation| linearisation.monodromy())
     }
 }

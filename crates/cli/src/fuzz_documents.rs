@@ -8,6 +8,7 @@
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
 use crate::commands::sweep::divided::Divided;
+use crate::fuzz::spent;
 use crate::hosted::{Host, Supply, call};
 use allocation_counter::measure;
 use rand::seq::IndexedRandom;
@@ -187,13 +188,6 @@ fn commands(name: &str) -> Vec<(&'static str, bool)> {
         lines.push(("run --units in.json --alpha 1 --r 1 --until 20 --tolerance 1e-4", true));
     }
     lines
-}
-
-/// Processor time of this thread if the system measures it, otherwise wall-clock time.
-fn spent(clock: &Instant) -> Duration {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
-    nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos)
 }
 
 /// Description of a case that ended incorrectly.

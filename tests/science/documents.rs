@@ -3,8 +3,8 @@
 use serde_json::Value;
 use std::io::{self, Read};
 use stickslip::{
-    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, Samples, SweepDocument, WorkDocument,
-    dimension, read, read_from,
+    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, SampleLine, Samples, SweepDocument,
+    WorkDocument, dimension, read, read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
 
@@ -174,4 +174,39 @@ fn no_number_is_longer_than_a_person_reads() {
     }
     assert_eq!(stickslip::to_its_digits(f64::NAN, 1.0), "NaN(?)");
     assert_eq!(stickslip::to_its_digits(1.0, f64::INFINITY), "1e0(?)");
+}
+
+/// A sample at a time, with or without a height.
+fn sample(t: f64, height: Option<f64>) -> SampleLine {
+    let x0 = 10.0 * t;
+    SampleLine {
+        t,
+        l: None,
+        lag: Some(-t),
+        x0,
+        velocity: 10.0,
+        height,
+        weight: None,
+        y0: None,
+        velocity_y: None,
+    }
+}
+
+#[test]
+fn columns_are_those_that_all_samples_have() {
+    let samples: Samples = [sample(0.0, Some(1.0)), sample(1.0, Some(2.0))].into_iter().collect();
+    assert_eq!(samples.height, Some(vec![1.0, 2.0]));
+    assert_eq!((&samples.l, &samples.lag), (&None, &Some(vec![-0.0, -1.0])));
+    assert!(samples.are_even());
+    let samples: Samples = [sample(0.0, Some(1.0)), sample(1.0, None)].into_iter().collect();
+    assert_eq!(samples.height, None);
+}
+
+#[test]
+fn an_interrupted_run_has_the_samples_taken_in_the_order_requested() {
+    // Requested: 5, 1, 3, 0; taken in the order of time, as far as t = 3.
+    let taken: Samples = [0.0, 1.0, 3.0].into_iter().map(|t| sample(t, None)).collect();
+    let ordered = taken.ordered_by(&[3, 1, 2, 0]);
+    assert_eq!(ordered.t, [1.0, 3.0, 0.0]);
+    assert_eq!(ordered.x0, [10.0, 30.0, 0.0]);
 }

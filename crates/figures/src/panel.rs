@@ -10,7 +10,7 @@ use crate::style::{GRID, INK, LABEL_SIZE, PAPER, Pen, SHADE_OPACITY, Shape, TICK
 use crate::text::{width, wrapped};
 use stickslip::{ArrowName, ColourName, PanelDocument};
 
-/// Space to the right of the axes, for half of the last tick label.
+/// Least space to the right of the axes.
 const MARGIN_RIGHT: f64 = 28.0;
 /// Space above the axes without a legend.
 pub(crate) const MARGIN_TOP: f64 = 16.0;
@@ -54,9 +54,10 @@ impl<'a> Panel<'a> {
         widest + 16.0 + 1.7 * LABEL_SIZE
     }
 
-    /// Space to the right of the axes.
+    /// Space to the right of the axes, for half of the last tick label at least.
     pub(crate) fn margin_right(&self) -> f64 {
-        self.map.as_ref().map_or(MARGIN_RIGHT, Map::margin_right)
+        let last = self.x.labelled().last().map_or(0.0, |(_, label)| width(label, TICK_SIZE));
+        self.map.as_ref().map_or(MARGIN_RIGHT, Map::margin_right).max(0.5 * last + 2.0)
     }
 
     /// Height of heading and legend, with axes between `left` and `right`.

@@ -3,10 +3,15 @@
 /// A point of a figure.
 pub(crate) type Point = (f64, f64);
 
+/// Number of columns for each column of pixels where a path turns back: there a column contains an arc, no spike.
+const FINER: usize = 8;
+
 /// The visible points of a stretch of curve, if `columns` columns of pixels span `low` to `high`: of consecutive
-/// points in one column only the lowest and the highest are kept, in their order, and the ends of the curve.
-/// Stretches with fewer points are unchanged.
+/// points in one column only the lowest and the highest are kept, in their order, and the ends of the curve. The columns
+/// of a path that goes back are finer. Stretches with fewer points are unchanged.
 pub(crate) fn thin(points: Vec<Point>, (low, high): (f64, f64), columns: usize) -> Vec<Point> {
+    let goes_back = !points.is_sorted_by(|a, b| a.0 <= b.0);
+    let columns = if goes_back { FINER * columns } else { columns };
     if points.len() <= 2 * columns {
         return points;
     }
@@ -68,6 +73,22 @@ mod tests {
         assert!(thinned.is_sorted_by(|a, b| a.0 <= b.0));
         assert_eq!(thinned.first(), points.first());
         assert_eq!(thinned.last(), points.last());
+    }
+
+    #[test]
+    fn a_circle_stays_round() {
+        let columns = 280;
+        let angles = (0..200_000).map(|i| std::f64::consts::TAU * f64::from(i) / 2000.0);
+        let points: Vec<Point> = angles.map(|a| (a.cos(), a.sin())).collect();
+        let thinned = thin(points, (-1.0, 1.0), columns);
+        // Distance of the chords from the circle, in columns: 1 with columns of pixels.
+        let off = |pair: &[Point]| {
+            let middle = ((pair[0].0 + pair[1].0) / 2.0, (pair[0].1 + pair[1].1) / 2.0);
+            (1.0 - middle.0.hypot(middle.1)) * columns as f64 / 2.0
+        };
+        let worst = thinned.windows(2).map(off).fold(0.0, f64::max);
+        println!("{worst}");
+        assert!(worst < 0.2, "{worst}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::axes::R;
 use super::drawn::{Drawn, View};
-use super::tip::tip_name;
+use super::tip::{terms_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
@@ -25,13 +25,15 @@ impl Drawn for SnakingBoundaryDocument {
         let held = [
             (", r = ", parameters.r.filter(|_| over_stiffness)),
             (", κ_y = ", parameters.stiffness_across.filter(|_| !over_stiffness)),
-            (", b = ", parameters.law.depth_limit),
-            (", T = ", parameters.law.healing_time),
-            (", M = ", parameters.law.inertia),
         ];
         let held =
             held.iter().filter_map(|(name, value)| value.map(|v| format!("{name}{}", short(v))));
-        let title = tip_name(&(&parameters.tip.0).into()) + &held.collect::<String>();
+        let title = format!(
+            "{}{}{}",
+            tip_name(&(&parameters.tip.0).into()),
+            held.collect::<String>(),
+            terms_name(&parameters.law)
+        );
         let mut figure = FigureDocument::new("snaking-boundary", &title, vec![]);
         let mut threshold = PanelDocument::new("", (label, "critical α"));
         let mut snaking = CurveDocument::new(StyleName::Line, "snaking", x, &self.alpha);

@@ -16,7 +16,7 @@ use stickslip_cli::hosted::{self, Host, Made, Refusal, Supply};
 
 /// Time between two checks of signals and progress.
 const LOOK: Duration = Duration::from_millis(40);
-/// Time for cancelled work to end. Work that takes longer continues, and nobody waits for it.
+/// Time for cancelled work to end. Work that takes longer continues in the background.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Size of the stack, as of a main thread.
 const STACK: usize = 8 << 20;

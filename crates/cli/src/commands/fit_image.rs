@@ -2,11 +2,10 @@
 
 use super::ask::{context, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
-use super::tip::{measured_image, metres};
+use super::tip::{ImageInUnits, measured_image, metres};
 use crate::arguments::{Either, FitArguments, Length, Options, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
-use crate::files::gsf::read_gsf;
 use crate::files::input::{TipFile, read_tip};
 use crate::session::Session;
 use serde_json::{Map, Value, json};
@@ -40,23 +39,21 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     let options = without_width(arguments);
     let mut values = options.values(session)?;
     refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
-    let (image, unit) =
-        measured_image(session, OPTION, path, values.get("unit").and_then(Value::as_str))?;
     let given = values.get("unit").and_then(Value::as_str);
+    let ImageInUnits { image, unit, .. } = measured_image(session, OPTION, path, given)?;
     let beside = |option: &str, path: Option<&Path>| {
         let Some(path) = path else { return Ok(None) };
-        let (image, other) = measured_image(session, option, path, given)?;
-        if other == unit {
-            return Ok(Some(image));
+        let read = measured_image(session, option, path, given)?;
+        if read.unit == unit {
+            return Ok(Some(read));
         }
         let message = "its lengths have another unit than those of --image";
         Err(Failure::input(format!("{option} {}", path.display()), message))
     };
-    let retrace_image = beside(RETRACE, arguments.retrace_image.as_deref())?;
-    let lateral = arguments.lateral_image.as_deref();
-    let lateral_image = beside(LATERAL, lateral)?;
-    let read = lateral.map(|path| read_gsf(session, LATERAL, path)).transpose()?;
-    let lateral_unit = read.and_then(|image| image.z_unit);
+    let retrace_image = beside(RETRACE, arguments.retrace_image.as_deref())?.map(|read| read.image);
+    let lateral = beside(LATERAL, arguments.lateral_image.as_deref())?;
+    let (lateral_image, lateral_unit) = lateral.map(|read| (read.image, read.z_unit)).unzip();
+    let lateral_unit = lateral_unit.flatten();
     if let Some(gain) = arguments.force_gain {
         values.insert("force_gain".into(), json!(gain));
     }

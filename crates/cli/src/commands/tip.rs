@@ -54,7 +54,7 @@ struct Data {
 impl Data {
     fn read(session: &Session, path: &Path, given: Option<&str>) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf")) {
-            let (image, unit) = measured_image(session, OPTION, path, given)?;
+            let ImageInUnits { image, unit, .. } = measured_image(session, OPTION, path, given)?;
             return Ok(Self { profile: MeasuredProfile::default(), image: Some(image), unit });
         }
         let sheet = read_measured(session, OPTION, path, &[2])?;
@@ -72,17 +72,25 @@ impl Data {
     }
 }
 
-/// An image in a file, and the unit of its positions.
+/// An image with the units of its positions and of its heights.
+pub(super) struct ImageInUnits {
+    pub(super) image: MeasuredImage,
+    pub(super) unit: Option<String>,
+    pub(super) z_unit: Option<String>,
+}
+
+/// The image in a file.
 pub(super) fn measured_image(
     session: &Session,
     option: &str,
     path: &Path,
     given: Option<&str>,
-) -> Result<(MeasuredImage, Option<String>), Failure> {
+) -> Result<ImageInUnits, Failure> {
     let read = read_gsf(session, option, path)?;
     let heading = Heading::of(if read.in_nanometres { "x_nm" } else { "x" });
     let unit = unit((option, path), given, &heading)?;
-    Ok((MeasuredImage { x: read.x, y: read.y, rows: read.rows }, unit))
+    let image = MeasuredImage { x: read.x, y: read.y, rows: read.rows };
+    Ok(ImageInUnits { image, unit, z_unit: read.z_unit })
 }
 
 /// Unit of the positions.

@@ -47,7 +47,7 @@ impl SteadyPast {
         let profile = tip.fading_tail(x, s);
         let (value, slope) = tip.value_and_slope(x);
         let steep = s * profile - value;
-        [profile, steep, s * steep - slope].map(|told| density * told)
+        [profile, steep, s * steep - slope].map(|value| density * value)
     }
 }
 

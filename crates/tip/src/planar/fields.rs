@@ -105,13 +105,13 @@ impl Layered for Fields {
     fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         let left = self.fading.left().unwrap_or(1.0);
         let of_steady = self.steady.map_or([0.0; 3], |past| past.groove(&self.along, displacement));
-        for (told, of_past) in jet.iter_mut().zip(of_steady) {
-            let all = told.as_flattened_mut().iter_mut().zip(self.of_steady.as_flattened());
-            all.for_each(|(told, phi)| *told = of_past * phi);
+        for (row, of_past) in jet.iter_mut().zip(of_steady) {
+            let all = row.as_flattened_mut().iter_mut().zip(self.of_steady.as_flattened());
+            all.for_each(|(entry, phi)| *entry = of_past * phi);
         }
         for (m, layer) in self.layers.iter().enumerate() {
-            for (told, of_layer) in jet.iter_mut().zip(layer.jet(displacement)) {
-                told.as_flattened_mut()[m] += left * of_layer;
+            for (row, of_layer) in jet.iter_mut().zip(layer.jet(displacement)) {
+                row.as_flattened_mut()[m] += left * of_layer;
             }
         }
     }

@@ -155,6 +155,26 @@ fn memory_is_flat() {
     assert!(late <= early + early / 4 && late < 4000, "{early} {late}");
 }
 
+/// Runs a scenario, interrupts it after these numbers of steps, and compares the steps that follow with those of the whole.
+pub(crate) fn resumes_with_the_same_bits(scenario: &PlanarScenario, interruptions: &[usize]) {
+    let whole = run(scenario).unwrap().trajectory;
+    for interrupted in interruptions.iter().copied() {
+        let mut running = PlanarRunning::new(scenario).unwrap();
+        for _ in 0..interrupted {
+            running.step().unwrap();
+        }
+        let mut state = State::default();
+        running.save(&mut state);
+        let mut reader = state.reader();
+        let mut resumed = PlanarRunning::resumed(scenario, &mut reader).unwrap();
+        reader.finish().unwrap();
+        assert_eq!(resumed.work(), running.work());
+        let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
+        let memory = scenario.along.memory;
+        assert_eq!(rest, whole.steps()[interrupted..], "{memory:?} {interrupted}");
+    }
+}
+
 /// Of a line forth and back, by exponentials and by the lattice: wherever it is interrupted, the rest has the same bits.
 #[test]
 fn a_run_taken_up_again_is_the_same() {
@@ -164,21 +184,7 @@ fn a_run_taken_up_again_is_the_same() {
         let mut scenario = line((tip, wider), 1.2, 0.25, [0.1, 0.2], 24.0);
         let (t, displacement) = (vec![0.0, 6.0, 16.0, 24.0], vec![0.0, 6.0, -4.0, 5.0]);
         scenario.along.path = Some(SupportPath::new(t, displacement).unwrap());
-        let whole = run(&scenario).unwrap().trajectory;
-        for interrupted in [0, 1, 7, 20, 40, 60] {
-            let mut running = PlanarRunning::new(&scenario).unwrap();
-            for _ in 0..interrupted {
-                running.step().unwrap();
-            }
-            let mut state = State::default();
-            running.save(&mut state);
-            let mut reader = state.reader();
-            let mut resumed = PlanarRunning::resumed(&scenario, &mut reader).unwrap();
-            reader.finish().unwrap();
-            assert_eq!(resumed.work(), running.work());
-            let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
-            assert_eq!(rest, whole.steps()[interrupted..], "{interrupted}");
-        }
+        resumes_with_the_same_bits(&scenario, &[0, 1, 7, 20, 40, 60]);
     }
 }
 

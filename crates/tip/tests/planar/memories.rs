@@ -1,6 +1,7 @@
 //! Each memory against the reference: the definition, convolution by FFT, exponentials.
 
 use super::footprints::{gaussians, star};
+use super::limits::resumes_with_the_same_bits;
 use super::lines::{differences, line, on_a_path, problem, support_on, tip};
 use super::reference::Problem;
 use stickslip_tip::planar::{PlanarRunning, PlanarScenario, run};
@@ -100,20 +101,7 @@ fn a_run_of_each_memory_taken_up_again_is_the_same() {
     for memory in MEMORIES {
         let scenario = line((tip(1.0, 1.0), wider), 1.4, 0.25, [0.1, 0.6], 30.0);
         let scenario = with(&scenario, memory);
-        let whole = run(&scenario).unwrap().trajectory;
-        for interrupted in [0, 1, 7, 20, 30] {
-            let mut running = PlanarRunning::new(&scenario).unwrap();
-            for _ in 0..interrupted {
-                running.step().unwrap();
-            }
-            let mut state = State::default();
-            running.save(&mut state);
-            let mut reader = state.reader();
-            let mut resumed = PlanarRunning::resumed(&scenario, &mut reader).unwrap();
-            reader.finish().unwrap();
-            let rest: Vec<_> = std::iter::from_fn(|| resumed.step().unwrap()).collect();
-            assert_eq!(rest, whole.steps()[interrupted..], "{memory:?} {interrupted}");
-        }
+        resumes_with_the_same_bits(&scenario, &[0, 1, 7, 20, 30]);
         // A state that is cut short is an error.
         let mut running = PlanarRunning::new(&scenario).unwrap();
         (0..5).for_each(|_| assert!(running.step().unwrap().is_some()));

@@ -75,8 +75,8 @@ struct Motion {
 struct Groove {
     order: usize,
     groups: usize,
-    /// v, and η at the start.
-    width: f64,
+    /// 1/v, and η at the start.
+    per_width: f64,
     eta: f64,
     /// Row k: coefficients of t^k of A, n after n, each of all layers.
     rows: Vec<Lanes>,
@@ -122,9 +122,9 @@ impl Ladder {
 
     /// φ of order k + 1 by `φ' = ψ y0'/v`, and ψ of its neighbours. ψ of the last layer lacks the neighbour above.
     #[inline(always)]
-    fn advance(&mut self, groups: usize, k: usize, motion: &Motion, width: f64) {
+    fn advance(&mut self, groups: usize, k: usize, motion: &Motion, per_width: f64) {
         let both = 2 * groups;
-        let scale = INVERSE[k + 1] / width;
+        let scale = INVERSE[k + 1] * per_width;
         let known = (self.order - 1 - k) * both;
         let (new, before) = self.layers[known - both..].split_at_mut(both);
         let (psi, phi) = new.split_at_mut(groups);
@@ -147,7 +147,7 @@ impl Ladder {
 
     /// The neighbour above the last layer of a single Gaussian: `ψ = √m φ_{m-1} - η φ_m`, after [`advance`](Self::advance).
     #[inline(always)]
-    fn close(&mut self, groups: usize, k: usize, y: &Series, (eta, width): (f64, f64)) {
+    fn close(&mut self, groups: usize, k: usize, y: &Series, (eta, per_width): (f64, f64)) {
         let both = 2 * groups;
         let known = (self.order - 1 - k) * both;
         let (new, before) = self.layers[known - both..].split_at_mut(both);
@@ -155,7 +155,7 @@ impl Ladder {
         for (phi, y) in before.chunks_exact(both).zip(&y.coefficients()[1..]) {
             top += y * phi[both - 1][LANES - 1];
         }
-        let top = eta * new[both - 1][LANES - 1] + top / width;
+        let top = eta * new[both - 1][LANES - 1] + top * per_width;
         new[groups - 1][LANES - 1] -= top;
     }
 }
@@ -257,7 +257,7 @@ impl Chain {
             for groove in &self.grooves {
                 let [slope, beside] = groove.slopes(known, k);
                 along += slope;
-                across += beside / groove.width;
+                across += beside * groove.per_width;
             }
             if acting.relief.is_some() {
                 let jet = self.ground.at(k);
@@ -317,7 +317,7 @@ impl Groove {
         Self {
             order,
             groups: 0,
-            width: 1.0,
+            per_width: 1.0,
             eta: 0.0,
             rows: vec![],
             visits: Ladder::new(order, 0),
@@ -344,8 +344,8 @@ impl Groove {
     }
 
     fn stand_at(&mut self, bells: &Bells, eta: f64, room: &mut Vec<Lanes>) {
-        (self.eta, self.width) = (eta, bells.width());
-        self.visits.stand_at(&Bells::single(self.width), eta, room);
+        (self.eta, self.per_width) = (eta, 1.0 / bells.width());
+        self.visits.stand_at(&Bells::single(bells.width()), eta, room);
         if !bells.is_single() {
             // Order k of layer m takes order 0 of layer m + k.
             let groups = self.groups + (self.order - 1).div_ceil(LANES);
@@ -361,12 +361,12 @@ impl Groove {
     }
 
     fn curvatures(&self, bells: &Bells, room: &mut Vec<Lanes>) -> Curvatures {
-        let (groups, width) = (self.groups, self.width);
+        let (groups, per_width) = (self.groups, self.per_width);
         let (psi, phi) = self.reading().first();
         let of = |n: usize, layers: &[Lanes]| dot(layers, &self.rows[n * groups..][..groups]);
         let [along, mixed] = [of(2, phi), of(1, psi)];
         let bend = bells.bend(self.eta, groups, room);
-        [-along, -mixed / width, -of(0, bend) / (width * width)]
+        [-along, -mixed * per_width, -of(0, bend) * (per_width * per_width)]
     }
 
     /// Coefficients of order k of `Σ_m φ_m A_m1` and `Σ_m ψ_m A_m0`.
@@ -417,10 +417,10 @@ impl Groove {
         acting: &Acting,
     ) {
         let groups = known.unwrap_or(self.groups);
-        self.visits.advance(groups, k, motion, self.width);
-        self.visits.close(groups, k, &motion.displacement[1], (self.eta, self.width));
+        self.visits.advance(groups, k, motion, self.per_width);
+        self.visits.close(groups, k, &motion.displacement[1], (self.eta, self.per_width));
         if let Some(read) = &mut self.read {
-            read.advance(read.groups, k, motion, self.width);
+            read.advance(read.groups, k, motion, self.per_width);
         }
         self.next_row(groups, k, (&motion.along, weighing), acting);
     }
@@ -457,27 +457,17 @@ impl Groove {
         let sums = Sums { rows: before, stride, factors, scale };
         let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
         let done = groups + blocks.len() * BLOCK;
-        let (fours, rest_of_fours) = rest.as_chunks_mut::<4>();
-        let done_fours = done + fours.len() * 4;
-        let (twos, ones) = rest_of_fours.as_chunks_mut::<2>();
-        let done_twos = done_fours + twos.len() * 2;
         for (b, block) in blocks.iter_mut().enumerate() {
             sums.add(groups + b * BLOCK, block);
         }
-        for block in fours {
-            sums.add(done, block);
-        }
-        for block in twos {
-            sums.add(done_fours, block);
-        }
-        for entry in ones {
-            sums.add(done_twos, std::array::from_mut(entry));
+        for (i, entry) in rest.iter_mut().enumerate() {
+            sums.add(done + i, std::array::from_mut(entry));
         }
     }
 }
 
 /// Number of entries of a row that are summed in SIMD lanes.
-const BLOCK: usize = 12;
+const BLOCK: usize = 4;
 
 /// Rows one after the other, with factors of them and one of their sum.
 struct Sums<'a> {
@@ -506,16 +496,16 @@ impl Sums<'_> {
 
 /// Also compiled for wider vectors: products and sums are not fused, and each lane is a separate sum, so that the
 /// bits are the same.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
     let known = match &chain.grooves[..] {
         [groove] if groove.read.is_none() => groove.groups,
         _ => 0,
     };
     match known {
+        1 => chain.coefficients(Some(1), acting),
         2 => chain.coefficients(Some(2), acting),
         3 => chain.coefficients(Some(3), acting),
-        4 => chain.coefficients(Some(4), acting),
         _ => chain.coefficients(None, acting),
     }
 }

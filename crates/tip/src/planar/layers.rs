@@ -21,7 +21,7 @@ use crate::elementary::exp;
 use crate::integrator::taylor::MOST_ORDER;
 
 /// Number of layers in a SIMD vector; the number of layers is a multiple of it.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 8;
 /// A group of layers.
 pub(super) type Lanes = [f64; LANES];
 /// Largest number of layers, for a range of 20 widths: more would cost more than a sum over the history.
@@ -192,8 +192,11 @@ pub(super) fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {
 
 #[inline(always)]
 pub(super) fn total(sums: &Lanes) -> f64 {
-    // One after the other: sums in pairs would be made in pairs from the start.
-    ((sums[0] + sums[1]) + sums[2]) + sums[3]
+    // In memory first: the compiler would otherwise take the lanes apart where the sums are made.
+    let sums = std::hint::black_box(*sums);
+    const HALF: usize = LANES / 2;
+    let pair = |i: usize| sums[i] + sums[i + HALF];
+    (pair(0) + pair(2)) + (pair(1) + pair(3))
 }
 
 #[cfg(test)]

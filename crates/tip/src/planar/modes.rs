@@ -12,30 +12,25 @@
 use super::layers::{self, LANES, Lanes};
 use crate::elementary::complex_exp;
 use crate::exponential::of_lanes;
-use crate::memory::{Fit, Powers, SteadyPast};
+use crate::memory::{Fit, HIGHEST_DEGREE, Prepared, SteadyPast, TERMS, Terms};
 use crate::state::{Damaged, Reader, State};
 use multiversion::multiversion;
 use num_complex::Complex;
 use std::sync::Arc;
 
-/// Number of exponentials in a SIMD vector.
-const TERMS: usize = 4;
-type Terms = ([f64; TERMS], [f64; TERMS]);
-
 /// The whole past.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
     fit: Arc<Fit>,
-    powers: Powers,
-    exponents: Vec<Terms>,
+    prepared: Arc<Prepared>,
     /// Layers, in groups of lanes.
     groups: usize,
     /// For each term the layers of the real part of its state, then those of the imaginary part.
     states: Vec<Lanes>,
     /// The farthest-forward position, as a displacement from the tip.
     farthest: f64,
-    /// Scratch space for exponentials.
-    room: Vec<Terms>,
+    /// Scratch space for moments of visits.
+    moments: Vec<Lanes>,
 }
 
 /// For each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
@@ -44,15 +39,8 @@ pub(super) type Integrals<'a> = [&'a mut [Lanes]; 3];
 impl Modes {
     /// An empty memory.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
-        let terms = fit.terms();
-        let lanes = |terms: &[crate::memory::Term]| -> Terms {
-            let part = |i: usize| terms.get(i).map_or(Complex::from(-1.0), |term| term.exponent);
-            (std::array::from_fn(|i| part(i).re), std::array::from_fn(|i| part(i).im))
-        };
-        let exponents: Vec<Terms> = terms.chunks(TERMS).map(lanes).collect();
-        let powers = Powers::new(terms);
-        let farthest = f64::NEG_INFINITY;
-        Self { fit, powers, exponents, groups: 0, states: vec![], farthest, room: vec![] }
+        let (prepared, farthest) = (Prepared::cached(&fit), f64::NEG_INFINITY);
+        Self { fit, prepared, groups: 0, states: vec![], farthest, moments: vec![] }
     }
 
     /// Number of exponentials; a conjugate pair counts as one.
@@ -87,7 +75,7 @@ impl Modes {
 
     /// Derivatives of g at 0, from the sum of exponentials.
     pub(super) fn of_tip(&self) -> &[f64] {
-        self.powers.of_tip()
+        self.prepared.powers.of_tip()
     }
 
     /// Changes the number of layers; new layers are 0.
@@ -132,8 +120,39 @@ impl Modes {
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
-        let weighted = (weighted, self.groups);
-        carry(&mut self.states, &self.exponents, position, weighted, &mut self.room);
+        self.advance_from(0.0, position, weighted);
+    }
+
+    /// The same for a tip that stands at `start`, in parts if no expansion reaches so far.
+    fn advance_from(&mut self, start: f64, position: &[f64], weighted: &[Lanes]) {
+        let Some(&end) = position.last() else { return };
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
+        if let Some(degree) = self.prepared.bank.degree(radius) {
+            let count = (degree + 1).next_multiple_of(BLOCK);
+            self.moments.resize(count * self.groups, [0.0; LANES]);
+            moments(position, weighted, middle, &mut self.moments);
+            self.carry(half, (degree + 1) * self.groups);
+        } else if position.len() > 1 {
+            let (first, rest) = position.split_at(position.len() / 2);
+            let (first_weighted, rest_weighted) = weighted.split_at(first.len() * self.groups);
+            self.advance_from(start, first, first_weighted);
+            self.advance_from(first[first.len() - 1], rest, rest_weighted);
+        } else {
+            self.carry(half, 0);
+            let states = self.states.chunks_exact_mut(2 * self.groups);
+            states.for_each(|state| add(&mut state[..weighted.len()], weighted, 1.0));
+        }
+    }
+
+    /// Moves the tip over twice this distance, with as many numbers of the moments of the visits.
+    fn carry(&mut self, half: f64, count: usize) {
+        let moments = &self.moments[..count];
+        for (terms, states) in
+            self.prepared.bank.terms().zip(self.states.chunks_mut(2 * TERMS * self.groups))
+        {
+            carry(states, terms, half, (moments, self.groups));
+        }
     }
 
     /// Writes the state, and the exponents that it belongs to.
@@ -169,13 +188,13 @@ impl Modes {
     /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
     /// many as there is room for.
     pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
-        derivatives(self.powers.rows(), &self.states, factor, told);
+        derivatives(self.prepared.powers.rows(), &self.states, factor, told);
     }
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
     pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
-        let exponentials = self.exponents.iter().flat_map(|exponents| {
+        let exponentials = self.prepared.bank.terms().flat_map(|(exponents, _)| {
             let (re, im) = of_lanes(*exponents, displacement);
             (0..TERMS).map(move |i| Complex::new(re[i], im[i]))
         });
@@ -202,51 +221,88 @@ fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
     }
 }
 
-/// `z_jm ← e^{s_j Δ} z_jm + Σ_k weighted_km e^{s_j (Δ - position_k)}`; `room` is for the exponentials of a group of terms.
-///
-/// Compiled for wider vectors too: lanes and the order of sums are the same.
-#[multiversion(targets("x86_64+avx2"))]
-fn carry(
-    states: &mut [Lanes],
-    exponents: &[Terms],
-    position: &[f64],
-    (weighted, groups): (&[Lanes], usize),
-    room: &mut Vec<Terms>,
-) {
-    let moved = position[position.len() - 1];
-    for (states, exponents) in states.chunks_mut(2 * TERMS * groups).zip(exponents) {
-        let (re, im) = of_lanes(*exponents, moved);
-        room.clear();
-        for position in &position[..position.len() - 1] {
-            room.push(of_lanes(*exponents, moved - position));
-        }
-        // The tip stands at the last of them.
-        room.push(([1.0; TERMS], [0.0; TERMS]));
-        for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
-            let (real, imaginary) = state.split_at_mut(groups);
-            for (g, (a, b)) in real.iter_mut().zip(imaginary).enumerate() {
-                let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
-                for m in 0..LANES {
-                    (x[m], y[m]) = (re[i] * a[m] - im[i] * b[m], re[i] * b[m] + im[i] * a[m]);
+/// `Σ_k weighted_km (from - position_k)^n/n!`: `groups` of lanes for each n. With these, `Σ_k weighted_km e^{s (from -
+/// position_k)}` is a polynomial of s.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn moments(position: &[f64], weighted: &[Lanes], from: f64, moments: &mut [Lanes]) {
+    let groups = weighted.len() / position.len();
+    for (block, moments) in moments.chunks_exact_mut(BLOCK * groups).enumerate() {
+        for g in 0..groups {
+            let mut sums = [[0.0; LANES]; BLOCK];
+            for (position, weighted) in position.iter().zip(weighted.chunks_exact(groups)) {
+                let y = from - position;
+                let square = y * y;
+                let factors = [1.0, y, square, square * y];
+                let mut first = 1.0;
+                for _ in 0..block {
+                    first *= square * square;
                 }
-                for (weighted, (re, im)) in weighted.chunks_exact(groups).zip(&*room) {
-                    for m in 0..LANES {
-                        x[m] += re[i] * weighted[g][m];
-                        y[m] += im[i] * weighted[g][m];
+                for (sum, factor) in sums.iter_mut().zip(&factors) {
+                    let factor = first * factor;
+                    for i in 0..LANES {
+                        sum[i] += factor * weighted[g][i];
                     }
                 }
-                (*a, *b) = (x, y);
+            }
+            let inverse = &INVERSE_FACTORIALS[BLOCK * block..];
+            for ((moments, sum), inverse) in
+                moments.chunks_exact_mut(groups).zip(&sums).zip(inverse)
+            {
+                for i in 0..LANES {
+                    moments[g][i] = inverse * sum[i];
+                }
+            }
+        }
+    }
+}
+
+/// Moments of the highest degree, with those that fill the last block.
+const FACTORIALS: usize = (HIGHEST_DEGREE + 1).next_multiple_of(BLOCK);
+/// 1/n!
+const INVERSE_FACTORIALS: [f64; FACTORIALS] = {
+    let mut inverse = [1.0; FACTORIALS];
+    let mut n = 1;
+    while n < FACTORIALS {
+        inverse[n] = inverse[n - 1] / n as f64;
+        n += 1;
+    }
+    inverse
+};
+
+/// `z_jm ← E (E z_jm + Σ_n s_j^n moments_nm)` with `E = e^{s_j half}`, for a group of terms.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn carry(
+    states: &mut [Lanes],
+    (exponents, powers): (&Terms, &[Terms]),
+    half: f64,
+    (moments, groups): (&[Lanes], usize),
+) {
+    let (re, im) = of_lanes(*exponents, half);
+    for (i, state) in states.chunks_exact_mut(2 * groups).enumerate() {
+        let (real, imaginary) = state.split_at_mut(groups);
+        for (g, (a, b)) in real.iter_mut().zip(imaginary).enumerate() {
+            let (mut x, mut y) = ([0.0; LANES], [0.0; LANES]);
+            for ((re, im), moments) in powers.iter().zip(moments.chunks_exact(groups)) {
+                for m in 0..LANES {
+                    x[m] += re[i] * moments[g][m];
+                    y[m] += im[i] * moments[g][m];
+                }
+            }
+            for m in 0..LANES {
+                (x[m], y[m]) =
+                    (x[m] + (re[i] * a[m] - im[i] * b[m]), y[m] + (re[i] * b[m] + im[i] * a[m]));
+                (a[m], b[m]) = (re[i] * x[m] - im[i] * y[m], re[i] * y[m] + im[i] * x[m]);
             }
         }
     }
 }
 
 /// Number of derivatives that are summed in SIMD lanes.
-const BLOCK: usize = 8;
+const BLOCK: usize = 4;
 
 /// Products of rows and states, in the order of the terms: the same bits on every machine. The results are `groups`
 /// of lanes for each derivative, and some more that fill the last block.
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn derivatives<const ROOM: usize>(
     rows: &[[f64; ROOM]],
     states: &[Lanes],

@@ -115,9 +115,9 @@ fn collocation_converges_at_its_order() {
 #[test]
 fn work_is_what_it_was() {
     for (alpha, stiffness, tolerance, until, work, layers) in [
-        (1.2, 0.25, 1e-7, 60.0, [57, 0, 0, 54, 0], (24, 3)),
-        (1.62, 1.0, 1e-9, 60.0, [202, 0, 0, 97, 0], (16, 1)),
-        (4.0, 0.5, 1e-9, 200.0, [67, 0, 54, 23, 1], (28, 4)),
+        (1.2, 0.25, 1e-7, 60.0, [57, 0, 0, 54, 0], (24, 2)),
+        (1.62, 1.0, 1e-9, 60.0, [202, 0, 0, 97, 0], (16, 0)),
+        (4.0, 0.5, 1e-9, 200.0, [67, 0, 54, 23, 1], (32, 4)),
     ] {
         let mut scenario = line((tip(1.0, 1.0), plain()), alpha, stiffness, [0.05, 0.1], until);
         scenario.along.tolerance = tolerance;
@@ -136,7 +136,7 @@ fn eight_layers_are_1_6_times_the_series_of_a_tip_on_its_line() {
     let free = run(&scenario).unwrap();
     let held = stickslip_tip::run(&scenario.along).unwrap();
     assert_eq!((free.layers.most, free.layers.changes), (8, 0));
-    assert_eq!([free.work.steps, free.work.series], [1233, 1073]);
+    assert_eq!([free.work.steps, free.work.series], [1246, 1082]);
     assert_eq!([held.work.steps, held.work.series], [1402, 670]);
 }
 

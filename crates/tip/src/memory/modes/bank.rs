@@ -20,7 +20,7 @@ pub(super) struct Bank {
 
 /// What of it follows from the terms alone.
 #[derive(Debug, Clone)]
-pub(super) struct Tables {
+pub(crate) struct Tables {
     /// Nothing remembered.
     groups: Vec<Group>,
     powers: Vec<Powers>,
@@ -28,8 +28,10 @@ pub(super) struct Tables {
     lengths: Vec<f64>,
 }
 
-const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 type Lane = [f64; LANES];
+/// Complex numbers of a group: real parts, imaginary parts.
+pub(crate) type Terms = (Lane, Lane);
 
 #[derive(Debug, Clone, Copy)]
 struct Group {
@@ -58,6 +60,17 @@ impl Tables {
         let groups: Vec<Group> = terms.chunks(LANES).map(group).collect();
         let powers = groups.iter().map(|group| powers::powers(group.exponent)).collect();
         Self { groups, powers, lengths: expansion_lengths(terms, fit.wanted()) }
+    }
+
+    /// The exponents in groups of lanes, and their powers from the 0th on.
+    pub(crate) fn terms(&self) -> impl Iterator<Item = (&Terms, &[Terms])> {
+        self.groups.iter().zip(&self.powers).map(|(group, powers)| (&group.exponent, &powers[..]))
+    }
+
+    /// The degree that expands every `e^{s_j y}` for |y| ≤ radius.
+    pub(crate) fn degree(&self, radius: f64) -> Option<usize> {
+        let k = self.lengths.partition_point(|length| *length < radius);
+        (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
     }
 }
 
@@ -118,7 +131,7 @@ impl Bank {
         let Some(&end) = position.last() else { return };
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
-        if let Some(degree) = self.degree(radius) {
+        if let Some(degree) = self.tables.degree(radius) {
             let visits = (position, weight);
             powers::carry(&mut self.groups, &self.tables.powers, visits, (middle, half), degree);
         } else if position.len() > 1 {
@@ -174,7 +187,7 @@ impl Bank {
         groove: &mut LocalGroove,
         with_height: bool,
     ) -> bool {
-        let Some(degree) = self.degree(radius) else { return false };
+        let Some(degree) = self.tables.degree(radius) else { return false };
         let coefficients = groove.about(center, radius, degree);
         let mut height = [0.0; LANES];
         for group in &self.groups {
@@ -197,13 +210,6 @@ impl Bank {
             groove.set_height(height.iter().sum());
         }
         true
-    }
-
-    /// The degree that expands every `e^{s_j y}` for |y| ≤ radius.
-    fn degree(&self, radius: f64) -> Option<usize> {
-        let lengths = &self.tables.lengths;
-        let k = lengths.partition_point(|length| *length < radius);
-        (k < lengths.len()).then_some(k + LOWEST_DEGREE)
     }
 }
 

@@ -14,11 +14,11 @@ mod weights;
 mod window;
 
 pub use accuracy::{accuracy_needed, displacement};
-pub(crate) use bank::{LOWEST_DEGREE, expansion_lengths};
+pub(crate) use bank::{LANES as TERMS, LOWEST_DEGREE, Terms, expansion_lengths};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub(crate) use local::HIGHEST_DEGREE;
-pub(crate) use powers::Powers;
+pub(crate) use prepared::Prepared;
 pub use term::Term;
 pub use window::Retreat;
 
@@ -29,7 +29,6 @@ use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
 use num_complex::Complex;
-use prepared::Prepared;
 use std::sync::Arc;
 
 /// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Tables for the states of the exponentials.
 #[derive(Debug)]
-pub(super) struct Prepared {
-    pub(super) bank: Arc<Tables>,
-    pub(super) powers: Powers,
+pub(crate) struct Prepared {
+    pub(crate) bank: Arc<Tables>,
+    pub(crate) powers: Powers,
 }
 
 /// So many fits are remembered.
@@ -17,7 +17,7 @@ const MOST: usize = 32;
 
 impl Prepared {
     /// For this fit, or as made before.
-    pub(super) fn cached(fit: &Arc<Fit>) -> Arc<Self> {
+    pub(crate) fn cached(fit: &Arc<Fit>) -> Arc<Self> {
         static CACHE: Mutex<Vec<(Arc<Fit>, Arc<Prepared>)>> = Mutex::new(vec![]);
         // A thread that panicked did not leave half an entry behind.
         let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -2,11 +2,15 @@
 //! library that would change them shows; where the integrator itself changes, so do the pins, by what the test prints.
 //! `make survive` compares whole documents with those of an older processor, `make test-site` with those of a browser.
 
-use stickslip_tip::{MemoryChoice, Model, Run, Scenario, TipFunction, Wider, run};
+use stickslip_tip::planar::{self, PlanarScenario};
+use stickslip_tip::{Footprint, MemoryChoice, Model, Run, Scenario, TipFunction, Wider, run};
 
 /// FNV-1a of the numbers of all steps.
 fn fingerprint(run: &Run) -> u64 {
-    let numbers = run.trajectory.steps().iter().flat_map(|step| step.numbers());
+    of_numbers(run.trajectory.steps().iter().flat_map(|step| step.numbers()))
+}
+
+fn of_numbers(numbers: impl Iterator<Item = f64>) -> u64 {
     let bytes = numbers.flat_map(|number| number.to_bits().to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |sum, byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
@@ -30,6 +34,27 @@ fn the_bits_of_a_run_are_those_of_every_machine() {
     assert_eq!(told.map(|bits| format!("{bits:#x}")), cases.map(|case| format!("{:#x}", case.3)));
 }
 
+/// Layers across are in wider vectors than all else.
+#[test]
+fn so_are_those_of_a_run_across_the_scan() {
+    let fingerprint = |memory| {
+        let along = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let tip = TipFunction::of_footprint(Footprint::separable(along, 0.8).unwrap());
+        let model = Model::new(tip, 1.4, 1.0).unwrap();
+        let along = Scenario { kick: 0.1, memory, tolerance: 1e-8, ..Scenario::new(model, 60.0) };
+        let scenario = PlanarScenario { kick_across: 0.2, ..PlanarScenario::new(along, 0.3) };
+        let run = planar::run(&scenario).unwrap();
+        assert!(memory == MemoryChoice::Direct || run.layers.changes > 1, "{:?}", run.layers);
+        let numbers = |step: &planar::Step| {
+            step.along.numbers().into_iter().chain([step.y]).chain(step.across)
+        };
+        format!("{:#x}", of_numbers(run.trajectory.steps().iter().flat_map(numbers)))
+    };
+    let memories = [MemoryChoice::Modes, MemoryChoice::Direct];
+    assert_eq!(memories.map(fingerprint), ACROSS.map(|bits| format!("{bits:#x}")));
+}
+
+const ACROSS: [u64; 2] = [0xcf23_bd2f_7e17_1d54, 0x8a06_b63c_1c22_71da];
 const PLAIN: u64 = 0xd78d_97db_a148_17f9;
 const DIRECT: u64 = 0x2f45_ae7b_8c8f_9319;
 const UNDER_WIDER_LAW: u64 = 0x777e_59dc_867b_c51a;

@@ -46,15 +46,18 @@ struct Job {
     given_up: Arc<AtomicBool>,
 }
 
+/// A line, what was made of it, and the rows after it.
+type Made<T> = (Line, T, Rows);
+
 /// What the threads share.
-struct Shared {
+struct Shared<T> {
     /// The next line to begin, and the rows before it.
     next: usize,
     rows: Rows,
     /// Lines under way.
     under_way: BTreeMap<usize, Arc<AtomicBool>>,
-    /// Lines that wait for those before them, with the rows after each.
-    finished: BTreeMap<usize, (Result<Line, RasterError>, Rows)>,
+    /// Lines that wait for those before them.
+    finished: BTreeMap<usize, Result<Made<T>, RasterError>>,
     /// A line whose tip has returned: none begins before it ends.
     returned: Option<usize>,
     /// The first line that has not been handed out.
@@ -109,13 +112,14 @@ impl<'a> Course<'a> {
         self.surface_of(&self.job(n, rows))
     }
 
-    /// Lines from `out` on, on this number of threads, each passed to `take` in their order with the rows after it, until
-    /// that is false or the work is cancelled. One-way and repeated lines only.
-    pub(crate) fn each_line(
+    /// Lines from `out` on, on this number of threads, each passed to `take` in their order with what its thread has made
+    /// of it and the rows after it, until that is false or the work is cancelled. One-way and repeated lines only.
+    pub(crate) fn each_line<T: Send>(
         &self,
         (out, rows): (usize, Rows),
         threads: usize,
-        mut take: impl FnMut(Line, Rows) -> bool,
+        of_line: impl Fn(usize, &Line) -> T + Sync,
+        mut take: impl FnMut(Made<T>) -> bool,
     ) -> Result<(), RasterError> {
         let (next, under_way, finished) = (out, BTreeMap::new(), BTreeMap::new());
         let shared = Shared { next, rows, under_way, finished, returned: None, out, ended: false };
@@ -125,12 +129,13 @@ impl<'a> Course<'a> {
             for _ in 0..threads {
                 scope.spawn(|| {
                     let _on_panic = End { shared, news, is_due: std::thread::panicking };
-                    stop::where_asked_by(&flag, || self.work((shared, news), WAITING * threads));
+                    let work = || self.work((shared, news), WAITING * threads, &of_line);
+                    stop::where_asked_by(&flag, work);
                 });
             }
             let _on_return = End { shared, news, is_due: || true };
-            while let Some((line, rows)) = next_finished(self.plan.lines(), (shared, news)) {
-                if !take(line?, rows) {
+            while let Some(made) = next_finished(self.plan.lines(), (shared, news)) {
+                if !take(made?) {
                     break;
                 }
             }
@@ -139,7 +144,12 @@ impl<'a> Course<'a> {
     }
 
     /// One thread: takes lines until there are no more. At most `most` wait for those before them.
-    fn work(&self, (shared, news): (&Mutex<Shared>, &Condvar), most: usize) {
+    fn work<T>(
+        &self,
+        (shared, news): (&Mutex<Shared<T>>, &Condvar),
+        most: usize,
+        of_line: &impl Fn(usize, &Line) -> T,
+    ) {
         loop {
             let mut now = lock(shared);
             while !now.is_over() && (now.returned.is_some() || now.next >= now.out + most) {
@@ -152,7 +162,12 @@ impl<'a> Course<'a> {
             (now.next, now.rows) = (job.n + 1, job.after.clone());
             now.under_way.insert(job.n, Arc::clone(&job.given_up));
             drop(now);
-            if let Some(made) = self.make(&job, shared).transpose() {
+            let made = self.make(&job, shared).transpose();
+            let with = |(line, rows)| {
+                let of_line = of_line(job.n, &line);
+                (line, of_line, rows)
+            };
+            if let Some(made) = made.map(|made| made.map(with)) {
                 lock(shared).take(&job, made);
                 news.notify_all();
             }
@@ -160,7 +175,11 @@ impl<'a> Course<'a> {
     }
 
     /// Makes a line, and the rows after it; `None` if it is given up.
-    fn make(&self, job: &Job, shared: &Mutex<Shared>) -> Result<Option<(Line, Rows)>, RasterError> {
+    fn make<T>(
+        &self,
+        job: &Job,
+        shared: &Mutex<Shared<T>>,
+    ) -> Result<Option<(Line, Rows)>, RasterError> {
         let mut has_returned = false;
         let made = self.run(job, (0.0, 0.0), |writer, is_ahead| {
             if !is_ahead && !has_returned {
@@ -265,7 +284,7 @@ impl Rows {
     }
 }
 
-impl Shared {
+impl<T> Shared<T> {
     fn is_over(&self) -> bool {
         self.ended || stop::is_asked()
     }
@@ -286,27 +305,24 @@ impl Shared {
     }
 
     /// Takes a line that has been made, unless it was given up meanwhile.
-    fn take(&mut self, job: &Job, made: Result<(Line, Rows), RasterError>) {
+    fn take(&mut self, job: &Job, made: Result<Made<T>, RasterError>) {
         if job.given_up.load(Ordering::Relaxed) {
             return;
         }
         self.under_way.remove(&job.n);
-        let (line, rows) = match made {
-            Ok((line, rows)) => (Ok(line), rows),
-            Err(error) => (Err(error), job.after.clone()),
-        };
         if self.returned == Some(job.n) {
+            let rows = made.as_ref().map_or(&job.after, |(_, _, rows)| rows);
             (self.returned, self.next, self.rows) = (None, job.n + 1, rows.clone());
         }
-        self.finished.insert(job.n, (line, rows));
+        self.finished.insert(job.n, made);
     }
 }
 
 /// The next line in order, once it is finished; `None` after the last one, or when the work ends.
-fn next_finished(
+fn next_finished<T>(
     lines: usize,
-    (shared, news): (&Mutex<Shared>, &Condvar),
-) -> Option<(Result<Line, RasterError>, Rows)> {
+    (shared, news): (&Mutex<Shared<T>>, &Condvar),
+) -> Option<Result<Made<T>, RasterError>> {
     let mut now = lock(shared);
     let n = now.out;
     while n < lines && !now.is_over() {
@@ -321,13 +337,13 @@ fn next_finished(
 }
 
 /// Ends the work of all threads when it is dropped, if that is due.
-struct End<'a> {
-    shared: &'a Mutex<Shared>,
+struct End<'a, T> {
+    shared: &'a Mutex<Shared<T>>,
     news: &'a Condvar,
     is_due: fn() -> bool,
 }
 
-impl Drop for End<'_> {
+impl<T> Drop for End<'_, T> {
     fn drop(&mut self) {
         if (self.is_due)() {
             let mut now = lock(self.shared);
@@ -339,10 +355,10 @@ impl Drop for End<'_> {
     }
 }
 
-fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+fn lock<T>(shared: &Mutex<Shared<T>>) -> MutexGuard<'_, Shared<T>> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn wait<'a>(news: &Condvar, now: MutexGuard<'a, Shared>) -> MutexGuard<'a, Shared> {
+fn wait<'a, T>(news: &Condvar, now: MutexGuard<'a, Shared<T>>) -> MutexGuard<'a, Shared<T>> {
     news.wait_timeout(now, PATIENCE).unwrap_or_else(PoisonError::into_inner).0
 }

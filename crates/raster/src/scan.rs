@@ -115,6 +115,20 @@ impl<'a> Scanning<'a> {
         threads: usize,
         mut take: impl FnMut(&Line) -> bool,
     ) -> Result<(), RasterError> {
+        self.scan_with(threads, |_, _| (), |line, ()| take(line))
+    }
+
+    /// As [`scan`](Self::scan), with what `of_line` makes of the number of a line, from 0, and of the line, on the thread
+    /// that has scanned it.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met.
+    pub fn scan_with<T: Send>(
+        &mut self,
+        threads: usize,
+        of_line: impl Fn(usize, &Line) -> T + Sync,
+        mut take: impl FnMut(&Line, T) -> bool,
+    ) -> Result<(), RasterError> {
         let threads = match threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             given => given,
@@ -123,17 +137,20 @@ impl<'a> Scanning<'a> {
         if let (Past::Traces(course, rows), true) = (past, plan.path != Path::Zigzag && threads > 1)
         {
             let begin = (lines.len(), rows.clone());
-            return course.each_line(begin, threads, |line, after| {
+            return course.each_line(begin, threads, of_line, |(line, made, after)| {
                 *rows = after;
-                let goes_on = take(&line);
+                let goes_on = take(&line, made);
                 lines.push(line);
                 goes_on
             });
         }
+        let mut n = lines.len();
         while let Some(line) = self.next_line()? {
-            if !take(line) {
+            let made = of_line(n, line);
+            if !take(line, made) {
                 break;
             }
+            n += 1;
         }
         Ok(())
     }

@@ -173,15 +173,17 @@ impl<P: Part> Finished<P> {
 
     /// Adds a part, and saves it first.
     pub(super) fn add(&mut self, part: P) -> io::Result<()> {
-        self.keep(&part)?;
+        if self.kept.is_some() {
+            self.keep(&line_of(&part)?)?;
+        }
         self.parts.extend([part]);
         Ok(())
     }
 
-    /// Saves a part in the file, without adding it.
-    pub(super) fn keep(&mut self, part: &P) -> io::Result<()> {
+    /// Saves the [`line_of`] a part in the file, without adding the part.
+    pub(super) fn keep(&mut self, line: &[u8]) -> io::Result<()> {
         if let Some(kept) = &mut self.kept {
-            kept.file.write_all(&line_of(part)?)?;
+            kept.file.write_all(line)?;
             kept.look_after();
         }
         Ok(())
@@ -233,7 +235,7 @@ fn is_removed(_: &File) -> bool {
 }
 
 /// A part as a line with the CRC-32 of its text.
-fn line_of<P: Part>(part: &P) -> io::Result<Vec<u8>> {
+pub(super) fn line_of<P: Part>(part: &P) -> io::Result<Vec<u8>> {
     let text = serde_json::to_string(part)?;
     let sum = crc32fast::hash(text.as_bytes());
     Ok(format!("{{\"crc32\":{sum},\"{}\":{text}}}\n", P::NAME).into_bytes())

@@ -1,11 +1,12 @@
 //! Scan of the lines; each is saved when finished.
 
-use crate::commands::finished::{Finished, Parts};
+use crate::commands::finished::{Finished, Parts, line_of};
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use std::collections::HashSet;
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -46,16 +47,18 @@ pub(super) fn scan(
     }
     let mut progress = Progress::new(session, first as f64, count as f64).at_every_call();
     let (mut index, mut unkept) = (first, None);
-    let mut take = |line: &Line| {
-        if !kept.contains(&index) {
-            unkept = finished.keep(&KeptLine::of(index, line)).err();
-        }
+    let is_kept = finished.path().is_some();
+    let text = |n: usize, line: &Line| {
+        (is_kept && !kept.contains(&n)).then(|| line_of(&KeptLine::of(n, line)))
+    };
+    let mut take = |_: &Line, text: Option<io::Result<Vec<u8>>>| {
+        unkept = text.and_then(|text| text.and_then(|text| finished.keep(&text)).err());
         index += 1;
         scanned.store(index, Ordering::Relaxed);
         progress.counted(index as f64, || format!("{index} of {count} lines"));
         unkept.is_none()
     };
-    let scan = || scanning.scan(threads, &mut take);
+    let scan = || scanning.scan_with(threads, text, &mut take);
     stop::where_asked_by(interrupt.flag(), scan).map_err(failed)?;
     if let Some(error) = unkept {
         let target = finished.path().map_or("memory".into(), |path| path.display().to_string());

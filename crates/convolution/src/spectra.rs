@@ -23,6 +23,7 @@ use crate::{Density, Field, Rows};
 ///
 /// **Guarantee.** The error of ρ̂ is at most 1e-14 Σ|w|, and that of S at most 1e-14 relative to Σ|Ŝ|/P, provided
 /// that all sources and all contributions to S lie inside the range: S repeats with period P.
+#[derive(Clone)]
 pub struct Spectra {
     spacing: f64,
     first: i64,

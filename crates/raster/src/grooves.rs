@@ -14,7 +14,9 @@
 use crate::line::Line;
 use crate::path::Track;
 use crate::plan::{Plan, WIDTHS};
+use ndarray::Array2;
 use num_complex::Complex64;
+use rayon::prelude::*;
 use stickslip_convolution::{Density, Spectra};
 use stickslip_tip::planar::{EarlierGrooves, GrooveRows, RowLattice};
 use stickslip_tip::{Across, Footprint, Layer, Relief, Wider};
@@ -36,6 +38,8 @@ struct Stretch {
 /// Initial distance from a line, in widths of the footprint, up to which the surface is prepared for a tip that is
 /// free to move across.
 const WIDE: f64 = 5.0;
+/// Number of lines whose transforms are made side by side: those of a tip that is free to move across are large.
+const AT_A_TIME: usize = 64;
 
 /// ρ̂ of all lines that are still within reach.
 pub(crate) struct Grooves {
@@ -83,8 +87,15 @@ impl Grooves {
     /// The grooves of all these lines, none dropped.
     pub(crate) fn of_all(plan: &Plan, lines: &[Line]) -> Self {
         let mut grooves = Self::with(plan, false);
-        for n in 1..=lines.len() {
-            grooves.add(&lines[..n]);
+        let farthest = lines.par_iter().map(|line| grooves.outside(line)).reduce(|| 0.0, f64::max);
+        if farthest > grooves.spare {
+            grooves.widen(farthest);
+        }
+        for some in lines.chunks(AT_A_TIME) {
+            let (spectra, lattice) = (&grooves.stretch.spectra, grooves.lattice);
+            let rows = |spectra: &mut Spectra, line| rows_of(line, lattice.as_ref(), spectra);
+            let rows: Vec<Vec<Row>> = some.par_iter().map_init(|| spectra.clone(), rows).collect();
+            some.iter().zip(rows).for_each(|(line, rows)| grooves.put(line, rows));
         }
         grooves
     }
@@ -113,26 +124,30 @@ impl Grooves {
     /// Adds the last of these lines; the earlier ones were added before.
     pub(crate) fn add(&mut self, lines: &[Line]) {
         let Some(line) = lines.last() else { return };
-        let (positions, _) = line.residence();
-        let outside = |x: &f64| (self.supports.0 - x).max(x - self.supports.1);
-        let farthest = positions.iter().map(outside).fold(0.0, f64::max);
+        let farthest = self.outside(line);
         if farthest > self.spare {
-            self.widen(farthest, lines);
+            self.widen(farthest);
+            self.put_again(lines);
             return;
         }
-        self.put(line);
+        let rows = rows_of(line, self.lattice.as_ref(), &mut self.stretch.spectra);
+        self.put(line, rows);
     }
 
-    fn put(&mut self, line: &Line) {
+    /// Largest distance of the tip from the range of the supports.
+    fn outside(&self, line: &Line) -> f64 {
+        let (positions, _) = line.residence();
+        let outside = |x: &f64| (self.supports.0 - x).max(x - self.supports.1);
+        positions.iter().map(outside).fold(0.0, f64::max)
+    }
+
+    /// Adds the rows of the next line.
+    fn put(&mut self, line: &Line, rows: Vec<Row>) {
         let left = self.wider.left_after(line.track().length / self.r);
         if left < 1.0 {
             self.rows.iter_mut().flat_map(|row| &mut row.spectrum).for_each(|rho| *rho *= left);
         }
-        let new = match self.lattice {
-            None => vec![self.row(line)],
-            Some(lattice) => self.rows_of(line, &lattice),
-        };
-        for Row { y, spectrum } in new {
+        for Row { y, spectrum } in rows {
             match self.rows.iter_mut().rev().find(|row| same(row.y, y)) {
                 Some(row) => {
                     row.spectrum.iter_mut().zip(&spectrum).for_each(|(all, new)| *all += new);
@@ -148,47 +163,14 @@ impl Grooves {
         }
     }
 
-    /// ρ̂ of a line of a tip that is held on it.
-    fn row(&mut self, line: &Line) -> Row {
-        let (positions, weights) = line.residence();
-        let mut density = Density::new(self.stretch.spectra.spacing());
-        positions.iter().zip(&weights).for_each(|(x, weight)| density.add(*x, *weight));
-        Row { y: line.track().y, spectrum: self.stretch.spectra.of(&density) }
-    }
-
-    /// The rows on which a line leaves anything.
-    fn rows_of(&mut self, line: &Line, lattice: &RowLattice) -> Vec<Row> {
-        let visits = line.visits();
-        let ends = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), visit| {
-            (low.min(visit.y), high.max(visit.y))
-        });
-        let (first, last) = lattice.touched(ends);
-        let count = |rows: i64| usize::try_from(rows).unwrap_or(0);
-        let mut densities = self.stretch.spectra.rows(count(last - first + 1));
-        let mut shares = vec![];
-        for visit in visits {
-            let (from, to) = lattice.touched((visit.y, visit.y));
-            shares.resize(count(to - from + 1), 0.0);
-            lattice.shares(visit.y, from, &mut shares);
-            shares.iter_mut().for_each(|share| *share *= visit.weight);
-            densities.add(visit.x, count(from - first), &shares);
-        }
-        let mut row = |n: usize| {
-            let spectrum = self.stretch.spectra.of_row(&densities, n);
-            Row { y: lattice.y(first + n as i64), spectrum }
-        };
-        (0..densities.count()).map(&mut row).collect()
-    }
-
-    /// Extends the range for a tip this far outside. All transforms are recomputed from the lines, so that they do
+    /// Extends the range for a tip this far outside. All transforms are to be recomputed from the lines, so that they do
     /// not depend on the time of the extension.
-    fn widen(&mut self, farthest: f64, lines: &[Line]) {
+    fn widen(&mut self, farthest: f64) {
         while self.spare < farthest {
             self.spare *= 2.0;
         }
         let beyond = self.spare + self.reach_along;
         self.stretch = Stretch::new(&self.footprint, self.band, self.supports, beyond);
-        self.put_again(lines);
     }
 
     /// Extends the rows for a tip that moves farther from its line; `lines` are all lines so far.
@@ -200,7 +182,10 @@ impl Grooves {
     fn put_again(&mut self, lines: &[Line]) {
         self.rows.clear();
         self.count = 0;
-        lines.iter().for_each(|line| self.put(line));
+        for line in lines {
+            let rows = rows_of(line, self.lattice.as_ref(), &mut self.stretch.spectra);
+            self.put(line, rows);
+        }
     }
 
     /// Û at y; `None` if no line is within reach.
@@ -271,39 +256,56 @@ impl Grooves {
         Some(Relief::on_lattice(fields.0, fields.1, (track.start, track.backward)))
     }
 
-    /// The heights on the line y, at every x.
-    pub(crate) fn heights(&mut self, y: f64, x: &[f64]) -> Vec<f64> {
-        match self.surface(y) {
-            Some(heights) => self.read(&heights, x),
-            None => vec![0.0; x.len()],
-        }
+    /// The heights at every y (rows) and every x (columns).
+    pub(crate) fn heights(&self, x: &[f64], y: &[f64]) -> Array2<f64> {
+        self.table(x, y, |y| self.surface(*y))
     }
 
-    /// The groove of each line alone at its own y, at every x.
-    fn own_heights(&mut self, x: &[f64]) -> Vec<Vec<f64>> {
-        let own = |row: &Row| {
+    /// The groove of each line alone at its own y (rows), at every x (columns).
+    fn own_heights(&self, x: &[f64]) -> Array2<f64> {
+        self.table(x, &self.rows, |row| {
             let mut sum = vec![Complex64::default(); self.stretch.wave_numbers.len()];
             self.add_groove(row, row.y, &mut sum);
-            sum
-        };
-        let spectra: Vec<Vec<Complex64>> = self.rows.iter().map(own).collect();
-        spectra.iter().map(|heights| self.read(heights, x)).collect()
+            Some(sum)
+        })
     }
 
-    /// The groove of each of these lines alone at its own y, at every x, after the last of them.
-    pub(crate) fn own_heights_of(plan: &Plan, lines: &[Line], x: &[f64]) -> Vec<Vec<f64>> {
+    /// A row for each of these places, at every x: S(x) from the Ŝ of a place, or 0.
+    fn table<P: Sync>(
+        &self,
+        x: &[f64],
+        places: &[P],
+        of: impl Fn(&P) -> Option<Vec<Complex64>> + Sync,
+    ) -> Array2<f64> {
+        let mut table = Array2::zeros((places.len(), x.len()));
+        let cells = table.as_slice_mut().unwrap_or_default();
+        let rows = cells.par_chunks_mut(x.len().max(1)).zip(places);
+        rows.for_each_init(
+            || self.stretch.spectra.clone(),
+            |spectra, (row, place)| {
+                if let Some(heights) = of(place) {
+                    read(spectra, &heights, x, row);
+                }
+            },
+        );
+        table
+    }
+
+    /// The groove of each of these lines alone at its own y (rows), at every x (columns), after the last of them.
+    pub(crate) fn own_heights_of(plan: &Plan, lines: &[Line], x: &[f64]) -> Array2<f64> {
         let mut all = Self::of_all(plan, lines);
         if all.lattice.is_none() {
             return all.own_heights(x);
         }
         let mut left = 1.0;
-        let mut own: Vec<Vec<f64>> = vec![];
-        for line in lines.iter().rev() {
+        let mut own = Array2::zeros((lines.len(), x.len()));
+        for (line, mut row) in lines.iter().zip(own.rows_mut()).rev() {
             let heights = all.own_heights_of_free(line, left);
-            own.push(all.read(&heights, x));
+            if let Some(row) = row.as_slice_mut() {
+                read(&mut all.stretch.spectra, &heights, x, row);
+            }
             left *= all.wider.left_after(line.track().length / all.r);
         }
-        own.reverse();
         own
     }
 
@@ -324,11 +326,54 @@ impl Grooves {
         }
         sum
     }
+}
 
-    fn read(&mut self, heights: &[Complex64], x: &[f64]) -> Vec<f64> {
-        let field = self.stretch.spectra.field(heights);
-        let range = field.range();
-        x.iter().map(|x| if range.contains(x) { field.value(*x) } else { 0.0 }).collect()
+/// The rows on which a line leaves anything.
+fn rows_of(line: &Line, lattice: Option<&RowLattice>, spectra: &mut Spectra) -> Vec<Row> {
+    match lattice {
+        None => vec![row_of(line, spectra)],
+        Some(lattice) => rows_of_free(line, lattice, spectra),
+    }
+}
+
+/// ρ̂ of a line of a tip that is held on it.
+fn row_of(line: &Line, spectra: &mut Spectra) -> Row {
+    let (positions, weights) = line.residence();
+    let mut density = Density::new(spectra.spacing());
+    positions.iter().zip(&weights).for_each(|(x, weight)| density.add(*x, *weight));
+    Row { y: line.track().y, spectrum: spectra.of(&density) }
+}
+
+/// The rows of a lattice on which a tip that is free to move across leaves anything.
+fn rows_of_free(line: &Line, lattice: &RowLattice, spectra: &mut Spectra) -> Vec<Row> {
+    let visits = line.visits();
+    let ends = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), visit| {
+        (low.min(visit.y), high.max(visit.y))
+    });
+    let (first, last) = lattice.touched(ends);
+    let count = |rows: i64| usize::try_from(rows).unwrap_or(0);
+    let mut densities = spectra.rows(count(last - first + 1));
+    let mut shares = vec![];
+    for visit in visits {
+        let (from, to) = lattice.touched((visit.y, visit.y));
+        shares.resize(count(to - from + 1), 0.0);
+        lattice.shares(visit.y, from, &mut shares);
+        shares.iter_mut().for_each(|share| *share *= visit.weight);
+        densities.add(visit.x, count(from - first), &shares);
+    }
+    let mut row = |n: usize| {
+        let spectrum = spectra.of_row(&densities, n);
+        Row { y: lattice.y(first + n as i64), spectrum }
+    };
+    (0..densities.count()).map(&mut row).collect()
+}
+
+/// S at every x from these Ŝ, and 0 outside of the range.
+fn read(spectra: &mut Spectra, heights: &[Complex64], x: &[f64], at: &mut [f64]) {
+    let field = spectra.field(heights);
+    let range = field.range();
+    for (at, x) in at.iter_mut().zip(x) {
+        *at = if range.contains(x) { field.value(*x) } else { 0.0 };
     }
 }
 
@@ -396,12 +441,12 @@ mod tests {
         for n in 1..=lines.len() {
             grooves.add(&lines[..n]);
         }
-        let mut again = Grooves::of_all(&plan, &lines);
+        let again = Grooves::of_all(&plan, &lines);
         for y in [0.0, 2.1, 4.0] {
             let relief = grooves.relief(&Track { y, ..plan.track(0) }).unwrap();
             let x: Vec<f64> = (0..220).map(|i| 0.5 * f64::from(i) - 40.0).collect();
-            let whole = again.heights(y, &x);
-            for (x, whole) in x.iter().zip(whole) {
+            let whole = again.heights(&x, &[y]);
+            for (x, whole) in x.iter().zip(&whole) {
                 let wanted = direct(&plan, &lines, *x, y);
                 assert!((relief.height(*x) - wanted).abs() < 1e-12, "{x} {y}");
                 assert_eq!(relief.height(*x).to_bits(), whole.to_bits(), "{x} {y}");

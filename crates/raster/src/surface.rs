@@ -4,6 +4,7 @@ use crate::grooves::Grooves;
 use crate::line::Line;
 use crate::plan::Plan;
 use ndarray::Array2;
+use rayon::prelude::*;
 
 /// u(x,y) after these lines of a plan.
 pub struct Scanned {
@@ -20,19 +21,9 @@ impl Scanned {
     /// u(x,y) at every y (rows) and every x (columns), in kσ²/a. The cost of a row is proportional to the number of
     /// lines within its reach, plus a bounded number of operations for each x.
     #[must_use]
-    pub fn heights(&mut self, x: &[f64], y: &[f64]) -> Array2<f64> {
-        let mut heights = Array2::zeros((y.len(), x.len()));
-        for (mut row, y) in heights.rows_mut().into_iter().zip(y) {
-            row.assign(&ndarray::Array1::from(self.grooves.heights(*y, x)));
-        }
-        heights
+    pub fn heights(&self, x: &[f64], y: &[f64]) -> Array2<f64> {
+        self.grooves.heights(x, y)
     }
-}
-
-/// The groove of each line alone at its own y (rows), at every x (columns).
-pub(crate) fn own_grooves(plan: &Plan, lines: &[Line], x: &[f64]) -> Array2<f64> {
-    let rows = Grooves::own_heights_of(plan, lines, x);
-    Array2::from_shape_fn((rows.len(), x.len()), |(n, i)| rows[n][i])
 }
 
 /// ∫∫ u dx dy after these lines: -α ∫∫f times the time that the tip was there, weighted by the depth limit and
@@ -41,8 +32,8 @@ pub(crate) fn own_grooves(plan: &Plan, lines: &[Line], x: &[f64]) -> Array2<f64>
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
     let left =
         |line: &Line| plan.law.model.wider().left_after(plan.duration_of(line.track().length));
-    let time = |line: &Line| line.residence().1.iter().sum::<f64>();
-    let all = lines.iter().fold(0.0, |sum, line| sum * left(line) + time(line));
+    let all = lines.iter().zip(times(lines));
+    let all = all.fold(0.0, |sum, (line, time)| sum * left(line) + time);
     -plan.law.model.alpha() * plan.footprint.integral() * all
 }
 
@@ -50,9 +41,14 @@ pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
 /// (α/(X d)) ∫w dt ∫∫|f|, in kσ²/a. For a footprint without side lobes it is the mean depth; for β = 1, which only
 /// moves material and has mean depth 0, it has the size of overlapping grooves.
 pub(crate) fn carved_depth(plan: &Plan, lines: &[Line], pitch: f64) -> f64 {
-    let time = |line: &Line| line.residence().1.iter().sum::<f64>() / line.track().length;
-    let mean = lines.iter().map(time).sum::<f64>() / lines.len() as f64;
+    let rates = lines.iter().zip(times(lines)).map(|(line, time)| time / line.track().length);
+    let mean = rates.sum::<f64>() / lines.len() as f64;
     plan.law.model.alpha() * mean * magnitude(plan) / pitch
+}
+
+/// The time of the tip on each line, weighted by the depth limit and reduced by healing.
+fn times(lines: &[Line]) -> Vec<f64> {
+    lines.par_iter().map(|line| line.residence().1.iter().sum()).collect()
 }
 
 /// ∫∫|f|, summed over the layers.

@@ -5,6 +5,7 @@ use super::sheet::{Sheet, cut, participating, quarters};
 use super::wave::Wave;
 use ndarray::{Array2, ArrayView2};
 use num_complex::Complex64;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// ψ(x, n): u e^{-i(qx + κy)} averaged over about a wavelength along the line.
@@ -40,15 +41,20 @@ impl Local {
         };
         let weights: Vec<f64> = (0..=2 * reach).map(weight).collect();
         let (rows, columns) = sheet.u.dim();
-        let demodulated = Array2::from_shape_fn((rows, columns), |(n, i)| {
-            let (x, y) = (sheet.from + sheet.spacing * i as f64, sheet.pitch * n as f64);
-            sheet.u[(n, i)] * Complex64::from_polar(1.0, -(wave.q * x + wave.kappa * y))
-        });
         let inside = columns.saturating_sub(2 * reach);
         let total: f64 = weights.iter().sum();
-        let psi = Array2::from_shape_fn((rows, inside), |(n, i)| {
-            let values = (0..weights.len()).map(|j| demodulated[(n, i + j)] * weights[j]);
-            values.sum::<Complex64>() / total
+        let mut psi = Array2::zeros((rows, inside));
+        let cells = psi.as_slice_mut().unwrap_or_default();
+        cells.par_chunks_mut(inside.max(1)).enumerate().for_each(|(n, psi)| {
+            let turned = |(i, u): (usize, &f64)| {
+                let (x, y) = (sheet.from + sheet.spacing * i as f64, sheet.pitch * n as f64);
+                u * Complex64::from_polar(1.0, -(wave.q * x + wave.kappa * y))
+            };
+            let turned: Vec<Complex64> = sheet.u.row(n).iter().enumerate().map(turned).collect();
+            for (psi, near) in psi.iter_mut().zip(turned.windows(weights.len())) {
+                let values = near.iter().zip(&weights).map(|(value, weight)| value * weight);
+                *psi = values.sum::<Complex64>() / total;
+            }
         });
         Self { psi, wave: *wave, spacing: sheet.spacing, pitch: sheet.pitch }
     }

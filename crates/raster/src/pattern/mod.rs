@@ -15,10 +15,11 @@ mod window;
 pub use doubt::Doubt;
 pub use regime::Regime;
 
+use crate::grooves::Grooves;
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::{Scanned, carved_depth, own_grooves};
+use crate::surface::{Scanned, carved_depth};
 use estimate::Estimate;
 use local::Local;
 use regime::{FLAT, Measures, PITTED};
@@ -170,18 +171,20 @@ fn is_stuck(line: &Line) -> bool {
 }
 
 /// The evaluated part of lines and surface.
-struct Sheets {
+struct Sheets<'a> {
+    plan: &'a Plan,
     /// The surface on each line.
     surface: Sheet,
-    /// The groove of each line alone.
-    own: Sheet,
+    /// The evaluated lines, and their points.
+    lines: &'a [Line],
+    x: Vec<f64>,
     /// Mean carved depth.
     depth: f64,
     /// Fraction of the relief of the first half of the lines that remains after the second half was scanned.
     healed: f64,
 }
 
-fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
+fn sheets<'a>(plan: &'a Plan, lines: &'a [Line]) -> Result<Sheets<'a>, Doubt> {
     let Window { first, end, from, to, pitch } = Window::of(plan, lines.len())?;
     let width = 8.7 / plan.band();
     let points = (POINTS * (to - from) / width) as usize;
@@ -189,12 +192,11 @@ fn sheets(plan: &Plan, lines: &[Line]) -> Result<Sheets, Doubt> {
     let x: Vec<f64> = (0..points).map(|i| from + spacing * i as f64).collect();
     let y: Vec<f64> = lines[first..end].iter().map(|line| line.track().y).collect();
     let heights = Scanned::new(plan, felt(plan, lines, (y[0], y[y.len() - 1]))).heights(&x, &y);
-    let own = own_grooves(plan, &lines[first..end], &x);
-    let sheet = |u| Sheet::new(u, (from, spacing), pitch, plan.band());
+    let surface = Sheet::new(heights, (from, spacing), pitch, plan.band());
     let depth = carved_depth(plan, &lines[first..end], pitch);
     let left = plan.law.model.wider().left_after(plan.duration(first));
     let healed = left.powf(0.5 * (end - first) as f64);
-    let sheets = Sheets { surface: sheet(heights), own: sheet(own), depth, healed };
+    let sheets = Sheets { plan, surface, lines: &lines[first..end], x, depth, healed };
     let visible = sheets.surface.visible_rows();
     if visible < FEWEST_ROWS as f64 && sheets.surface.amplitude() > FLAT * depth {
         let healed = plan.law.model.wider().healing_time.is_some();
@@ -252,7 +254,7 @@ impl Seen {
         let kept = if is_upright { sheets.kept(plan.path, &local) } else { certain };
         let is_alike = is_upright && unlike(sheet) < ALIKE;
         let is_wave = !is_alike || vector.is_wave();
-        let own = Local::of(&sheets.own, wave);
+        let own = Local::of(&sheets.own(), wave);
         let coherence = own.coherence(1);
         let same_way = (plan.path == Path::Zigzag).then(|| own.coherence(2));
         let quarters = sheet.quarters().map(|part| (part.straightness(), part.amplitude().powi(2)));
@@ -305,7 +307,14 @@ fn unlike(sheet: &Sheet) -> f64 {
     (square(&sheet.unlike()) / square(&sheet.u)).sqrt()
 }
 
-impl Sheets {
+impl Sheets<'_> {
+    /// The groove of each line alone.
+    fn own(&self) -> Sheet {
+        let Sheet { from, spacing, pitch, band, .. } = self.surface;
+        let own = Grooves::own_heights_of(self.plan, self.lines, &self.x);
+        Sheet::new(own, (from, spacing), pitch, band)
+    }
+
     /// Fraction of a wave that remains away from the starting edges, relative to its amplitude next to them; 1 if the
     /// surface is still rough there.
     fn kept(&self, path: Path, local: &Local) -> Estimate {

@@ -1,6 +1,7 @@
 //! The strongest waves of an area.
 
 use super::sheet::{Sheet, halves_of};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// A maximum of the power |Σ window u e^{-i(qx + κy)}|².
@@ -125,7 +126,7 @@ impl Wave {
             let along = sheet.along(step_q * i as f64);
             (-half..half).map(|j| sheet.across(&along, step_k * j as f64)).collect()
         };
-        let power: Vec<Vec<f64>> = (first - 1..=last + 1).map(row).collect();
+        let power: Vec<Vec<f64>> = (first - 1..=last + 1).into_par_iter().map(row).collect();
         let columns = 2 * half as usize;
         let mut peaks = vec![];
         for n in 1..power.len().saturating_sub(1) {

@@ -8,7 +8,6 @@ use crate::commands::job::Job;
 use crate::commands::raster::field;
 use crate::failure::Failure;
 use crate::session::Session;
-use std::cell::RefCell;
 use stickslip::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
 use stickslip_raster::Scanned;
 
@@ -52,8 +51,8 @@ pub(super) fn surface(
     if places.is_large(&y) {
         let model = &plan.law.model;
         let title = format!("u(x,y) of a raster, alpha {}, r {}", model.alpha(), model.r());
-        let scanned = RefCell::new(Scanned::new(&plan, &lines));
-        let rows = |y: &[f64]| Ok(scanned.borrow_mut().heights(&places.x, y));
+        let scanned = Scanned::new(&plan, &lines);
+        let rows = |y: &[f64]| Ok(scanned.heights(&places.x, y));
         let unit = in_metres(scales.as_ref())?;
         return large(arguments, (&places, &y), &title, unit, rows);
     }

@@ -119,6 +119,14 @@ impl Line {
         self.track.x(r * last.end() - last.extension_at_end(r))
     }
 
+    /// x0, the lag and x0' on the surface at t, as [`x0`](Self::x0), [`lag`](Self::lag) and [`velocity`](Self::velocity).
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let (step, r, sign) = (self.trajectory.step_at(t), self.trajectory.r(), self.track.sign());
+        let l = step.l(r, t);
+        [self.track.x(r * t - r - l), sign * (l + r), sign * step.velocity(t)]
+    }
+
     /// The height of the surface under the tip, in kσ²/a, if there is a depth limit.
     #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {

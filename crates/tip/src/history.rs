@@ -326,8 +326,9 @@ impl Trajectory {
         (positions, weights, largest)
     }
 
-    /// The step that holds t.
-    fn step_at(&self, t: f64) -> &Step {
+    /// The step that contains t; before the first and after the last, that one.
+    #[must_use]
+    pub fn step_at(&self, t: f64) -> &Step {
         let after = self.steps.partition_point(|step| step.t <= t);
         &self.steps[after.max(1) - 1]
     }

@@ -79,7 +79,7 @@ pub use measured_tip::{
 pub use model::{
     GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
 };
-pub use points::{Points, each_point};
+pub use points::{Points, each_point, on_threads};
 pub use question::{Indentation, NamedTip, Tip, TipName};
 pub use raster::{AreaDocument, PathName, Raster, RasterDocument};
 pub use raster_boundary::{

@@ -3,6 +3,7 @@
 use crate::{Context, Failure, Question};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
 
@@ -33,6 +34,19 @@ pub trait Points: Question {
     fn failed(&self, index: usize, why: &str) -> Self::Point;
 }
 
+fn pool(threads: usize) -> Result<ThreadPool, Failure> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Failure::Failed(format!("cannot start threads: {error}")))
+}
+
+/// Runs work on this number of threads (0 means one per core), where it is done side by side.
+///
+/// # Errors
+/// No threads can be started.
+pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    Ok(pool(threads)?.install(work))
+}
+
 /// Computes points on this number of threads (0 means one per core), and passes each to `keep` as soon as it is
 /// complete, until one cannot be kept.
 ///
@@ -47,8 +61,7 @@ pub fn each_point<Q: Points>(
 ) -> Result<(), Failure> {
     // More threads than points would have nothing to do.
     let threads = threads.min(indices.len().max(1));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Failure::Failed(format!("cannot start threads: {error}")))?;
+    let pool = pool(threads)?;
     let groups = GROUPS_PER_THREAD * pool.current_num_threads();
     let size = indices.len().div_ceil(groups).clamp(1, question.together());
     let keep = Mutex::new(keep);

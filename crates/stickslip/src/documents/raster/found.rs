@@ -2,6 +2,7 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::{PatternDocument, RasterHistory, RasterLine, RasterRegimeName, RasterSamples};
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Written, pattern, volume};
@@ -50,7 +51,7 @@ impl RasterFound {
         let Written { regime, pattern: found, doubts } = pattern(plan, lines);
         let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
         let found = Self {
-            lines: lines.iter().map(|line| RasterLine::of(plan, line, times)).collect(),
+            lines: lines.par_iter().map(|line| RasterLine::of(plan, line, times)).collect(),
             regime: regime.into(),
             pattern: found.map(Into::into),
             volume: volume(plan, lines),

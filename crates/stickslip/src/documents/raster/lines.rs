@@ -2,6 +2,7 @@
 
 use crate::documents::table::Array;
 use crate::{History, Unusable};
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
@@ -119,11 +120,12 @@ impl RasterLine {
         let lasts = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12));
         let times: Vec<f64> = lasts.copied().collect();
         let column = |value: &dyn Fn(f64) -> f64| times.iter().map(|t| value(*t)).collect();
+        let at: Vec<[f64; 3]> = times.iter().map(|t| line.at(*t)).collect();
         let samples = RasterSamples {
             t: times.clone(),
-            x0: column(&|t| line.x0(t)),
-            lag: column(&|t| line.lag(t)),
-            velocity: column(&|t| line.velocity(t)),
+            x0: at.iter().map(|at| at[0]).collect(),
+            lag: at.iter().map(|at| at[1]).collect(),
+            velocity: at.iter().map(|at| at[2]).collect(),
             height: times
                 .iter()
                 .map(|t| line.height(*t))
@@ -194,7 +196,7 @@ fn free_step(along: Step, y0: &[f64], y: f64) -> Option<planar::Step> {
 impl RasterHistory {
     pub(super) fn of(lines: &[Line]) -> Self {
         let (nodes, weights) = nodes_and_weights();
-        let lines = lines.iter().map(LineHistory::of).collect();
+        let lines = lines.par_iter().map(LineHistory::of).collect();
         Self { nodes: nodes.to_vec(), weights: weights.to_vec(), lines }
     }
 

@@ -71,9 +71,7 @@ fn functions() -> u32 {
     let arguments = (1..=ARGUMENTS).map(|i| 24.0 * ((f64::from(i) * GOLDEN).fract() - 0.5));
     let mut hasher = Hasher::new();
     for x in arguments {
-        for function in FUNCTIONS {
-            hasher.update(&function(x).to_le_bytes());
-        }
+        hasher.update(FUNCTIONS.map(|function| function(x).to_le_bytes()).as_flattened());
     }
     hasher.finalize()
 }

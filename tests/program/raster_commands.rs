@@ -64,6 +64,13 @@ fn a_raster_on_several_threads_is_the_same() {
     folder.prints(&format!("{line} --threads 1 -o 1.npz"));
     folder.prints(&format!("{line} --threads 3 -o 3.npz"));
     assert!(folder.read("1.npz") == folder.read("3.npz"));
+    // With ripples, and a document of several pieces.
+    let line = "raster --tip gaussian --alpha 0.46 --r 1 --pitch 0.5 --lines 64 --length 40";
+    folder.prints(&format!("{line} --threads 1 -o 1.json"));
+    folder.prints(&format!("{line} --threads 3 -o 3.json"));
+    let document = folder.read("1.json");
+    assert!(folder.json("1.json")["pattern"].is_object() && document.len() > 1_000_000);
+    assert!(document == folder.read("3.json"));
     folder.refuses(&format!("{line} --threads 0"), &["--threads 0", "1 to"]);
 }
 

@@ -20,9 +20,14 @@ use stickslip::Tabular;
 use stickslip_figures::Drawn;
 
 /// The result of a command: a document with columns, a figure and a summary.
-pub(crate) trait Product: Serialize + JsonSchema + Tabular {
+pub(crate) trait Product: Serialize + JsonSchema + Tabular + Sized {
     /// The summary for the user.
     fn summary(&self) -> Summary;
+
+    /// Writes the document as JSON: large ones on several threads.
+    fn write_json(&self, output: Output) -> Result<(), Failure> {
+        output.write_json(self)
+    }
 }
 
 /// Rejects an output that is also an input of the command, or that is named twice.
@@ -84,6 +89,12 @@ impl Job {
         self.output.file()
     }
 
+    /// Sets the number of threads that write a large document.
+    #[must_use]
+    pub(crate) fn on_threads(self, threads: usize) -> Self {
+        Self { output: self.output.on_threads(threads), ..self }
+    }
+
     /// Suppresses the summary when the result goes to a file, because it is printed elsewhere.
     #[must_use]
     pub(crate) fn silent_if(self, is_silent: bool) -> Self {
@@ -98,7 +109,7 @@ impl Job {
         // The document first: a picture that fails costs no result.
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let figure = self.write_with(&product, &summary)?;
+        let figure = self.write_by(&product, &summary, |output| product.write_json(output))?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
         session.give(|| summary.of(pictured(product)));
         drawn
@@ -122,11 +133,20 @@ impl Job {
         product: &(impl Serialize + Tabular),
         summary: &Summary,
     ) -> Result<Option<Figure>, Failure> {
+        self.write_by(product, summary, |output| output.write_json(product))
+    }
+
+    fn write_by(
+        self,
+        product: &(impl Serialize + Tabular),
+        summary: &Summary,
+        write_json: impl FnOnce(Output) -> Result<(), Failure>,
+    ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
         // Fields take the place of the document, and a host takes it as it is.
         if self.is_file || (self.fields.is_empty() && !self.session.has_host()) {
             match self.format {
-                Format::Json => self.output.write_json(product)?,
+                Format::Json => write_json(self.output)?,
                 Format::Csv => write_csv(product, self.output)?,
                 Format::Npz => write_npz(product, self.output)?,
                 Format::Text => self.output.write_bytes(summary.text().as_bytes())?,

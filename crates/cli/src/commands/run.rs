@@ -123,7 +123,8 @@ fn open(
         }
         return Ok((Target::Lines(fields), Sink::Lines(stream)));
     }
-    let target = Target::Document(job(session, order, output, arguments.plot.as_deref(), fields)?);
+    let job = job(session, order, output, arguments.plot.as_deref(), fields)?;
+    let target = Target::Document(Box::new(job));
     let numbers = if keeps_history(order) { of_step } else { of_sample };
     let journal = |path| record::journal(path, numbers);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))

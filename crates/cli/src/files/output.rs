@@ -1,14 +1,12 @@
 //! Output files: places are checked before the computation, and files get their names when complete.
 
+use super::json;
 use super::place::{Place, place};
 use super::special::is_special;
 use super::temporary::kept_elsewhere;
 use super::temporary::through;
 use crate::failure::Failure;
-use crate::message::is_harmful;
 use serde::Serialize;
-use serde_json::Serializer;
-use serde_json::ser::Formatter;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -45,35 +43,12 @@ impl OutputFormat {
     }
 }
 
-/// A JSON formatter that escapes all characters that could control a terminal, also those that JSON allows.
-struct Harmless;
-
-impl Formatter for Harmless {
-    fn write_string_fragment<W: Write + ?Sized>(
-        &mut self,
-        writer: &mut W,
-        fragment: &str,
-    ) -> io::Result<()> {
-        if fragment.is_ascii() && !fragment.contains('\u{7f}') {
-            return writer.write_all(fragment.as_bytes());
-        }
-        for c in fragment.chars() {
-            if is_harmful(c) {
-                // None of them is beyond the first plane.
-                write!(writer, "\\u{:04x}", u32::from(c))?;
-            } else {
-                write!(writer, "{c}")?;
-            }
-        }
-        Ok(())
-    }
-}
-
 /// A writable output, locked until this is dropped.
 #[derive(Debug)]
 pub(crate) struct Output {
     path: PathBuf,
     place: Place,
+    threads: usize,
 }
 
 impl Output {
@@ -82,7 +57,12 @@ impl Output {
     /// # Errors
     /// The output cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
-        Ok(Self { path: path.into(), place: place(option, path)? })
+        Ok(Self { path: path.into(), place: place(option, path)?, threads: 1 })
+    }
+
+    /// Sets the number of threads.
+    pub(crate) fn on_threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
     }
 
     /// The output file, with links resolved; `None` for a stream or device.
@@ -96,7 +76,16 @@ impl Output {
     /// Writes the document as JSON, followed by a line break.
     pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
         self.write_with(|out| {
-            document.serialize(&mut Serializer::with_formatter(&mut *out, Harmless))?;
+            json::write(out, document)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    /// Writes the same bytes by the number of threads that was set.
+    pub(crate) fn write_json_on_threads(self, document: &impl Serialize) -> Result<(), Failure> {
+        let threads = self.threads;
+        self.write_with(|out| {
+            json::write_on_threads(out, document, threads)?;
             out.write_all(b"\n")
         })
     }

@@ -16,14 +16,18 @@ use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
 use stickslip::{
-    AreaDocument, Ask, HeightMap, KnownScales, Physical, Raster, RasterDocument, parameter,
+    AreaDocument, Ask, HeightMap, KnownScales, Physical, Raster, RasterDocument, on_threads,
+    parameter,
 };
 use stickslip_raster::Plan;
 use stickslip_tip::Pulse;
 
 pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;
-    let threads = threads(arguments.threads)?;
+    let threads = match threads(arguments.threads)? {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        given => given,
+    };
     let read = files_read(options, area);
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
@@ -43,10 +47,12 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
         output,
         &arguments.fields,
         plot.as_deref(),
-    )?;
+    )?
+    .on_threads(threads);
     let interrupt = Interrupt::listen(session)?;
     let (lines, finished) = scan::scan(session, &plan, &question, job.file(), &interrupt, threads)?;
-    let document = question.document(&plan, &lines, &times).in_units(scales.as_ref());
+    let document = on_threads(threads, || question.document(&plan, &lines, &times))?;
+    let document = document.in_units(scales.as_ref());
     if let Some(unit) = in_metres {
         let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
         let bytes = field(&document.parameters, &map, unit);

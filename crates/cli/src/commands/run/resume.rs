@@ -84,7 +84,7 @@ fn resumed<R: Motion>(
         let job = job(session, order, &order.output, order.plot.as_deref(), &arguments.fields)?;
         let mut record = record(order, scenario, Sink::Memory);
         record.resume(&journal_of(checkpoint.path()), head.written, running.t())?;
-        (Target::Document(job), record)
+        (Target::Document(Box::new(job)), record)
     };
     let (t, until) = (running.t(), scenario.until);
     session.remark(format_args!(

@@ -20,7 +20,7 @@ use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
 /// The output of a run.
 pub(super) enum Target {
     /// A document, written at the end.
-    Document(Job),
+    Document(Box<Job>),
     /// Lines, written by the record; with the fields to print from the last one.
     Lines(Fields),
 }

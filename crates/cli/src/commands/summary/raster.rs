@@ -2,6 +2,8 @@
 
 use super::{Summary, again, digits, times};
 use crate::commands::job::Product;
+use crate::failure::Failure;
+use crate::files::output::Output;
 use stickslip::{
     HeightMap, LoadMapDocument, PathName, PatternDocument, RasterBoundaryDocument,
     RasterCompareDocument, RasterCompareFound, RasterCriticalDocument, RasterDocument,
@@ -10,6 +12,10 @@ use stickslip::{
 };
 
 impl Product for RasterDocument {
+    fn write_json(&self, output: Output) -> Result<(), Failure> {
+        output.write_json_on_threads(self)
+    }
+
     fn summary(&self) -> Summary {
         let (count, regime) = (self.lines.len(), self.regime);
         let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));

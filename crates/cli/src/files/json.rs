@@ -1,0 +1,240 @@
+//! JSON of documents, written by one thread or several. One goes through the document and leaves each number as its bits;
+//! all of them turn numbers into text, piece by piece.
+
+use crate::message::is_harmful;
+use serde::Serialize;
+use serde_json::Serializer;
+use serde_json::ser::Formatter;
+use std::collections::VecDeque;
+use std::io::{self, Write};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+/// Stands before the bits of a number; no byte of UTF-8.
+const NUMBER: u8 = 0xff;
+/// Length at which a piece is full, in bytes.
+const PIECE: usize = 1 << 16;
+/// Largest number of pieces that wait for their text.
+const WAITING: usize = 8;
+/// Largest number of threads that have something to do: going through a document takes a third of the time.
+const MOST_THREADS: usize = 4;
+
+/// A JSON formatter that escapes all characters that could control a terminal, also those that JSON allows.
+struct Harmless;
+
+impl Formatter for Harmless {
+    fn write_string_fragment<W: Write + ?Sized>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        if fragment.is_ascii() && !fragment.contains('\u{7f}') {
+            return writer.write_all(fragment.as_bytes());
+        }
+        for c in fragment.chars() {
+            if is_harmful(c) {
+                // None of them is beyond the first plane.
+                write!(writer, "\\u{:04x}", u32::from(c))?;
+            } else {
+                write!(writer, "{c}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Writes the document.
+pub(super) fn write(out: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+    document.serialize(&mut Serializer::with_formatter(out, Harmless))?;
+    Ok(())
+}
+
+/// Writes the same bytes by this number of threads.
+pub(super) fn write_on_threads(
+    out: &mut dyn Write,
+    document: &impl Serialize,
+    threads: usize,
+) -> io::Result<()> {
+    let helpers = threads.min(MOST_THREADS).saturating_sub(1);
+    if helpers == 0 {
+        return write(out, document);
+    }
+    let (send, receive) = mpsc::channel();
+    let tasks = &Mutex::new(receive);
+    thread::scope(|scope| {
+        for _ in 0..helpers {
+            scope.spawn(|| {
+                let next = || lock(tasks).recv();
+                while let Ok(task) = next() {
+                    work_on(task);
+                }
+            });
+        }
+        let (piece, waiting) = (vec![], VecDeque::new());
+        let mut pieces = Pieces { out, piece, send, tasks, waiting };
+        document.serialize(&mut Serializer::with_formatter(&mut pieces, Bits))?;
+        pieces.pass_on()?;
+        pieces.write_until(0)
+    })
+}
+
+/// A piece, and the place for its text.
+type Task = (Vec<u8>, Sender<Vec<u8>>);
+
+/// Turns the numbers of a piece into text.
+fn work_on((piece, text): Task) {
+    // Nobody waits for it once the document cannot be written.
+    text.send(text_of(&piece)).ok();
+}
+
+fn lock(tasks: &Mutex<Receiver<Task>>) -> MutexGuard<'_, Receiver<Task>> {
+    tasks.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Writes the texts of pieces in their order.
+struct Pieces<'a> {
+    out: &'a mut dyn Write,
+    piece: Vec<u8>,
+    send: Sender<Task>,
+    tasks: &'a Mutex<Receiver<Task>>,
+    waiting: VecDeque<Receiver<Vec<u8>>>,
+}
+
+impl Pieces<'_> {
+    /// Begins a new piece.
+    fn pass_on(&mut self) -> io::Result<()> {
+        let (send, receive) = mpsc::channel();
+        let piece = std::mem::replace(&mut self.piece, Vec::with_capacity(PIECE + 64));
+        self.send.send((piece, send)).map_err(io::Error::other)?;
+        self.waiting.push_back(receive);
+        self.write_until(WAITING)
+    }
+
+    /// Writes the texts that are ready, and then those of all but this number of pieces; this thread works on them too.
+    fn write_until(&mut self, most: usize) -> io::Result<()> {
+        while let Some(first) = self.waiting.front() {
+            let text = match first.try_recv() {
+                Ok(text) => text,
+                Err(_) if self.waiting.len() <= most => break,
+                Err(_) => {
+                    match self.tasks.try_lock().ok().and_then(|tasks| tasks.try_recv().ok()) {
+                        Some(task) => {
+                            work_on(task);
+                            continue;
+                        }
+                        None => first.recv().map_err(io::Error::other)?,
+                    }
+                }
+            };
+            self.out.write_all(&text)?;
+            self.waiting.pop_front();
+        }
+        Ok(())
+    }
+}
+
+impl Write for Pieces<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    /// A piece ends before a single byte: never between a mark and the bits of its number.
+    #[inline]
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if let [byte] = bytes {
+            if self.piece.len() >= PIECE {
+                self.pass_on()?;
+            }
+            self.piece.push(*byte);
+        } else {
+            self.piece.extend_from_slice(bytes);
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A formatter that leaves numbers as their bits.
+struct Bits;
+
+impl Formatter for Bits {
+    fn write_f64<W: Write + ?Sized>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        writer.write_all(&[NUMBER])?;
+        writer.write_all(&value.to_le_bytes())
+    }
+
+    fn write_string_fragment<W: Write + ?Sized>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        Harmless.write_string_fragment(writer, fragment)
+    }
+}
+
+/// The text of a piece.
+fn text_of(piece: &[u8]) -> Vec<u8> {
+    let (mut text, mut rest) = (Vec::with_capacity(5 * piece.len() / 2), piece);
+    while let Some(at) = rest.iter().position(|byte| *byte == NUMBER) {
+        text.extend_from_slice(&rest[..at]);
+        let Some((bits, after)) = rest[at + 1..].split_first_chunk() else { break };
+        Harmless.write_f64(&mut text, f64::from_le_bytes(*bits)).ok();
+        rest = after;
+    }
+    text.extend_from_slice(rest);
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// Documents of several pieces, with any number and any text, have the same bytes on any number of threads.
+    #[test]
+    fn bytes_do_not_depend_on_threads() {
+        let numbers: Vec<f64> = (0..60_000_u64)
+            .map(|n| f64::from_bits(n.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+            .chain([0.0, -0.0, 1.0, 1e300, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY])
+            .collect();
+        let text = "\u{7f}\u{9b}31m ÿ \u{ff} \"σ\"\n";
+        let document =
+            json!({ text: { "numbers": numbers, "count": 7, "none": null, "text": text } });
+        let written = |threads| {
+            let mut out = vec![];
+            write_on_threads(&mut out, &(&document, &numbers), threads).unwrap();
+            out
+        };
+        let alone = written(1);
+        assert!(alone.len() > 20 * PIECE, "{}", alone.len());
+        for threads in [2, 3, 64] {
+            assert!(written(threads) == alone, "{threads} threads");
+        }
+    }
+
+    /// An output that fails ends the work.
+    #[test]
+    fn an_error_is_returned() {
+        struct Full(usize);
+        impl Write for Full {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+                Ok(bytes.len())
+            }
+
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let numbers = vec![0.1_f64.sqrt(); 200_000];
+        for room in [0, 300_000, 2_000_000] {
+            let error = write_on_threads(&mut Full(room), &numbers, 2).unwrap_err();
+            assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        }
+    }
+}

@@ -42,8 +42,8 @@ pub(crate) struct RasterArguments {
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
-    /// Number of lines scanned in parallel, a few widths apart; the result is the same. Lines to and fro follow one
-    /// another [default: the number of cores].
+    /// Number of threads; the result is the same. Lines are scanned in parallel, a few widths apart; those to and fro follow
+    /// one another [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 

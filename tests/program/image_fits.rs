@@ -32,6 +32,9 @@ fn an_image_gives_back_alpha_and_r() {
     holds(&fit["r"], 1.0);
     assert_eq!((&fit["scan"], &fit["slow_scan"]), (&"right".into(), &"up".into()));
     assert_eq!(fit["parameters"]["unit"], "nm");
+    assert_eq!(fit["parameters"]["height_unit"], "nm");
+    let picture = String::from_utf8(folder.read("fit.svg")).unwrap();
+    assert_eq!(picture.matches("height (nm)").count(), 2, "colours and mean ripple");
     let gain = fit["height_gain"].as_f64().unwrap();
     assert!((gain / 0.02 - 1.0).abs() < 0.03, "{gain}");
     let critical = fit["critical_alpha"].as_f64().unwrap();
@@ -64,6 +67,30 @@ fn an_image_gives_back_alpha_and_r() {
     let found = folder.prints_json("stability --r 1 --tip gaussian --units fit.json");
     let length = found["physical"]["scales"]["length"].as_f64().unwrap();
     assert!((length / 30e-9 - 1.0).abs() < 1e-12, "{length}");
+}
+
+/// Heights in V have their unit in document and picture, and no scale in metres follows from them.
+#[test]
+fn heights_keep_the_unit_of_the_image() {
+    let folder = scanned("image_in_volts");
+    let bytes = folder.read("scan.gsf");
+    let at = bytes.windows(10).position(|word| word == b"ZUnits = m").unwrap();
+    let volts = [&bytes[..at], b"ZUnits = V", &bytes[at + 10..]].concat();
+    folder.write("volts.gsf", &volts);
+    let line = "fit --image volts.gsf --tip gaussian --width 30nm --pitch 30nm";
+    folder.prints(&format!("{line} -o volts.json --plot volts.svg"));
+    assert_eq!(folder.json("volts.json")["parameters"]["height_unit"], "V");
+    let picture = String::from_utf8(folder.read("volts.svg")).unwrap();
+    assert_eq!(picture.matches("height (V)").count(), 2, "colours and mean ripple");
+    let scales = |units: &str| {
+        let line = format!("stability --r 1 --tip gaussian --units {units}");
+        folder.prints_json(&line)["physical"]["scales"].clone()
+    };
+    folder.prints(&format!("{LINE} --width 30nm --pitch 30nm -o fit.json"));
+    // kσ²/a = k²σ²/(force per slope) = 18 nm.
+    let height = scales("fit.json")["height"].as_f64().unwrap();
+    assert!((height / 18e-9 - 1.0).abs() < 0.03, "{height}");
+    assert!(scales("volts.json")["height"].is_null());
 }
 
 /// Without a unit the lengths are those of the image; the pitch is that of the rows, with a remark.

@@ -40,7 +40,8 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     let mut values = options.values(session)?;
     refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
     let given = values.get("unit").and_then(Value::as_str);
-    let ImageInUnits { image, unit, .. } = measured_image(session, OPTION, path, given)?;
+    let ImageInUnits { image, unit, z_unit: height_unit } =
+        measured_image(session, OPTION, path, given)?;
     let beside = |option: &str, path: Option<&Path>| {
         let Some(path) = path else { return Ok(None) };
         let read = measured_image(session, option, path, given)?;
@@ -68,7 +69,16 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     }
     let question: FitImage = parameter::question(values)?;
     let source = path.display().to_string();
-    Ok(FitImage { source, unit, image, retrace_image, lateral_image, lateral_unit, ..question })
+    Ok(FitImage {
+        source,
+        unit,
+        height_unit,
+        image,
+        retrace_image,
+        lateral_image,
+        lateral_unit,
+        ..question
+    })
 }
 
 /// The options without --width, which is σ of measured data, and no width of a footprint.

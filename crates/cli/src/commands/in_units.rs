@@ -236,21 +236,26 @@ impl Scaled {
         let sigma = fitted.or(question.known("width"))?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
         let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
-        Some(of_ripples(metres, sigma, gain))
+        Some(of_ripples([metres; 2], sigma, gain))
     }
 
-    /// Scales of a fit to an image: σ is given.
+    /// Scales of a fit to an image: σ is given. Heights without a unit are in that of lengths; others than lengths, such as
+    /// volts, give no scale.
     fn fitted_image(self) -> Option<KnownScales> {
-        let FitImage { unit, width, .. } = serde_json::from_value(self.parameters?).ok()?;
-        Some(of_ripples(Unit::Length.one(unit.as_deref()?)?, width?, self.height_gain))
+        let FitImage { unit, height_unit, width, .. } =
+            serde_json::from_value(self.parameters?).ok()?;
+        let metres = Unit::Length.one(unit.as_deref()?)?;
+        let height_metres = height_unit.map_or(Some(metres), |unit| Unit::Length.one(&unit));
+        let gain = self.height_gain.filter(|_| height_metres.is_some());
+        Some(of_ripples([metres, height_metres.unwrap_or(metres)], width?, gain))
     }
 }
 
-/// Scales from σ and k/a in a unit of length, which is given in m.
-fn of_ripples(metres: f64, sigma: f64, gain: Option<f64>) -> KnownScales {
+/// Scales from σ and k/a, by the units of lengths and of heights in m.
+fn of_ripples([metres, height_metres]: [f64; 2], sigma: f64, gain: Option<f64>) -> KnownScales {
     KnownScales {
         length: Some(sigma * metres),
-        height: gain.map(|gain| gain * sigma * sigma * metres),
+        height: gain.map(|gain| gain * sigma * sigma * height_metres),
         ..KnownScales::default()
     }
 }

@@ -23,8 +23,6 @@ pub(super) const SPRING: &str = "lag (σ)";
 pub(super) const SPRING_FORCE: &str = "lateral force (kσ)";
 /// The name of a curve of the extension, and its name beside this label.
 pub(super) const EXTENSION: [&str; 2] = ["R(t) − x₀(t)", "lateral force"];
-/// Added to labels of measured numbers, whose unit may be any.
-pub(super) const OF_DATA: &str = "(unit of the data)";
 /// Labels of the position of a tip without a spring.
 pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
 /// Label of the position of the support.
@@ -42,6 +40,11 @@ pub(super) const WIDE: f64 = 30.0;
 
 /// The colour scale covers the heights between these fractions of the length, because pits at the ends are deeper.
 const COLOURED: (f64, f64) = (0.2, 0.85);
+
+/// The label of measured numbers with their unit, if it is known.
+pub(super) fn labelled(name: &str, unit: Option<&str>) -> String {
+    format!("{name} ({})", unit.unwrap_or("unit of the data"))
+}
 
 /// The lowest and the highest height away from the ends of the lines.
 pub(super) fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
-use super::axes::OF_DATA;
+use super::axes::labelled;
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
@@ -83,11 +83,8 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
         "onsets" => ("velocity", "load at onset"),
         _ => ("velocity", "wavelength"),
     };
-    let x = match unit {
-        Some(unit) if !is_series => format!("{x} ({unit})"),
-        _ => format!("{x} {OF_DATA}"),
-    };
-    let y = format!("{y} {OF_DATA}");
+    let x = labelled(x, unit.filter(|_| !is_series));
+    let y = labelled(y, None);
     let mut above = PanelDocument::new(&data.source, (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
     let mut measured = CurveDocument::new(style, "as measured", &data.x, &data.y);

@@ -1,6 +1,6 @@
 //! Figure of a fit to an image of ripples: the image with its crests, and the mean ripple beside that of the model.
 
-use super::axes::OF_DATA;
+use super::axes::labelled;
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use super::raster::crest_lines;
@@ -13,9 +13,7 @@ use stickslip::{
 impl Drawn for FitImageDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let unit = self.parameters.unit.as_deref();
-        let in_unit = |name: &str| {
-            unit.map_or_else(|| format!("{name} {OF_DATA}"), |unit| format!("{name} ({unit})"))
-        };
+        let height = labelled("height", self.parameters.height_unit.as_deref());
         let title =
             format!("Ripples: α = {}, r = {}", with_error(&self.alpha), with_error(&self.r));
         let tip = TipDocument::from(&self.parameters.tip.clone().unwrap_or_default().0);
@@ -34,17 +32,19 @@ impl Drawn for FitImageDocument {
             with_error(&self.crest_angle)
         );
         let heading = heading.replace(" ± ", "\u{a0}±\u{a0}");
-        let mut surface = PanelDocument::new(&heading, (&in_unit("x"), &in_unit("y")));
+        let mut surface =
+            PanelDocument::new(&heading, (&labelled("x", unit), &labelled("y", unit)));
         surface.curves = vec![crest_lines((&x, &y), (self.q, self.kappa), self.phase)];
         surface.map = Some(MapDocument {
             x: image.x.clone(),
             y: image.y.clone(),
             z: image.rows.clone(),
-            z_label: format!("height {OF_DATA}"),
+            z_label: height.clone(),
             colours: ColoursName::Cividis,
             z_range: None,
         });
-        figure.panels = vec![surface, ripple(self, &in_unit("distance from the crest"))];
+        figure.panels =
+            vec![surface, ripple(self, (&labelled("distance from the crest", unit), &height))];
         figure.columns = 2;
         figure.remarks.clone_from(&self.remarks);
         Ok(figure)
@@ -52,9 +52,9 @@ impl Drawn for FitImageDocument {
 }
 
 /// The mean ripple with its error, and that of the model.
-fn ripple(document: &FitImageDocument, x_label: &str) -> PanelDocument {
+fn ripple(document: &FitImageDocument, labels: (&str, &str)) -> PanelDocument {
     let profile = &document.profile;
-    let mut panel = PanelDocument::new("mean ripple", (x_label, &format!("height {OF_DATA}")));
+    let mut panel = PanelDocument::new("mean ripple", labels);
     let (x, height) = (&profile.distance, &profile.height);
     let rows = || height.iter().zip(&profile.error);
     let high: Vec<f64> = rows().map(|(height, error)| height + 1.96 * error).collect();

@@ -1,6 +1,6 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
-use super::axes::OF_DATA;
+use super::axes::labelled;
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
@@ -31,12 +31,12 @@ impl Drawn for MeasuredTipDocument {
         let alpha = self.critical_alpha.value;
         let model = ModelParameters::papers(tip, alpha, None, self.parameters.r);
         let mut figure = FigureDocument::new("tip", &title, vec![model]);
-        let x_label = unit.map_or_else(|| format!("x {OF_DATA}"), |unit| format!("x ({unit})"));
+        let x_label = labelled("x", unit);
         let at = |i: usize| first + (last - first) * i as f64 / POINTS as f64;
         let along: Vec<f64> = (0..=POINTS).map(at).collect();
         let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
-        let mut data = PanelDocument::new("", (&x_label, &format!("height {OF_DATA}")));
+        let mut data = PanelDocument::new("", (&x_label, &labelled("height", None)));
         let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
         measured.colour = Some(ColourName::Grey);
         data.curves = vec![

@@ -127,6 +127,9 @@ pub struct FitImage {
     /// Unit of lengths; that of the image by default.
     #[schemars(extend("x-option" = option("UNIT", "Data", 11)))]
     pub unit: Option<String>,
+    /// Unit of heights, such as nm or V; by default unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<String>,
     /// Direction in which the tip moved along the lines when it made the ripples; both are tried by default.
     #[schemars(extend("x-option" = option("DIRECTION", "Data", 13)))]
     pub scan: Option<ScanName>,

@@ -82,6 +82,8 @@ impl Product for FitImageDocument {
     fn summary(&self) -> Summary {
         let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
         let unit = unit.unwrap_or_default();
+        let height_unit = self.parameters.height_unit.as_deref().map(|unit| format!(" {unit}"));
+        let height_unit = height_unit.unwrap_or_default();
         let headline = format!(
             "alpha = {}, r = {}: ripples of {}{unit} with crests at {}° to the scan",
             with_interval(&self.alpha),
@@ -106,7 +108,7 @@ impl Product for FitImageDocument {
             .maybe("critical α at this r", self.critical_alpha.map(|alpha| digits(alpha, 6)))
             .row("wavelength", format!("{}{unit}", with_interval(&self.wavelength)))
             .row("crests to the scan axis", format!("{}°", with_interval(&self.crest_angle)))
-            .row("amplitude", with_interval(&self.amplitude))
+            .row("amplitude", format!("{}{height_unit}", with_interval(&self.amplitude)))
             .row("height gain k/a", digits(self.height_gain, 5))
             .maybe("scan", word(json!(self.scan)))
             .maybe("lines", word(json!(self.slow_scan)))
@@ -125,7 +127,7 @@ impl Product for FitImageDocument {
             )
             .maybe("retrace over trace", self.retrace.map(|r| digits(r.ratio, 4)))
             .row("probability of the misfit", digits(self.misfit, 2))
-            .row("residual", digits(self.residual, 3))
+            .row("residual", format!("{}{height_unit}", digits(self.residual, 3)))
             .remarks(&self.remarks)
     }
 }

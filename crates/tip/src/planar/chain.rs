@@ -505,7 +505,6 @@ fn run(chain: &mut Chain, acting: &Acting) {
     match known {
         1 => chain.coefficients(Some(1), acting),
         2 => chain.coefficients(Some(2), acting),
-        3 => chain.coefficients(Some(3), acting),
         _ => chain.coefficients(None, acting),
     }
 }

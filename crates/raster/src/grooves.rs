@@ -130,8 +130,7 @@ impl Grooves {
             self.put_again(lines);
             return;
         }
-        let rows = rows_of(line, self.lattice.as_ref(), &mut self.stretch.spectra);
-        self.put(line, rows);
+        self.transform_and_put(line);
     }
 
     /// Largest distance of the tip from the range of the supports.
@@ -182,10 +181,12 @@ impl Grooves {
     fn put_again(&mut self, lines: &[Line]) {
         self.rows.clear();
         self.count = 0;
-        for line in lines {
-            let rows = rows_of(line, self.lattice.as_ref(), &mut self.stretch.spectra);
-            self.put(line, rows);
-        }
+        lines.iter().for_each(|line| self.transform_and_put(line));
+    }
+
+    fn transform_and_put(&mut self, line: &Line) {
+        let rows = rows_of(line, self.lattice.as_ref(), &mut self.stretch.spectra);
+        self.put(line, rows);
     }
 
     /// Û at y; `None` if no line is within reach.

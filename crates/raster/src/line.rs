@@ -97,19 +97,19 @@ impl Line {
     /// x0 on the surface.
     #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
-        self.track.x(self.trajectory.x0(t))
+        self.at(t)[0]
     }
 
     /// R - x0 on the surface: the lateral force. Negative on a line towards smaller x, where the tip lags behind.
     #[must_use]
     pub fn lag(&self, t: f64) -> f64 {
-        self.track.sign() * (self.trajectory.l(t) + self.trajectory.r())
+        self.at(t)[1]
     }
 
     /// x0' on the surface.
     #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
-        self.track.sign() * self.trajectory.velocity(t)
+        self.at(t)[2]
     }
 
     /// x0 on the surface at the end.

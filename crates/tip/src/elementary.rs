@@ -19,16 +19,18 @@ pub(crate) const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;
 /// ln 2 in two parts, the first with so few bits that small integer multiples of it are exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// 1/m!
-const INVERSE_FACTORIALS: [f64; 14] = {
-    let mut inverse = [1.0; 14];
+const INVERSE_FACTORIALS: [f64; 14] = inverse_factorials();
+
+/// 1/m!, m = 0, 1, …
+pub(crate) const fn inverse_factorials<const N: usize>() -> [f64; N] {
+    let mut inverse = [1.0; N];
     let mut m = 1;
-    while m < 14 {
+    while m < N {
         inverse[m] = inverse[m - 1] / m as f64;
         m += 1;
     }
     inverse
-};
+}
 
 /// e^x with an error of one unit in the last place.
 #[inline]

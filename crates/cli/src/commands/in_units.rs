@@ -236,7 +236,7 @@ impl Scaled {
         let sigma = fitted.or(question.known("width"))?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
         let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
-        Some(of_ripples([metres; 2], sigma, gain))
+        Some(of_ripples((metres, Some(metres)), sigma, gain))
     }
 
     /// Scales of a fit to an image: σ is given. Heights without a unit are in that of lengths; others than lengths, such as
@@ -246,16 +246,20 @@ impl Scaled {
             serde_json::from_value(self.parameters?).ok()?;
         let metres = Unit::Length.one(unit.as_deref()?)?;
         let height_metres = height_unit.map_or(Some(metres), |unit| Unit::Length.one(&unit));
-        let gain = self.height_gain.filter(|_| height_metres.is_some());
-        Some(of_ripples([metres, height_metres.unwrap_or(metres)], width?, gain))
+        Some(of_ripples((metres, height_metres), width?, self.height_gain))
     }
 }
 
 /// Scales from σ and k/a, by the units of lengths and of heights in m.
-fn of_ripples([metres, height_metres]: [f64; 2], sigma: f64, gain: Option<f64>) -> KnownScales {
+fn of_ripples(
+    (metres, height_metres): (f64, Option<f64>),
+    sigma: f64,
+    gain: Option<f64>,
+) -> KnownScales {
+    let height = gain.zip(height_metres);
     KnownScales {
         length: Some(sigma * metres),
-        height: gain.map(|gain| gain * sigma * sigma * height_metres),
+        height: height.map(|(gain, metres)| gain * sigma * sigma * metres),
         ..KnownScales::default()
     }
 }

@@ -24,8 +24,10 @@ pub use derivatives::{Derivatives, ROOM, SteadyPast};
 pub(crate) use fading::Fading;
 pub(crate) use fft::Fft;
 pub use groove::{Groove, Memory, longest_look};
+pub(crate) use modes::{
+    ExpandedPart, HIGHEST_DEGREE, LOWEST_DEGREE, Prepared, TERMS, Terms, expansion_lengths,
+};
 pub use modes::{Fit, FitCertificate, FitError, Retreat, Term, accuracy_needed, displacement};
-pub(crate) use modes::{HIGHEST_DEGREE, LOWEST_DEGREE, Prepared, TERMS, Terms, expansion_lengths};
 pub use policy::Policy;
 pub(crate) use record::Record;
 pub use report::{MemoryReport, Sum};

@@ -10,9 +10,9 @@
 //! fit.
 
 use super::layers::{self, LANES, Lanes};
-use crate::elementary::complex_exp;
+use crate::elementary::{complex_exp, inverse_factorials};
 use crate::exponential::of_lanes;
-use crate::memory::{Fit, HIGHEST_DEGREE, Prepared, SteadyPast, TERMS, Terms};
+use crate::memory::{ExpandedPart, Fit, HIGHEST_DEGREE, Prepared, SteadyPast, TERMS, Terms};
 use crate::state::{Damaged, Reader, State};
 use multiversion::multiversion;
 use num_complex::Complex;
@@ -120,39 +120,22 @@ impl Modes {
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
-        self.advance_from(0.0, position, weighted);
-    }
-
-    /// The same for a tip that stands at `start`, in parts if no expansion reaches so far.
-    fn advance_from(&mut self, start: f64, position: &[f64], weighted: &[Lanes]) {
-        let Some(&end) = position.last() else { return };
-        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
-        if let Some(degree) = self.prepared.bank.degree(radius) {
-            let count = (degree + 1).next_multiple_of(BLOCK);
-            self.moments.resize(count * self.groups, [0.0; LANES]);
-            moments(position, weighted, middle, &mut self.moments);
-            self.carry(half, (degree + 1) * self.groups);
-        } else if position.len() > 1 {
-            let (first, rest) = position.split_at(position.len() / 2);
-            let (first_weighted, rest_weighted) = weighted.split_at(first.len() * self.groups);
-            self.advance_from(start, first, first_weighted);
-            self.advance_from(first[first.len() - 1], rest, rest_weighted);
-        } else {
-            self.carry(half, 0);
-            let states = self.states.chunks_exact_mut(2 * self.groups);
-            states.for_each(|state| add(&mut state[..weighted.len()], weighted, 1.0));
-        }
-    }
-
-    /// Moves the tip over twice this distance, with as many numbers of the moments of the visits.
-    fn carry(&mut self, half: f64, count: usize) {
-        let moments = &self.moments[..count];
-        for (terms, states) in
-            self.prepared.bank.terms().zip(self.states.chunks_mut(2 * TERMS * self.groups))
-        {
-            carry(states, terms, half, (moments, self.groups));
-        }
+        let Self { prepared, groups, states, moments, .. } = self;
+        prepared.bank.each_part(0.0, (position, weighted, *groups), &mut |part| {
+            let ExpandedPart { position, weights, middle, half, degree } = part;
+            let count = degree.map_or(0, |degree| degree + 1);
+            moments.resize(count.next_multiple_of(BLOCK) * *groups, [0.0; LANES]);
+            self::moments(position, weights, middle, moments);
+            let moments = &moments[..count * *groups];
+            let of_terms = states.chunks_mut(2 * TERMS * *groups);
+            for (states, terms) in of_terms.zip(prepared.bank.terms()) {
+                carry(states, terms, half, (moments, *groups));
+            }
+            if degree.is_none() {
+                let states = states.chunks_exact_mut(2 * *groups);
+                states.for_each(|state| add(&mut state[..*groups], weights, 1.0));
+            }
+        });
     }
 
     /// Writes the state, and the exponents that it belongs to.
@@ -187,13 +170,13 @@ impl Modes {
 
     /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
     /// many as there is room for.
-    pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
-        derivatives(self.prepared.powers.rows(), &self.states, factor, told);
+    pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
+        derivatives(self.prepared.powers.rows(), &self.states, factor, of_layers);
     }
 
     /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
     pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
-        jet.iter_mut().for_each(|told| told.fill([0.0; LANES]));
+        jet.iter_mut().for_each(|integral| integral.fill([0.0; LANES]));
         let exponentials = self.prepared.bank.terms().flat_map(|(exponents, _)| {
             let (re, im) = of_lanes(*exponents, displacement);
             (0..TERMS).map(move |i| Complex::new(re[i], im[i]))
@@ -202,9 +185,9 @@ impl Modes {
         for ((term, e), state) in self.fit.terms().iter().zip(exponentials).zip(states) {
             let (re, im) = state.split_at(self.groups);
             let mut factor = term.weight * e / term.exponent;
-            for told in jet.iter_mut() {
-                add(told, re, factor.re);
-                add(told, im, -factor.im);
+            for integral in jet.iter_mut() {
+                add(integral, re, factor.re);
+                add(integral, im, -factor.im);
                 factor *= term.exponent;
             }
         }
@@ -256,18 +239,9 @@ fn moments(position: &[f64], weighted: &[Lanes], from: f64, moments: &mut [Lanes
     }
 }
 
-/// Moments of the highest degree, with those that fill the last block.
-const FACTORIALS: usize = (HIGHEST_DEGREE + 1).next_multiple_of(BLOCK);
-/// 1/n!
-const INVERSE_FACTORIALS: [f64; FACTORIALS] = {
-    let mut inverse = [1.0; FACTORIALS];
-    let mut n = 1;
-    while n < FACTORIALS {
-        inverse[n] = inverse[n - 1] / n as f64;
-        n += 1;
-    }
-    inverse
-};
+/// 1/n! of the moments of the highest degree, and of those that fill the last block.
+const INVERSE_FACTORIALS: [f64; (HIGHEST_DEGREE + 1).next_multiple_of(BLOCK)] =
+    inverse_factorials();
 
 /// `z_jm ← E (E z_jm + Σ_n s_j^n moments_nm)` with `E = e^{s_j half}`, for a group of terms.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
@@ -307,10 +281,10 @@ fn derivatives<const ROOM: usize>(
     rows: &[[f64; ROOM]],
     states: &[Lanes],
     factor: f64,
-    told: &mut [Lanes],
+    of_layers: &mut [Lanes],
 ) {
     let groups = states.len() / rows.len();
-    for (block, told) in told.chunks_mut(BLOCK * groups).enumerate() {
+    for (block, of_layers) in of_layers.chunks_mut(BLOCK * groups).enumerate() {
         for g in 0..groups {
             let mut sums = [[0.0; LANES]; BLOCK];
             for (row, state) in rows.iter().zip(states.chunks_exact(groups)) {
@@ -321,9 +295,9 @@ fn derivatives<const ROOM: usize>(
                     }
                 }
             }
-            for (told, sum) in told.chunks_exact_mut(groups).zip(&sums) {
+            for (of_layers, sum) in of_layers.chunks_exact_mut(groups).zip(&sums) {
                 for i in 0..LANES {
-                    told[g][i] = factor * sum[i];
+                    of_layers[g][i] = factor * sum[i];
                 }
             }
         }
@@ -361,13 +335,14 @@ mod tests {
             }
             modes.remember(&positions, &weighted);
         }
-        let mut told = vec![[0.0; LANES]; 3 * 4];
+        let mut integrals = vec![[0.0; LANES]; 3 * 4];
         for (d, eta) in [(0.0, 0.0), (0.4, -0.5), (-0.3, 0.6)] {
-            let [value, slope, curvature] = told.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap();
+            let [value, slope, curvature] =
+                integrals.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap();
             modes.at(d, &mut [value, slope, curvature]);
             let mut phi = vec![[0.0; LANES]; 4];
             layers::values(eta, 1.0, &mut phi);
-            for (n, told) in told.chunks_exact(4).enumerate() {
+            for (n, integral) in integrals.chunks_exact(4).enumerate() {
                 let of = |xi: f64| match n {
                     0 => tip.value(xi),
                     1 => tip.slope(xi),
@@ -377,15 +352,19 @@ mod tests {
                     .iter()
                     .map(|(x, y, w)| w * of(d - x) * (-0.5 * (eta - y) * (eta - y)).exp())
                     .sum();
-                let sum: f64 =
-                    phi.as_flattened().iter().zip(told.as_flattened()).map(|(a, b)| a * b).sum();
+                let sum: f64 = phi
+                    .as_flattened()
+                    .iter()
+                    .zip(integral.as_flattened())
+                    .map(|(a, b)| a * b)
+                    .sum();
                 assert!((sum - exact).abs() < 1e-8, "{d} {n}: {sum} {exact}");
             }
         }
         let mut derivatives = vec![[0.0; LANES]; 12];
-        modes.at(0.0, &mut told.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap());
+        modes.at(0.0, &mut integrals.get_disjoint_mut([0..4, 4..8, 8..12]).unwrap());
         modes.derivatives(1.0, &mut derivatives);
-        for (a, b) in derivatives.as_flattened().iter().zip(told.as_flattened()) {
+        for (a, b) in derivatives.as_flattened().iter().zip(integrals.as_flattened()) {
             assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
         }
     }

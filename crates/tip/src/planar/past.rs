@@ -85,8 +85,8 @@ impl Past {
     }
 
     /// Derivatives from the exponentials, if these are in use.
-    pub(super) fn derivatives(&self, factor: f64, told: &mut [Lanes]) {
-        self.modes.iter().for_each(|modes| modes.derivatives(factor, told));
+    pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
+        self.modes.iter().for_each(|modes| modes.derivatives(factor, of_layers));
     }
 
     /// Derivatives of g at 0, from the sum of exponentials.

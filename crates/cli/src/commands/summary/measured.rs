@@ -8,10 +8,14 @@ use stickslip::{
     NumberFitted,
 };
 
+/// A unit as it follows a number.
+fn after_number(unit: Option<&str>) -> String {
+    unit.map(|unit| format!(" {unit}")).unwrap_or_default()
+}
+
 impl Product for MeasuredTipDocument {
     fn summary(&self) -> Summary {
-        let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
-        let unit = unit.unwrap_or_default();
+        let unit = after_number(self.parameters.unit.as_deref());
         let r = digits(self.parameters.r, 6);
         let headline = format!(
             "a sum of {} Gaussian{} with σ = {}{unit}: critical α {} at r = {r}",
@@ -80,10 +84,8 @@ impl Product for FitDocument {
 
 impl Product for FitImageDocument {
     fn summary(&self) -> Summary {
-        let unit = self.parameters.unit.as_deref().map(|unit| format!(" {unit}"));
-        let unit = unit.unwrap_or_default();
-        let height_unit = self.parameters.height_unit.as_deref().map(|unit| format!(" {unit}"));
-        let height_unit = height_unit.unwrap_or_default();
+        let unit = after_number(self.parameters.unit.as_deref());
+        let height_unit = after_number(self.parameters.height_unit.as_deref());
         let headline = format!(
             "alpha = {}, r = {}: ripples of {}{unit} with crests at {}° to the scan",
             with_interval(&self.alpha),

@@ -72,6 +72,37 @@ impl Tables {
         let k = self.lengths.partition_point(|length| *length < radius);
         (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
     }
+
+    /// Passes visits of a tip that moves from `start` to the last of them to `each`: all at once, or in parts where no
+    /// expansion reaches so far. Each visit has `count` weights.
+    pub(crate) fn each_part<'a, W>(
+        &self,
+        start: f64,
+        (position, weights, count): (&'a [f64], &'a [W], usize),
+        each: &mut impl FnMut(ExpandedPart<'a, W>),
+    ) {
+        let Some(&end) = position.last() else { return };
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
+        let degree = self.degree(radius);
+        if degree.is_some() || position.len() == 1 {
+            return each(ExpandedPart { position, weights, middle, half, degree });
+        }
+        let (first, rest) = position.split_at(position.len() / 2);
+        let (first_weights, rest_weights) = weights.split_at(first.len() * count);
+        self.each_part(start, (first, first_weights, count), each);
+        self.each_part(first[first.len() - 1], (rest, rest_weights, count), each);
+    }
+}
+
+/// Visits of a tip that moves by twice `half`, about the middle of its way.
+pub(crate) struct ExpandedPart<'a, W> {
+    pub(crate) position: &'a [f64],
+    pub(crate) weights: &'a [W],
+    pub(crate) middle: f64,
+    pub(crate) half: f64,
+    /// The degree that expands every exponential about the middle; `None` for one visit that none reaches.
+    pub(crate) degree: Option<usize>,
 }
 
 impl Bank {
@@ -111,45 +142,23 @@ impl Bank {
 
     /// Adds a time spent at a displacement from the tip.
     pub(super) fn add(&mut self, position: f64, weight: f64) {
-        for group in &mut self.groups {
-            let e = exp(group.exponent, -position);
-            for i in 0..LANES {
-                group.state.0[i] += weight * e.0[i];
-                group.state.1[i] += weight * e.1[i];
-            }
-        }
+        add(&mut self.groups, position, weight);
     }
 
     /// Remembers visits that end at the last of their positions: `z_j ← e^{s_j Δ} z_j + Σ_k weight_k
     /// e^{s_j (Δ - position_k)}`, the sum expanded about Δ/2 in powers of `s_j`.
     pub(super) fn advance(&mut self, position: &[f64], weight: &[f64]) {
-        self.advance_from(0.0, position, weight);
-    }
-
-    /// The same for a tip that stands at `start`: in parts where no expansion reaches so far.
-    fn advance_from(&mut self, start: f64, position: &[f64], weight: &[f64]) {
-        let Some(&end) = position.last() else { return };
-        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
-        if let Some(degree) = self.tables.degree(radius) {
-            let visits = (position, weight);
-            powers::carry(&mut self.groups, &self.tables.powers, visits, (middle, half), degree);
-        } else if position.len() > 1 {
-            let (first, rest) = position.split_at(position.len() / 2);
-            let (first_weight, rest_weight) = weight.split_at(first.len());
-            self.advance_from(start, first, first_weight);
-            self.advance_from(first[first.len() - 1], rest, rest_weight);
-        } else {
-            self.displace(end - start);
-            weight.iter().for_each(|weight| self.add(0.0, *weight));
-        }
-    }
-
-    /// Moves the tip: `z_j ← e^{s_j Δ} z_j`.
-    fn displace(&mut self, moved: f64) {
-        for group in &mut self.groups {
-            group.state = product(exp(group.exponent, moved), group.state);
-        }
+        let Self { groups, tables } = self;
+        tables.each_part(0.0, (position, weight, 1), &mut |part| {
+            let ExpandedPart { position, weights, middle, half, degree } = part;
+            if let Some(degree) = degree {
+                let visits = (position, weights);
+                powers::carry(groups, &tables.powers, visits, (middle, half), degree);
+            } else {
+                displace(groups, 2.0 * half);
+                weights.iter().for_each(|weight| add(groups, 0.0, *weight));
+            }
+        });
     }
 
     /// Slope and curvature of the groove at one displacement from the tip.
@@ -210,6 +219,24 @@ impl Bank {
             groove.set_height(height.iter().sum());
         }
         true
+    }
+}
+
+/// Adds a time spent at a displacement from the tip.
+fn add(groups: &mut [Group], position: f64, weight: f64) {
+    for group in groups {
+        let e = exp(group.exponent, -position);
+        for i in 0..LANES {
+            group.state.0[i] += weight * e.0[i];
+            group.state.1[i] += weight * e.1[i];
+        }
+    }
+}
+
+/// Moves the tip: `z_j ← e^{s_j Δ} z_j`.
+fn displace(groups: &mut [Group], moved: f64) {
+    for group in groups {
+        group.state = product(exp(group.exponent, moved), group.state);
     }
 }
 

@@ -14,7 +14,7 @@ mod weights;
 mod window;
 
 pub use accuracy::{accuracy_needed, displacement};
-pub(crate) use bank::{LANES as TERMS, LOWEST_DEGREE, Terms, expansion_lengths};
+pub(crate) use bank::{ExpandedPart, LANES as TERMS, LOWEST_DEGREE, Terms, expansion_lengths};
 pub use certificate::FitCertificate;
 pub use fit::{Fit, FitError};
 pub(crate) use local::HIGHEST_DEGREE;

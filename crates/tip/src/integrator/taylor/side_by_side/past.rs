@@ -3,7 +3,7 @@
 use super::super::series::MOST_ORDER;
 use super::super::visits::{MOST_NODES, Rule};
 use super::lanes::{LANES, Lanes};
-use crate::elementary::complex_exp;
+use crate::elementary::{complex_exp, inverse_factorials};
 use crate::memory::{Fit, HIGHEST_DEGREE, LOWEST_DEGREE, Term, expansion_lengths};
 use num_complex::Complex;
 
@@ -24,16 +24,7 @@ pub(super) struct Exponentials {
 const AT_ONCE: usize = 6;
 const ROOM: usize = MOST_ORDER.next_multiple_of(AT_ONCE);
 
-/// 1/m!
-const INVERSE_FACTORIALS: [f64; HIGHEST_DEGREE + 1] = {
-    let mut inverse = [1.0; HIGHEST_DEGREE + 1];
-    let mut m = 1;
-    while m <= HIGHEST_DEGREE {
-        inverse[m] = inverse[m - 1] / m as f64;
-        m += 1;
-    }
-    inverse
-};
+const INVERSE_FACTORIALS: [f64; HIGHEST_DEGREE + 1] = inverse_factorials();
 
 impl Exponentials {
     pub(super) fn new(fit: &Fit) -> Self {

@@ -2,6 +2,7 @@
 
 use super::super::local::HIGHEST_DEGREE;
 use super::{Group, LANES, Lane, product, sum};
+use crate::elementary::inverse_factorials;
 use multiversion::multiversion;
 
 /// `s_j^m` of a group, m = 0, 1, …
@@ -10,16 +11,7 @@ pub(super) type Powers = [(Lane, Lane); HIGHEST_DEGREE + 1];
 const ROOM: usize = (HIGHEST_DEGREE + 1).next_multiple_of(LANES);
 type Coefficients = [f64; ROOM];
 
-/// 1/m!
-const INVERSE_FACTORIALS: Coefficients = {
-    let mut inverse = [1.0; ROOM];
-    let mut m = 1;
-    while m < ROOM {
-        inverse[m] = inverse[m - 1] / m as f64;
-        m += 1;
-    }
-    inverse
-};
+const INVERSE_FACTORIALS: Coefficients = inverse_factorials();
 
 /// Of a group's exponents.
 pub(super) fn powers(exponent: (Lane, Lane)) -> Powers {

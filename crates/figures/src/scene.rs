@@ -42,6 +42,6 @@ pub struct Moment {
     pub panels: Vec<PanelDocument>,
     /// Position of the tip in the first panel.
     pub tip: (f64, f64),
-    /// Abscissa of the support in the first panel, if there is a spring.
-    pub support: Option<f64>,
+    /// Position of the support in the first panel, if there is a spring.
+    pub support: Option<(f64, f64)>,
 }

@@ -1,7 +1,7 @@
 //! u(x,y,t) of a tip that moves in both coordinates.
 
 use crate::SurfaceError;
-use ndarray::{Array1, Array2};
+use ndarray::Array2;
 use rayon::prelude::*;
 use stickslip_tip::planar::{PlanarError, PlanarScenario, Texture, Trajectory, Visit};
 use stickslip_tip::{Layer, Start};
@@ -49,37 +49,77 @@ impl<'a> SurfaceAcross<'a> {
         let mut visits = self.trajectory.residence(t);
         visits.sort_by(|a, b| a.x.total_cmp(&b.x));
         let left = self.scenario.along.model.wider().left_after(t - start);
-        let columns: Vec<Array1<f64>> =
-            x.par_iter().map(|x| self.column(&visits, left, *x, y)).collect();
+        let reach = self.layers.iter().map(reach).fold(0.0, f64::max);
+        let near: Vec<&[f64]> = x
+            .chunk_by(|a, b| (b - a).abs() < CLOSE * reach)
+            .flat_map(|near| near.chunks(COLUMNS))
+            .collect();
+        let columns: Vec<Vec<f64>> =
+            near.par_iter().flat_map_iter(|x| self.columns(&visits, left, x, y)).collect();
         Ok(Array2::from_shape_fn((y.len(), x.len()), |(j, i)| columns[i][j]))
     }
 
-    /// u at every y of one x; `left` is the undecayed part of the initial surface.
-    fn column(&self, visits: &[Visit], left: f64, x: f64, y: &[f64]) -> Array1<f64> {
+    /// u at every y of some neighbouring x; `left` is the undecayed part of the initial surface.
+    fn columns(&self, visits: &[Visit], left: f64, x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
         let along = &self.scenario.along;
         let (model, position) = (&along.model, along.start_position);
-        let mut column: Array1<f64> = y.iter().map(|y| left * self.texture.height(x, *y)).collect();
+        let initial = |x| y.iter().map(|y| left * self.texture.height(x, *y)).collect();
+        let mut columns: Vec<Vec<f64>> = x.iter().copied().map(initial).collect();
         for layer in self.layers {
-            let reach = layer.along.reach().unwrap_or(f64::INFINITY);
-            let from = visits.partition_point(|visit| visit.x < x - reach);
-            let within = visits[from..].iter().take_while(|visit| visit.x <= x + reach);
-            let carved: Vec<(f64, f64)> =
-                within.map(|v| (v.y, v.weight * layer.along.value(x - v.x))).collect();
-            let steady = match along.start {
-                Start::Steady => {
-                    let tail = layer.along.fading_tail(x - position, model.fading());
-                    left * model.steady_density() * tail
+            let profile: Vec<f64> = y.iter().map(|y| layer.across.value(*y)).collect();
+            let carved = carved(layer, visits, x, y);
+            for ((column, carved), x) in columns.iter_mut().zip(carved).zip(x) {
+                let steady = match along.start {
+                    Start::Steady => {
+                        let tail = layer.along.fading_tail(x - position, model.fading());
+                        left * model.steady_density() * tail
+                    }
+                    Start::Flat => 0.0,
+                };
+                for ((u, sum), across) in column.iter_mut().zip(carved).zip(&profile) {
+                    *u -= model.alpha() * sum + steady * across;
                 }
-                Start::Flat => 0.0,
-            };
-            for (u, y) in column.iter_mut().zip(y) {
-                let of = |(there, weight): &(f64, f64)| weight * layer.across.value(y - there);
-                let sum: f64 = carved.iter().map(of).sum();
-                *u -= model.alpha() * sum + steady * layer.across.value(*y);
             }
         }
-        column
+        columns
     }
+}
+
+/// Number of columns that share the profiles of the visits near them, and their largest distance relative to the
+/// reach of the tip.
+const COLUMNS: usize = 32;
+const CLOSE: f64 = 0.25;
+/// Number of visits whose profiles are kept at a time.
+const VISITS: usize = 256;
+
+fn reach(layer: &Layer) -> f64 {
+    layer.along.reach().unwrap_or(f64::INFINITY)
+}
+
+/// Σ weight f(x - x0) h(y - y0) of a layer over the visits within reach, for each x and y. The profile h of a visit is
+/// computed once for all x.
+fn carved(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
+    let reach = reach(layer);
+    let low = x.iter().copied().fold(f64::INFINITY, f64::min) - reach;
+    let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max) + reach;
+    let from = visits.partition_point(|visit| visit.x < low);
+    let to = visits.partition_point(|visit| visit.x <= high);
+    let mut sums = vec![vec![0.0; y.len()]; x.len()];
+    for visits in visits[from..to].chunks(VISITS) {
+        let profile = |visit: &Visit| -> Vec<f64> {
+            y.iter().map(|y| layer.across.value(y - visit.y)).collect()
+        };
+        let profiles: Vec<Vec<f64>> = visits.iter().map(profile).collect();
+        for (sums, x) in sums.iter_mut().zip(x) {
+            let from = visits.partition_point(|visit| visit.x < x - reach);
+            let within = visits.iter().zip(&profiles).skip(from);
+            for (visit, profile) in within.take_while(|(visit, _)| visit.x <= x + reach) {
+                let weight = visit.weight * layer.along.value(x - visit.x);
+                sums.iter_mut().zip(profile).for_each(|(sum, across)| *sum += weight * across);
+            }
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ use apng::Apng;
 pub use film::Film;
 use gif::Gif;
 use palette::Palette;
-use patch::{Patch, Writer};
+use patch::{NEAR, Patch, Writer};
 use stage::Stage;
 use webp::Webp;
 
@@ -47,10 +47,12 @@ pub fn animate(
     };
     let mut shown = vec![0; stage.size().0 * stage.size().1];
     let mut before: Option<Vec<u8>> = None;
-    for (t, milliseconds) in times {
+    for (i, (t, milliseconds)) in times.into_iter().enumerate() {
         let now = stage.draw(scene, t)?;
         let mut patch = Patch::between(before.as_deref(), &now, stage.size());
-        patch.reduce(&mut palette, &mut shown, stage.size().0);
+        // From the end of the motion, which the first frame shows, to its beginning: no trace of the end may remain.
+        let near = if i == 1 { 0 } else { NEAR };
+        patch.reduce(&mut palette, &mut shown, stage.size().0, near);
         writer.frame(&patch, milliseconds)?;
         before = Some(now);
     }

@@ -4,7 +4,7 @@ use super::palette::Palette;
 use crate::error::FigureError;
 
 /// Largest difference of colours, of 255, that is left as it is: that of a colour from the palette.
-const NEAR: u8 = 8;
+pub(super) const NEAR: u8 = 8;
 
 /// A writer of frames.
 pub(super) trait Writer {
@@ -64,15 +64,21 @@ impl Patch {
         Self { left, top, width: right - left, height: bottom - top, pixels }
     }
 
-    /// Replaces colours by those of the palette, and drops pixels that show a colour close to theirs: heights beside a line
-    /// change a little with each line. `shown` has the index of each pixel
-    /// of the frame, of this width.
-    pub(super) fn reduce(&mut self, palette: &mut Palette, shown: &mut [u8], width: usize) {
+    /// Replaces colours by those of the palette, and drops pixels that show one no farther than `near` from theirs:
+    /// heights beside a line change a little with each line. `shown` has the index of each pixel of the frame, of this
+    /// width.
+    pub(super) fn reduce(
+        &mut self,
+        palette: &mut Palette,
+        shown: &mut [u8],
+        width: usize,
+        near: u8,
+    ) {
         for (i, pixel) in self.pixels.iter_mut().enumerate() {
             let Some(colour) = *pixel else { continue };
             let place =
                 &mut shown[width * (self.top + i / self.width) + self.left + i % self.width];
-            if palette.colour(*place).is_some_and(|there| are_near(there, colour)) {
+            if palette.colour(*place).is_some_and(|there| is_near(there, colour, near)) {
                 *pixel = None;
                 continue;
             }
@@ -82,9 +88,9 @@ impl Patch {
     }
 }
 
-/// Whether no channel differs by more than [`NEAR`].
-fn are_near(a: [u8; 3], b: [u8; 3]) -> bool {
-    a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= NEAR)
+/// Whether no channel differs by more than `near`.
+fn is_near(a: [u8; 3], b: [u8; 3], near: u8) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= near)
 }
 
 #[cfg(test)]
@@ -98,7 +104,7 @@ mod tests {
         for (now, seen) in [(12, Some([10; 3])), (18, None), (190, Some([200; 3])), (192, None)] {
             let pixels = vec![Some([now; 3]), None];
             let mut patch = Patch { left: 0, top: 0, width: 2, height: 1, pixels };
-            patch.reduce(&mut palette, &mut shown, 2);
+            patch.reduce(&mut palette, &mut shown, 2, NEAR);
             assert_eq!(patch.pixels, [seen, None], "{now}");
         }
     }

@@ -140,7 +140,7 @@ fn seen_from_the_side(moment: &Moment, frame: Frame, drawing: &mut Drawing) {
     let level = frame.at.top + SPRING_DEPTH;
     let (half, height) = CONE;
     let shoulder = y - height;
-    if let Some((end, _)) = moment.support.and_then(|at| frame.place((at, moment.tip.1))) {
+    if let Some((end, _)) = moment.support.and_then(|at| frame.place(at)) {
         drawing.segment((x, shoulder + 1.0), (x, level), Paint::stroke(TIP, 3.0));
         drawing.path(polyline(&spring((x, level), end)), Paint::stroke(SPRING, 1.8));
         let (left, right) = (end - SUPPORT.0, end + SUPPORT.0);
@@ -177,10 +177,10 @@ fn spring((from, y): (f64, f64), to: f64) -> Vec<(f64, f64)> {
 /// Tip and support over a map.
 fn seen_from_above(moment: &Moment, frame: Frame, drawing: &mut Drawing) {
     let Some((x, y)) = frame.place(moment.tip) else { return };
-    if let Some((end, _)) = moment.support.and_then(|at| frame.place((at, moment.tip.1))) {
-        drawing.segment((x, y), (end, y), Paint::stroke(PAPER, 4.5));
-        drawing.segment((x, y), (end, y), Paint::stroke(SPRING, 2.2));
-        let (left, right, top, bottom) = (end - 2.5, end + 2.5, y - 7.0, y + 7.0);
+    if let Some((end, level)) = moment.support.and_then(|at| frame.place(at)) {
+        drawing.segment((x, y), (end, level), Paint::stroke(PAPER, 4.5));
+        drawing.segment((x, y), (end, level), Paint::stroke(SPRING, 2.2));
+        let (left, right, top, bottom) = (end - 2.5, end + 2.5, level - 7.0, level + 7.0);
         let block = Paint { stroke: Some(PAPER), width: 1.0, ..Paint::fill(TIP) };
         drawing.rect(Rect { left, right, top, bottom }, block);
     }

@@ -8,7 +8,7 @@ use crate::sheet::Sheet;
 use crate::size::Width;
 use crate::{FigureError, colours, scene_of};
 use std::io::Cursor;
-use stickslip::{KnownScales, Raster, RasterDocument, Run, RunDocument};
+use stickslip::{Ask, Context, KnownScales, Raster, RasterDocument, Run, RunDocument};
 use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Trajectory, Wider};
@@ -223,11 +223,82 @@ fn a_scene_in_nanometres_has_its_tip_and_times_there_too() {
     assert!((scene.times()[0] - 20.0).abs() < 1e-9 && (scene.times()[1] - 29.0).abs() < 1e-9);
     let moment = scene.moment(25.0).unwrap();
     assert!((moment.tip.0 - 30.0 * run.trajectory.x0(50.0)).abs() < 1e-9, "{:?}", moment.tip);
-    assert!((moment.support.unwrap() - 30.0 * 50.0).abs() < 1e-9 && moment.unit == "s");
+    assert!((moment.support.unwrap().0 - 30.0 * 50.0).abs() < 1e-9 && moment.unit == "s");
     assert!(moment.panels[0].x_label == "x (nm)" && moment.panels[0].y_label == "u (kσ²/a)");
     let nothing = Shot { times: Some([900.0, 901.0]), scales: Some(scales) };
     let error = scene_of(&document, &nothing).map(|_| ()).unwrap_err();
     assert!(matches!(error, FigureError::Still(_)), "{error}");
+}
+
+/// A run in the plane that swings across its line; the tip has not been where x > 44.
+fn swinging() -> RunDocument {
+    let parameters = serde_json::json!({
+        "alpha": 1.3, "r": 1.0, "kick": 0.05, "until": 42.0, "tolerance": 1e-7, "stiffness_across": 0.25,
+        "kick_across": 0.6,
+    });
+    let question: Run = serde_json::from_value(parameters).unwrap();
+    question.ask(&Context::default()).unwrap()
+}
+
+/// The heights of a scene against those under the tip that its equation of motion has: with Γ = 1,
+/// `R - x0 = x0' + ∂u/∂x` and `-κ_y y0 = y0' + ∂u/∂y`. The tip is in its pit, and the support on its line.
+#[test]
+fn a_run_in_the_plane_has_the_surface_that_pulls_on_its_tip() {
+    let document = swinging();
+    let (_, trajectory) = document.trajectory_across().unwrap();
+    let shot = Shot { times: Some([24.0, 40.0]), ..Shot::default() };
+    let mut scene = scene_of(&document, &shot).unwrap();
+    // Not in order: a scene can be shown again.
+    for t in [40.0, 24.0, 31.7, 36.2] {
+        let moment = scene.moment(t).unwrap();
+        let (x0, y0) = (trajectory.x0(t), trajectory.y0(t));
+        assert_eq!((moment.tip, moment.support), ((x0, y0), Some((t, 0.0))));
+        let map = moment.panels[0].map.as_ref().unwrap();
+        let (i, j) =
+            (map.x.partition_point(|x| *x < x0) - 1, map.y.partition_point(|y| *y < y0) - 1);
+        let (h, k) = (map.x[1] - map.x[0], map.y[1] - map.y[0]);
+        // Quadratic in both coordinates around the nearest point of the map.
+        let (a, b) = ((x0 - map.x[i]) / h, (y0 - map.y[j]) / k);
+        let along = |row: &[f64]| {
+            (row[i + 1] - row[i - 1]) / (2.0 * h) + a * (row[i + 1] - 2.0 * row[i] + row[i - 1]) / h
+        };
+        let slope = (1.0 - b) * along(&map.z[j]) + b * along(&map.z[j + 1]);
+        let force = trajectory.lag(t) - trajectory.velocity(t)[0];
+        assert!((force - slope).abs() < 5e-3, "t = {t}: {force} {slope}");
+        let across = |i: usize| {
+            (map.z[j + 1][i] - map.z[j - 1][i]) / (2.0 * k)
+                + b * (map.z[j + 1][i] - 2.0 * map.z[j][i] + map.z[j - 1][i]) / k
+        };
+        let slope = (1.0 - a) * across(i) + a * across(i + 1);
+        let force = -0.25 * y0 - trajectory.velocity(t)[1];
+        assert!((force - slope).abs() < 5e-3, "t = {t}: {force} {slope}");
+        let swing = moment.panels[2].curves[1].y[0].unwrap();
+        assert!(moment.panels.len() == 3 && (swing - y0).abs() < 1e-12);
+    }
+}
+
+/// The first frame shows the end of the motion: nothing of it remains where the tip has not yet been.
+#[test]
+fn no_trace_of_the_end_remains_at_the_beginning() {
+    let document = swinging();
+    let film = Film::new(Some(0.5), Some(10.0), Some(Width::Pixels(SIZE))).unwrap();
+    let shot = Shot { times: Some([24.0, 40.0]), ..Shot::default() };
+    for format in FORMATS {
+        let mut scene = scene_of(&document, &shot).unwrap();
+        let still = scene.still();
+        let frames = seen(&animate(&mut *scene, format, &film).unwrap(), format);
+        let sheet = Sheet::of(&still, SIZE);
+        let axes = sheet.frames()[0];
+        // Below the time, and beyond the reach of the tip at t = 24.
+        let columns = axes.place((33.0, 0.0)).unwrap().0 as usize..axes.at.right as usize - 3;
+        let rows = (axes.at.top + 0.75 * axes.at.height()) as usize..axes.at.bottom as usize - 3;
+        let colours = |frame: &Seen| -> std::collections::BTreeSet<[u8; 3]> {
+            let at = |row| columns.clone().map(move |column| frame.at(column, row));
+            rows.clone().flat_map(at).collect()
+        };
+        assert!(colours(&frames[0]).len() > 10, "{format:?}");
+        assert_eq!(colours(&frames[1]).len(), 1, "{format:?}");
+    }
 }
 
 fn plan(path: Path, healing_time: Option<f64>) -> Plan {
@@ -300,7 +371,7 @@ fn every_frame_of_a_raster_shows_the_heights_at_its_time() {
             let [low, high] = map.z_range.unwrap();
             let colour = |z: f64| colours::at(map.colours, (z - low) / (high - low));
             let tip = axes.place(moment.tip).unwrap();
-            let support = axes.place((moment.support.unwrap(), moment.tip.1)).unwrap();
+            let support = axes.place(moment.support.unwrap()).unwrap();
             for (row, y) in map.z.iter().zip(&map.y).skip(1).take(5) {
                 for i in 1..map.x.len() - 1 {
                     let at = axes.place((map.x[i], *y)).unwrap();

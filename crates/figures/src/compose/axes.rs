@@ -32,6 +32,11 @@ pub(super) const FORCE: (&str, &str) = ("t (Γ/k)", "F_{ext} (kσ)");
 /// Labels of the surface.
 pub(super) const SURFACE: (&str, &str) = ("x (σ)", "u (kσ²/a)");
 
+/// Labels of a map of the surface.
+pub(super) const MAP: (&str, &str) = ("x (σ)", "y (σ)");
+/// Labels of y0 against time.
+pub(super) const ACROSS: (&str, &str) = ("t (Γ/k)", "y₀ (σ)");
+
 /// Typical size of the dimensionless quantities: far smaller variations are round-off.
 pub(super) const NATURAL: Option<f64> = Some(1.0);
 

@@ -42,14 +42,6 @@ impl Carving {
     /// # Errors
     /// The run has no dense history along its line, or is damaged.
     pub(super) fn of(run: &RunDocument, shot: &Shot) -> Result<Self, FigureError> {
-        if run.parameters.stiffness_across.is_some() {
-            let why = "animations show a tip on its line: leave out --stiffness-across, or name the picture .svg, .png or .pdf";
-            return Err(FigureError::Still(why.into()));
-        }
-        if run.history.is_none() {
-            let why = "an animation is drawn from the history, which was left out: run it again with --history all";
-            return Err(FigureError::Still(why.into()));
-        }
         let trajectory = run.trajectory()?;
         let scenario = run.parameters.scenario()?;
         let initial =
@@ -104,12 +96,7 @@ impl Scene for Carving {
         let ends = self.x.first().zip(self.x.last());
         ground.x_range = ends.map(|(first, last)| [*first, *last]);
         ground.y_range = Some(self.heights);
-        let mut force = PanelDocument::new("", self.labels());
-        (force.natural, force.x_range) = (NATURAL, Some(self.times));
-        let mut whole = self.trail.clone();
-        whole.colour = Some(ColourName::Silver);
-        force.curves = vec![whole];
-        figure.panels = vec![ground, force];
+        figure.panels = vec![ground, whole(&self.trail, self.labels(), self.times)];
         figure
     }
 
@@ -123,21 +110,33 @@ impl Scene for Carving {
         let height = self.surface(t, &[x0])?[0];
         let support = match self.trajectory.support() {
             Support::None => None,
-            support => Some(support.position(t)),
+            support => Some((support.position(t), height)),
         };
         let mut ground = PanelDocument::new("", SURFACE);
         ground.curves = vec![CurveDocument::new(StyleName::Line, "", &self.x, &u)];
         let mut force = PanelDocument::new("", self.labels());
-        let now = [quantity(&self.trajectory, t)];
-        let past = self.trail.x.partition_point(|at| *at < t);
-        let (mut x, mut y) = (self.trail.x[..past].to_vec(), self.trail.y[..past].to_vec());
-        x.push(t);
-        y.push(Some(now[0]));
-        let trail = CurveDocument { x, y, ..self.trail.clone() };
-        force.curves = vec![trail, CurveDocument::new(StyleName::Dots, "", &[t], &now)];
+        force.curves = past(&self.trail, t, quantity(&self.trajectory, t)).into();
         let (unit, note, panels) = ("Γ/k".into(), String::new(), vec![ground, force]);
         Ok(Moment { t, unit, note, panels, tip: (x0, height), support })
     }
+}
+
+/// Axes with all of a curve against time in the background.
+pub(super) fn whole(curve: &CurveDocument, labels: (&str, &str), times: [f64; 2]) -> PanelDocument {
+    let mut panel = PanelDocument::new("", labels);
+    (panel.natural, panel.x_range) = (NATURAL, Some(times));
+    panel.curves = vec![CurveDocument { colour: Some(ColourName::Silver), ..curve.clone() }];
+    panel
+}
+
+/// The part of a curve before a time, and a dot at its value then.
+pub(super) fn past(curve: &CurveDocument, t: f64, now: f64) -> [CurveDocument; 2] {
+    let past = curve.x.partition_point(|at| *at < t);
+    let (mut x, mut y) = (curve.x[..past].to_vec(), curve.y[..past].to_vec());
+    x.push(t);
+    y.push(Some(now));
+    let line = CurveDocument { x, y, ..curve.clone() };
+    [line, CurveDocument::new(StyleName::Dots, "", &[t], &[now])]
 }
 
 /// The spring extension, or the velocity of a tip without a spring.

@@ -1,7 +1,6 @@
 //! A raster as a scene: the surface line by line with the tip, and the lag along the line.
 
-use super::axes::heights_within;
-use super::axes::{LAG, NATURAL};
+use super::axes::{LAG, MAP, NATURAL, heights_within};
 use super::tip::raster_title;
 use crate::axis::extremes;
 use crate::error::FigureError;
@@ -17,7 +16,6 @@ use stickslip_surface::carved;
 const MOST: usize = 640;
 /// Points of the lag along a line.
 const POINTS: u32 = 400;
-const LABELS: (&str, &str) = ("x (σ)", "y (σ)");
 
 /// A raster between two times, counted from the start of the first line.
 pub(super) struct Growing {
@@ -135,9 +133,9 @@ impl Scene for Growing {
     fn still(&self) -> FigureDocument {
         let model = self.document.parameters.model_parameters();
         let mut figure = FigureDocument::new("growing", &self.title, vec![model]);
-        let mut surface = PanelDocument::new("", LABELS);
+        let mut surface = PanelDocument::new("", MAP);
         surface.map = Some(self.map(self.whole.u.clone()));
-        let mut lag = PanelDocument::new("", (LABELS.0, LAG.1));
+        let mut lag = PanelDocument::new("", (MAP.0, LAG.1));
         let ends = self.whole.x.first().zip(self.whole.x.last());
         lag.x_range = ends.map(|(first, last)| [*first, *last]);
         (lag.natural, lag.y_range) = (NATURAL, Some(self.lags));
@@ -153,12 +151,12 @@ impl Scene for Growing {
         let last = self.lines.len() - 1;
         let n = (self.starts.partition_point(|start| *start <= t).max(1) - 1).min(last);
         let since = (t - self.starts[n]).clamp(0.0, self.plan.duration(n));
-        let mut surface = PanelDocument::new("", LABELS);
+        let mut surface = PanelDocument::new("", MAP);
         let u = self.surface(n, since);
         surface.map = Some(self.map(u));
         let (line, r) = (&self.lines[n], self.plan.law.model.r());
         let track = line.track();
-        let mut lag = PanelDocument::new("", (LABELS.0, LAG.1));
+        let mut lag = PanelDocument::new("", (MAP.0, LAG.1));
         if let Some(before) = n.checked_sub(1).map(|before| &self.lines[before]) {
             let mut before = trace(before, before.trajectory().end(), r);
             before.colour = Some(ColourName::Silver);
@@ -173,7 +171,7 @@ impl Scene for Growing {
             note: format!("line {} of {}", n + 1, self.lines.len()),
             panels: vec![surface, lag],
             tip: (line.x0(since), track.y),
-            support: Some(now.0),
+            support: Some((now.0, track.y)),
         })
     }
 }

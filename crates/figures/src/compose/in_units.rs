@@ -162,7 +162,7 @@ impl Scene for InUnits {
         if let Some(first) = moment.panels.first() {
             let axes = (Axis::of(&first.x_label, scales), Axis::of(&first.y_label, scales));
             moment.tip = (moment.tip.0 * axes.0.factor, moment.tip.1 * axes.1.factor);
-            moment.support = moment.support.map(|x| x * axes.0.factor);
+            moment.support = moment.support.map(|(x, y)| (x * axes.0.factor, y * axes.1.factor));
         }
         moment.panels.iter_mut().for_each(|panel| convert(panel, scales));
         Ok(moment)

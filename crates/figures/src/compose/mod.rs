@@ -17,6 +17,7 @@ mod growing;
 mod in_units;
 mod load_map;
 mod measured_tip;
+mod plane;
 mod quantity;
 mod raster;
 mod raster_stability;
@@ -29,6 +30,8 @@ mod surface;
 mod sweep;
 mod tip;
 mod walker;
+#[cfg(feature = "animation")]
+mod wandering;
 
 use crate::axis::is_range;
 use crate::error::FigureError;

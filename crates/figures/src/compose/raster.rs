@@ -1,7 +1,6 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
-use super::axes::SPRING;
-use super::axes::heights_within;
+use super::axes::{MAP, SPRING, heights_within};
 use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
@@ -33,7 +32,7 @@ impl Drawn for RasterDocument {
         let title = raster_title(parameters);
         let mut figure = FigureDocument::new("raster", &title, vec![parameters.model_parameters()]);
         let map = self.height_map()?;
-        let mut surface = PanelDocument::new(&heading(self), ("x (σ)", "y (σ)"));
+        let mut surface = PanelDocument::new(&heading(self), MAP);
         let wave = self.pattern.as_ref().and_then(|p| p.q.zip(p.kappa));
         if let Some(wave) = wave {
             let is_lines = parameters.plan()?.area.pitch(parameters.path.into()).is_some();
@@ -69,9 +68,9 @@ impl Drawn for RasterCompareDocument {
         let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
         let apart = HeightMap { u: off.map(row).collect(), ..map.clone() };
         if is_even(&map.x) && is_even(&map.y) {
-            let mut surface = PanelDocument::new("closed equation", ("x (σ)", "y (σ)"));
+            let mut surface = PanelDocument::new("closed equation", MAP);
             surface.map = Some(heights(map));
-            let mut difference = PanelDocument::new("difference from the grid", ("x (σ)", "y (σ)"));
+            let mut difference = PanelDocument::new("difference from the grid", MAP);
             let z_label = "Δu (kσ²/a)".into();
             difference.map =
                 Some(MapDocument { z_label, colours: ColoursName::BlueRed, ..heights(apart) });
@@ -109,7 +108,7 @@ impl Drawn for RasterSurfaceDocument {
         for map in &self.surfaces {
             let mut panel;
             if is_even(&map.x) && is_even(&map.y) {
-                panel = PanelDocument::new("", ("x (σ)", "y (σ)"));
+                panel = PanelDocument::new("", MAP);
                 panel.map = Some(heights(map.clone()));
             } else {
                 panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));

@@ -2,13 +2,16 @@
 
 mod ground;
 
-use super::axes::{EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
+use super::axes::{ACROSS, EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
 #[cfg(feature = "animation")]
 use super::carving::Carving;
 use super::dense::{Part, Quantity};
 use super::drawn::{Drawn, View};
+use super::plane::Plane;
 use super::quantity::Quantity as Said;
 use super::tip::run_title;
+#[cfg(feature = "animation")]
+use super::wandering::Wandering;
 use crate::error::FigureError;
 use crate::number::short;
 #[cfg(feature = "animation")]
@@ -35,7 +38,7 @@ impl Drawn for RunDocument {
         let mut figure = FigureDocument::new("run", &run_title(self), vec![model]);
         if self.parameters.stiffness_across.is_some() {
             figure.panels = sampled(self);
-            figure.panels.extend(across(self));
+            figure.panels.extend(across(self, view)?);
             return Ok(figure);
         }
         if self.history.is_none() {
@@ -71,6 +74,13 @@ impl Drawn for RunDocument {
 
     #[cfg(feature = "animation")]
     fn scene(&self, shot: &Shot) -> Result<Box<dyn Scene>, FigureError> {
+        if self.history.is_none() {
+            let why = "an animation is drawn from the history, which was left out: run it again with --history all";
+            return Err(FigureError::Still(why.into()));
+        }
+        if self.parameters.stiffness_across.is_some() {
+            return Ok(Box::new(Wandering::of(self, shot)?));
+        }
         Ok(Box::new(Carving::of(self, shot)?))
     }
 }
@@ -184,13 +194,18 @@ pub(super) fn against(
     panel
 }
 
-/// y0 against time, and the path of the tip in the plane.
-fn across(run: &RunDocument) -> Vec<PanelDocument> {
-    let (samples, Some(y0)) = (&run.samples, &run.samples.y0) else { return vec![] };
+/// y0 against time, and the path of the tip in the plane, on the surface if the run has a history.
+fn across(run: &RunDocument, view: &View) -> Result<Vec<PanelDocument>, FigureError> {
+    let (samples, Some(y0)) = (&run.samples, &run.samples.y0) else { return Ok(vec![]) };
     let swing = CurveDocument::new(StyleName::Line, "y₀(t), samples", &samples.t, y0);
+    let swing = against(ACROSS, swing, None);
+    if run.history.is_some() {
+        let plane = Plane::of(run, view.x_range).or_else(|_| Plane::of(run, None))?;
+        return Ok(vec![swing, plane.seen(plane.times()[1], None)?]);
+    }
     let mut path = PanelDocument::new("", ("x₀ (σ)", "y₀ (σ)"));
     path.curves = vec![CurveDocument::new(StyleName::Line, "path of the tip", &samples.x0, y0)];
-    vec![against((L.0, "y₀ (σ)"), swing, None), path]
+    Ok(vec![swing, path])
 }
 
 /// l and the velocity at the samples.

@@ -1,6 +1,6 @@
 //! Figures of surfaces and images.
 
-use super::axes::{NATURAL, SURFACE};
+use super::axes::{MAP, NATURAL, SURFACE};
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
 use super::tip::model_name;
@@ -37,7 +37,7 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     let range = extremes(heights.filter(|u| u.is_finite()));
     let range = range.filter(|(low, high)| low < high).map(|(low, high)| [low, high]);
     let panel = |image: &stickslip::SurfaceImage| {
-        let mut panel = PanelDocument::new(&time(image.t), ("x (σ)", "y (σ)"));
+        let mut panel = PanelDocument::new(&time(image.t), MAP);
         panel.map = Some(MapDocument {
             x: image.x.clone(),
             y: image.y.clone(),

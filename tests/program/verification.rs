@@ -64,7 +64,7 @@ fn add(number: &mut Value, by: f64) {
     *number = json!(number.as_f64().unwrap() + by);
 }
 
-const CLAIMS: [Claim; 24] = [
+const CLAIMS: [Claim; 25] = [
     ("run", |d| add(&mut d["samples"]["l"][70], 2e-6), "samples.l"),
     ("run", |d| add(&mut d["samples"]["x0"][70], 2e-6), "samples.x0"),
     ("run", |d| add(&mut d["samples"]["lag"][70], 2e-6), "samples.lag"),
@@ -89,6 +89,7 @@ const CLAIMS: [Claim; 24] = [
     ("limited", |d| add(&mut d["samples"]["height"][7], 1e-6), "samples.height"),
     ("limited", |d| add(&mut d["samples"]["weight"][7], 1e-6), "samples.weight"),
     ("path", |d| add(&mut d["loops"][0]["work"], 1e-3), "loops.work"),
+    ("hold", |d| add(&mut d["holds"][0]["peak"]["lag"], 1e-3), "holds.peak.lag"),
 ];
 
 /// Judged by the document that the program wrote: all of it follows, and each value that is changed does not.
@@ -106,6 +107,7 @@ fn every_value_that_does_not_follow_is_named() {
             "run --alpha 1.2 --r 1 --kick 0.05 --depth-limit 2 --until 30 --sample-every 1".into(),
         ),
         ("path", "run --alpha 1.2 --r 1 --support-path path.csv --until 20".into()),
+        ("hold", "run --alpha 1.2 --r 1 --depth-limit 2 --hold 5,5 --until 40".into()),
     ] {
         folder.prints(&format!("{line} -o {name}.json"));
         let found = folder.prints_json(&format!("verify {name}.json"));

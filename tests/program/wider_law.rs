@@ -65,6 +65,41 @@ fn runs_are_documents_that_every_reader_takes() {
     assert_eq!(folder.json("free.json")["steady_state"], serde_json::Value::Null);
 }
 
+/// The peaks of the table in docs/findings, and the largest of closely spaced samples.
+#[test]
+fn the_peak_after_a_hold_is_in_document_and_summary() {
+    let folder = folder("hold");
+    let line = "run --alpha 0.8 --beta 0 --r 1 --sample-every 0.005";
+    for (law, hold, known) in [
+        ("--depth-limit 1", 1, 1.525),
+        ("--depth-limit 1", 10, 2.151),
+        ("--depth-limit 1", 100, 3.308),
+        ("", 10, 8.53),
+    ] {
+        let until = hold + 50;
+        folder.prints(&format!("{line} {law} --hold 20,{hold} --until {until} -o h.json"));
+        let document = folder.json("h.json");
+        let [found] = &document["holds"].as_array().unwrap()[..] else { unreachable!("one hold") };
+        assert_eq!(
+            (&found["from"], &found["to"]),
+            (&serde_json::json!(20.0), &serde_json::json!(20.0 + f64::from(hold)))
+        );
+        let (t, lag) = (&found["peak"]["t"], found["peak"]["lag"].as_f64().unwrap());
+        assert!((lag - known).abs() < 6e-4 * known.max(5.0), "{law} {hold}: {lag} {known}");
+        let column = |name: &str| document["samples"][name].as_array().unwrap().clone();
+        let moving = column("t").iter().position(|t| t.as_f64() > found["to"].as_f64()).unwrap();
+        let lags = column("lag").into_iter().skip(moving).filter_map(|lag| lag.as_f64());
+        let largest = lags.fold(0.0, f64::max);
+        assert!(largest <= lag && lag - largest < 2e-5, "{law} {hold}: {lag} {largest} at {t}");
+    }
+    let line = format!("{line} --hold 20,10");
+    let text = folder.prints(&format!("{line} --until 60 --format text"));
+    let text = String::from_utf8(text).unwrap();
+    assert!(text.contains("peak after the hold") && text.contains("8.5256"), "{text}");
+    let document = folder.prints_json(&format!("{line} --until 31"));
+    assert_eq!(document["holds"][0]["peak"], serde_json::Value::Null);
+}
+
 /// The grid forms its own steady past, weights and fading.
 #[test]
 fn the_grids_solve_the_wider_law_too() {

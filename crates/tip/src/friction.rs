@@ -1,7 +1,9 @@
-//! Friction: the work that the support does on a tip.
+//! Friction: the work that the support does on a tip, and the force to move on after it stood still.
 
+use crate::motion::extrema_within;
 use crate::{Step, Support, SupportPath, Trajectory};
 use gauss_quad::legendre::GaussLegendre;
+use std::cmp::Ordering;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
@@ -14,6 +16,27 @@ pub struct Loop {
     pub to: f64,
     /// Work ∮ (R - x0)dR, in kσ².
     pub work: f64,
+}
+
+/// A rest of the support.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// Time at which the support stops, in Γ/k.
+    pub from: f64,
+    /// Time at which it moves on, in Γ/k.
+    pub to: f64,
+    /// The peak of the lateral force while the support then moves in one direction; `None` if the force is largest at
+    /// the end of that motion.
+    pub peak: Option<Peak>,
+}
+
+/// A largest extension of the spring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Time, in Γ/k.
+    pub t: f64,
+    /// R - x0, in σ; negative if the support moves backwards.
+    pub lag: f64,
 }
 
 /// Number of Gauss points: on each step the lag is a polynomial of a degree below twice this number.
@@ -37,6 +60,63 @@ pub fn loops(motion: &Trajectory) -> Vec<Loop> {
             found
         })
         .collect()
+}
+
+/// The rests of a support on a path after which it moves on, as far as the motion includes the end of the rest.
+#[must_use]
+pub fn holds(motion: &Trajectory) -> Vec<Hold> {
+    let Support::Path(path) = motion.support() else { return vec![] };
+    let (t, way) = path.knots();
+    let pieces = t.windows(2).zip(way.windows(2));
+    let pieces: Vec<Phase> = pieces
+        .map(|(t, way)| Phase { from: t[0], to: t[1], direction: direction(way[1] - way[0]) })
+        .collect();
+    // Neighbouring pieces in the same direction are one.
+    let phases: Vec<Phase> = pieces
+        .chunk_by(|a, b| a.direction == b.direction)
+        .map(|part| Phase { to: part[part.len() - 1].to, ..part[0] })
+        .collect();
+    phases
+        .windows(2)
+        .filter(|pair| pair[0].direction == Ordering::Equal && pair[0].to < motion.end())
+        .map(|pair| Hold { from: pair[0].from, to: pair[0].to, peak: peak(motion, pair[1]) })
+        .collect()
+}
+
+/// A part of a path in which the support moves in one direction, or stands still.
+#[derive(Debug, Clone, Copy)]
+struct Phase {
+    from: f64,
+    to: f64,
+    direction: Ordering,
+}
+
+fn direction(way: f64) -> Ordering {
+    way.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+/// The largest extension of the spring in the direction of the support, if it is not that at the end.
+fn peak(motion: &Trajectory, phase: Phase) -> Option<Peak> {
+    let support = motion.support();
+    let steps = motion.steps();
+    let first = steps.partition_point(|step| step.t < phase.from);
+    let within: Vec<&Step> = steps[first..].iter().take_while(|step| step.t < phase.to).collect();
+    let mut at = vec![];
+    for step in &within {
+        at.push((step.t, step.lag(support, step.t)));
+        // R - x0 turns where l of a support of the same velocity does.
+        extrema_within(step, support.velocity(step.t), |turn| {
+            at.push((turn.t, step.lag(support, turn.t)));
+        });
+    }
+    let last = within.last()?;
+    at.push((last.end(), last.lag(support, last.end())));
+    let larger = |a: &&(f64, f64), b: &&(f64, f64)| match phase.direction {
+        Ordering::Less => b.1.total_cmp(&a.1),
+        _ => a.1.total_cmp(&b.1),
+    };
+    let (t, lag) = *at.iter().max_by(larger)?;
+    (t < last.end()).then_some(Peak { t, lag })
 }
 
 /// Work ∫ (R - x0)dR of the support between two times.
@@ -84,7 +164,7 @@ pub fn ends_of_loops(path: &SupportPath) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Model, Scenario, TipFunction, run};
+    use crate::{Model, Scenario, Start, TipFunction, Wider, run};
 
     #[test]
     fn loops_end_where_the_support_is_back_and_goes_on_as_it_began() {
@@ -101,6 +181,52 @@ mod tests {
         assert_eq!(ends_of_loops(&about_the_start.unwrap()), [4.0, 8.0]);
         let away = path(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]).unwrap();
         assert!(ends_of_loops(&away).is_empty());
+    }
+
+    /// Without a groove a tip of inertia 1 is a damped oscillator: the lag y = R - x0 obeys y'' + y' + y = v, from
+    /// y = 0 and y' = v on.
+    #[test]
+    fn the_peak_after_a_rest_is_that_of_the_free_oscillator() {
+        let tip = TipFunction::gaussian(1.0).unwrap();
+        let path = |knots: &[(f64, f64)]| {
+            let (t, way) = knots.iter().copied().unzip();
+            SupportPath::new(t, way).unwrap()
+        };
+        // A long rest from the start, then forwards, a rest, and backwards in two pieces.
+        let knots =
+            [(0.0, 0.0), (60.0, 0.0), (100.0, 40.0), (160.0, 40.0), (180.0, 20.0), (190.0, 5.0)];
+        let wider = Wider { inertia: Some(1.0), ..Wider::default() };
+        let model = Model::under(wider, tip, 0.0, 1.0).unwrap();
+        let scenario = Scenario {
+            path: Some(path(&knots)),
+            start: Start::Flat,
+            ..Scenario::new(model, 175.0)
+        };
+        let found = holds(&run(&scenario).unwrap().trajectory);
+        let (rate, omega) = (0.5, 0.75_f64.sqrt());
+        let lag = |s: f64| {
+            1.0 - (-rate * s).exp() * ((omega * s).cos() - (1.0 - rate) / omega * (omega * s).sin())
+        };
+        let slope = |s: f64| (lag(s + 1e-6) - lag(s - 1e-6)) / 2e-6;
+        let (mut low, mut high) = (0.5, 4.0);
+        while high - low > 1e-12 {
+            let middle = 0.5 * (low + high);
+            if slope(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        assert_eq!(found.len(), 2);
+        for (hold, (from, to, sign)) in found.iter().zip([(0.0, 60.0, 1.0), (100.0, 160.0, -1.0)]) {
+            assert!((hold.from - from).abs() < 1e-12 && (hold.to - to).abs() < 1e-12, "{hold:?}");
+            let peak = hold.peak.unwrap();
+            assert!(
+                (peak.t - to - low).abs() < 1e-5 && (peak.lag - sign * lag(low)).abs() < 1e-8,
+                "{hold:?} {low}"
+            );
+        }
+        let short = Scenario { until: 60.5, ..scenario.clone() };
+        let rising = holds(&run(&short).unwrap().trajectory);
+        assert!(matches!(rising[..], [Hold { peak: None, .. }]), "{rising:?}");
+        let resting = Scenario { until: 59.0, ..scenario };
+        assert!(holds(&run(&resting).unwrap().trajectory).is_empty());
     }
 
     /// What the support puts in is lost by the drag: without a groove, ∫ x0'² dt and what the spring holds.

@@ -156,5 +156,7 @@ fn record<S: Recorded>(order: &Order, scenario: &Scenario, sink: Sink) -> Record
 
 fn keeps_history(order: &Order) -> bool {
     let is_written = order.history && matches!(order.format, RunFormat::Json | RunFormat::Npz);
-    is_written || order.plot.is_some() || order.verify
+    // The text has the loops of a path, and the peaks of its rests.
+    let is_summarised = order.format == RunFormat::Text && order.parameters.support_path.is_some();
+    is_written || is_summarised || order.plot.is_some() || order.verify
 }

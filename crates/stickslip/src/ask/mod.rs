@@ -95,7 +95,10 @@ pub use run::{
     ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
     SupportPathParameters, SurfaceTable,
 };
-pub use run_found::{LoopDocument, RunEnd, RunFound, SampleLine, Samples, became, observed};
+pub use run_found::{
+    HoldDocument, LoopDocument, PeakDocument, RunEnd, RunFound, SampleLine, Samples, became,
+    observed,
+};
 pub use run_many::ask_runs;
 pub use sampling::{Sampling, Times};
 pub use snaking_boundary::{

@@ -707,9 +707,8 @@ impl Ask for Run {
         let samples = sampled(&trajectory, &times);
         let remarks = end.remarks.clone();
         let steady_state = SteadyState::of(&scenario.model);
-        let mut found = RunFound::new(steady_state, samples, Some((&trajectory).into()), end);
-        found.loops = RunFound::loops_of(&scenario, &trajectory);
-        Ok((found, remarks))
+        let found = RunFound::new(steady_state, samples, Some((&trajectory).into()), end);
+        Ok((found.along_path(&trajectory), remarks))
     }
 
     /// The document of a run; a cancelled run ends at the time that it has reached.

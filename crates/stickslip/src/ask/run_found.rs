@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Observer, Outcome, Watched, judge};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::friction::{Loop, loops};
+use stickslip_tip::friction::{Hold, Loop, Peak, holds, loops};
 use stickslip_tip::{InitialSurface, Scenario, Step, Support, Trajectory, Wider};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
@@ -32,6 +32,10 @@ pub struct RunFound {
     /// The closed loops of a support that follows a path, and the work of each; null if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loops: Option<Vec<LoopDocument>>,
+    /// The rests of such a support after which it moves on, and the peak of the lateral force after each; null without
+    /// rests, or if the history is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holds: Option<Vec<HoldDocument>>,
     /// The rate of creep, if the regime is trapped.
     #[serde(default)]
     pub creep: Option<CreepDocument>,
@@ -66,6 +70,7 @@ impl RunFound {
             oscillation: end.oscillation,
             snaking: end.snaking,
             loops: None,
+            holds: None,
             creep: end.creep,
             drifting: end.drifting,
             transient: end.transient,
@@ -75,10 +80,23 @@ impl RunFound {
         }
     }
 
-    /// The loops of a support that follows a path.
-    pub fn loops_of(scenario: &Scenario, trajectory: &Trajectory) -> Option<Vec<LoopDocument>> {
-        let has_path = scenario.path.is_some();
-        has_path.then(|| loops(trajectory).into_iter().map(Into::into).collect())
+    /// The answer with the loops and the rests of a support that follows a path.
+    #[must_use]
+    pub fn along_path(self, trajectory: &Trajectory) -> Self {
+        let (loops, holds) = Self::of_path(trajectory);
+        Self { loops, holds, ..self }
+    }
+
+    /// The loops and the rests of a support that follows a path.
+    pub fn of_path(
+        trajectory: &Trajectory,
+    ) -> (Option<Vec<LoopDocument>>, Option<Vec<HoldDocument>>) {
+        if !matches!(trajectory.support(), Support::Path(_)) {
+            return (None, None);
+        }
+        let loops = loops(trajectory).into_iter().map(Into::into).collect();
+        let holds: Vec<_> = holds(trajectory).into_iter().map(Into::into).collect();
+        (Some(loops), (!holds.is_empty()).then_some(holds))
     }
 }
 
@@ -251,6 +269,35 @@ pub struct LoopDocument {
 impl From<Loop> for LoopDocument {
     fn from(Loop { from, to, work }: Loop) -> Self {
         Self { from, to, work }
+    }
+}
+
+/// A rest of the support.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HoldDocument {
+    /// Time at which the support stops, in Γ/k.
+    pub from: f64,
+    /// Time at which it moves on, in Γ/k.
+    pub to: f64,
+    /// The peak of the lateral force while the support then moves in one direction; null if the force is largest at
+    /// the end of that motion.
+    pub peak: Option<PeakDocument>,
+}
+
+/// A peak of the lateral force.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PeakDocument {
+    /// Time, in Γ/k.
+    pub t: f64,
+    /// R - x0, the extension of the spring, in σ: the lateral force, in kσ; negative if the support moves backwards.
+    pub lag: f64,
+}
+
+impl From<Hold> for HoldDocument {
+    fn from(Hold { from, to, peak }: Hold) -> Self {
+        Self { from, to, peak: peak.map(|Peak { t, lag }| PeakDocument { t, lag }) }
     }
 }
 

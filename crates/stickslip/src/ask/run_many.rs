@@ -1,7 +1,7 @@
 //! Many runs at once.
 
 use super::run_found::{observed, sampled};
-use crate::{Ask, Context, Failure, Run, RunDocument, RunFound, Times, WorkDocument};
+use crate::{Ask, Context, Failure, Run, RunDocument, Times, WorkDocument};
 use stickslip_outcome::Observer;
 use stickslip_tip::{Collected, RunError, Scenario, Step, Trajectory, collect_each};
 
@@ -114,7 +114,7 @@ impl Begun {
         let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
         let samples = sampled(&trajectory, times);
         let mut document = question.clone().document(samples, Some((&trajectory).into()), end);
-        document.loops = RunFound::loops_of(scenario, &trajectory);
+        document.answer = document.answer.along_path(&trajectory);
         Ok(document)
     }
 }

@@ -11,8 +11,8 @@ use crate::session::Session;
 use serde::Serialize;
 use std::path::Path;
 use stickslip::{
-    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunFound, RunHead,
-    SteadyState, Tabular, became,
+    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead, SteadyState,
+    Tabular, became,
 };
 use stickslip_outcome::Watched;
 use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
@@ -97,7 +97,9 @@ pub(super) fn all(
             let samples = std::mem::take(&mut integrated.record.samples);
             let history = trajectory.as_ref().filter(|_| order.history).map(Into::into);
             let mut document = order.parameters.clone().document(samples, history, end.clone());
-            document.loops = trajectory.as_ref().and_then(|t| RunFound::loops_of(scenario, t));
+            if let Some(trajectory) = &trajectory {
+                document.answer = document.answer.along_path(trajectory);
+            }
             let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
             // What was computed is written even if a signal ends its verification.
             let found = asked

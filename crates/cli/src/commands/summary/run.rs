@@ -5,8 +5,8 @@ use crate::commands::job::Product;
 use crate::commands::verify::claims::said;
 use crate::commands::verify::kept;
 use stickslip::{
-    LargestDifferenceDocument, LoopDocument, ModelParameters, OscillationDocument, RegimeName,
-    RunDocument, RunEnd, VerifyDocument, to_its_digits,
+    HoldDocument, LargestDifferenceDocument, LoopDocument, ModelParameters, OscillationDocument,
+    RegimeName, RunDocument, RunEnd, VerifyDocument, to_its_digits,
 };
 
 /// The summary of a run with the result `end`.
@@ -22,6 +22,8 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summa
         loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
     };
     let summary = summary.maybe("work of a loop", document.loops.as_ref().and_then(worked));
+    let peak = |holds: &Vec<HoldDocument>| holds.last().map(peak_after);
+    let summary = summary.maybe("peak after the hold", document.holds.as_ref().and_then(peak));
     let velocity = end.drifting.as_ref().map(|d| to_its_digits(d.velocity, d.velocity_error));
     let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
     let summary = summary
@@ -29,12 +31,21 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summa
         .maybe("creep", creep.map(|c| format!("x0 ~ ln t / {}", digits(c.attracting, 7))))
         .maybe("l of steady motion", steady.map(|s| format!("{} σ", digits(s.l, 7))))
         .remarks(&end.remarks);
-    if end.regime != RegimeName::Transient {
+    // On a path there is nothing to wait for.
+    if end.regime != RegimeName::Transient || document.parameters.support_path.is_some() {
         return summary.next(again("-o run.json --plot run.svg"));
     }
     let longer = end.transient.as_ref().and_then(|transient| transient.time);
     let longer = longer.map_or(3.0 * end.end.abs(), |time| 1.5 * time);
     summary.next(again(&format!("--until {}", digits(end.end + longer, 2))))
+}
+
+fn peak_after(hold: &HoldDocument) -> String {
+    let rest = format!("hold from t = {} to {}", hold.from, hold.to);
+    match &hold.peak {
+        Some(peak) => format!("{} kσ at t = {}, {rest}", digits(peak.lag, 7), digits(peak.t, 7)),
+        None => format!("not reached: the lateral force still rises at the end, {rest}"),
+    }
 }
 
 /// The summary of a run in two coordinates.

@@ -13,12 +13,12 @@ use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
-    ClaimDocument, Indentation, LoopDocument, ModelParameters, Physical, RegimeName, RunDocument,
-    RunEnd, SampleLine, SteadyState, became, became_across, sample_across,
+    ClaimDocument, Indentation, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
+    RunFound, SampleLine, SteadyState, became, became_across, sample_across,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::planar::PlanarScenario;
-use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, friction, stop};
+use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
 /// Largest relative difference of values of a polynomial whose coefficients were rounded when the document was
@@ -299,9 +299,13 @@ impl Claims {
             let parameters = &run.parameters;
             let on_path =
                 parameters.support_path.is_some() && parameters.stiffness_across.is_none();
-            let loops: Option<Vec<LoopDocument>> =
-                on_path.then(|| friction::loops(trajectory).into_iter().map(Into::into).collect());
+            let (loops, holds) =
+                if on_path { RunFound::of_path(trajectory) } else { Default::default() };
             self.judge_if("loops", run.loops.as_ref(), loops.as_ref(), &digits);
+            // Older documents have none.
+            if run.holds.is_some() {
+                self.judge_if("holds", run.holds.as_ref(), holds.as_ref(), &digits);
+            }
             let ended = trajectory.end() < run.parameters.until * (1.0 - DIGITS);
             let ended = ended && run.parameters.until - trajectory.end() > DIGITS;
             self.judge("interrupted", &json!(run.interrupted), &json!(ended), &digits);

@@ -19,7 +19,7 @@ fn of_part(part: &str, name: &str) -> Option<Dimension> {
         ("residue", "re" | "im") => Dimension::LENGTH,
         ("creep_roots", "re" | "im") => Dimension::WAVE_NUMBER,
         ("loops", "work") => Dimension::WORK,
-        ("loops", "from" | "to") | ("transient", "time") => Dimension::TIME,
+        ("loops" | "holds", "from" | "to") | ("transient", "time") => Dimension::TIME,
         // Of the quantity that they are statistics of.
         (_, "mean" | "least" | "median" | "largest" | "error" | "deviation") => {
             return of_name(part);

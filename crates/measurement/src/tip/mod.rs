@@ -269,6 +269,9 @@ fn effective(rows: usize, correlation: f64) -> f64 {
 const WIDE: f64 = 0.05;
 const ABOVE_NOISE: f64 = 1.3;
 
+/// Distance of the apex from the measured positions, in σ, above which a warning is given.
+const OUTSIDE: f64 = 0.5;
+
 /// Noise relative to the apex above which half a profile does not separate a tilt from a lobe.
 const DOUBTFUL: f64 = 0.015;
 
@@ -288,10 +291,24 @@ impl MeasuredTip {
         if self.is_one_sided() { None } else { lopsided::asymmetry(self) }
     }
 
+    /// Distance of the apex from the measured positions; 0 within them.
+    fn outside(&self) -> f64 {
+        let x = &self.fitted.x;
+        let nearest = self.centre.clamp(x[0], x[x.len() - 1]);
+        (self.centre - nearest).abs()
+    }
+
     /// Warnings about the result.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];
+        if self.outside() > OUTSIDE * self.sigma.value {
+            remarks.push(format!(
+                "the apex, at {:.6}, lies outside of the profile: only a flank was measured, so that width and alpha follow \
+                 from an assumed shape and may be wrong by more than their intervals; measure the apex too",
+                self.centre
+            ));
+        }
         let relative = self.critical_alpha.relative();
         if relative > WIDE {
             remarks.push(format!(

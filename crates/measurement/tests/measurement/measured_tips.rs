@@ -192,3 +192,21 @@ fn two_hundred_other_tips_hold_their_onset() {
 fn two_hundred_measured_tips_hold_their_onset() {
     campaign(200, 200, 9000);
 }
+
+/// αc of an algebraic footprint whose apex is 10 nm beyond the last row is off by up to 20 %, more than its interval.
+#[test]
+fn an_apex_outside_of_the_profile_is_named() {
+    for seed in 0..4 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let x: Vec<f64> = (0..=200).map(|i| 1.5 * f64::from(i) - 150.0).collect();
+        for (apex, is_named) in [(160.0, true), (100.0, false)] {
+            let height =
+                |x: &f64| -12.0 / (1.0 + ((x - apex) / 20.0).powi(2)) + 0.12 * normal(&mut random);
+            let profile = Profile::new(x.clone(), x.iter().map(height).collect()).unwrap();
+            let found = tip(&profile, &Request { resamples: 10, ..Request::default() }).unwrap();
+            eprintln!("{apex}: {} {}", found.centre, found.critical_alpha.value);
+            let is_found = found.remarks().iter().any(|remark| remark.contains("lies outside"));
+            assert_eq!(is_found, is_named, "seed {seed}: {:?}", found.remarks());
+        }
+    }
+}

@@ -30,13 +30,12 @@ fn of_part(part: &str, name: &str) -> Option<Dimension> {
 
 fn of_name(name: &str) -> Option<Dimension> {
     Some(match name {
-        "x" | "x0" | "y" | "y0" | "amplitude_y0" | "kick_across" | "l" | "lag" | "wavelength"
-        | "wavelength_x" | "amplitude_x0" | "deviation" | "mean_l" | "deviation_l"
-        | "slip_distance" | "memory_length" | "pitch" | "width" | "start_position" | "kick"
-        | "noise_spacing" | "residue_re" | "residue_im" | "grid" | "closed" | "grid_x0"
-        | "closed_x0" | "grid_y0" | "closed_y0" | "radius" | "center_x" | "center_y" => {
-            Dimension::LENGTH
-        }
+        "x" | "x0" | "u_x" | "y" | "y0" | "u_y" | "amplitude_y0" | "kick_across" | "l" | "lag"
+        | "wavelength" | "wavelength_x" | "amplitude_x0" | "deviation" | "mean_l"
+        | "deviation_l" | "slip_distance" | "memory_length" | "pitch" | "width"
+        | "start_position" | "kick" | "noise_spacing" | "residue_re" | "residue_im" | "grid"
+        | "closed" | "grid_x0" | "closed_x0" | "grid_y0" | "closed_y0" | "radius" | "center_x"
+        | "center_y" => Dimension::LENGTH,
         "u" | "height" | "surface_behind" | "amplitude" | "amplitude_u" | "least_depth_limit"
         | "depth_limit" | "noise" | "grid_u" | "closed_u" => Dimension::HEIGHT,
         "t" | "period" | "period_slope" | "origin" | "valid_from" | "healing_time" => {

@@ -70,16 +70,29 @@ def image_file(name, array):
 
     if array.ndim != 2:
         raise ValueError(f"{name}: {array.ndim} dimensions: an image has two, a profile has one")
+    if set(array.dims) == {"x", "y"}:
+        array = array.transpose("y", "x")
     down, along = array.dims
     positions = []
     for over in (along, down):
         if over not in array.coords:
             raise ValueError(f"{name}: has no positions along {over}")
+        if not is_even(array[over].values):
+            raise ValueError(f"{name}: positions along {over} are not evenly spaced: interpolate the image to even ones")
         unit, one = si(str(array[over].attrs.get("units", "")))
         positions.append((array[over].values * one, unit if unit == "m" else ""))
     (x, unit), (y, _) = positions
     height, one = si(str(array.attrs.get("units", "")))
     return bytes_of(x, y, array.values * one, unit, height)
+
+
+def is_even(positions):
+    """Whether positions have equal distances, to a hundredth."""
+    import numpy as np
+
+    steps = np.diff(positions)
+    mean = steps.mean() if len(steps) else 1.0
+    return bool(mean) and bool(np.all(np.abs(steps - mean) <= 0.01 * abs(mean)))
 
 
 def area_columns(name, dataset):

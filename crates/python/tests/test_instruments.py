@@ -145,6 +145,17 @@ def test_images_give_the_same_footprint_as_the_file_of_gwyddion(folder):
         assert json.dumps(without_source(found)) == json.dumps(usual), name
 
 
+def test_an_image_lies_as_its_dimensions_say(folder):
+    image = stickslip.open(folder / "scan.gsf")["Height"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", stickslip.StickslipWarning)
+        usual = without_source(stickslip.tip(image, resamples=2))
+        assert without_source(stickslip.tip(image.transpose("x", "y"), resamples=2)) == usual
+    uneven = image.assign_coords(y=image.y**2)
+    with pytest.raises(ValueError, match="positions along y are not evenly spaced"):
+        stickslip.tip(uneven)
+
+
 def test_the_channel_that_is_used_is_named(folder):
     scan = stickslip.open(folder / "scan.spm")
     with pytest.warns(stickslip.StickslipWarning, match='"Height" is used; others are Height retrace'):

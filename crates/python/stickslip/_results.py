@@ -199,6 +199,15 @@ class ContinueResult(Result):
 class StabilityResult(Result):
     """Linear theory at a point: critical, stable, roots with their certificate, trapping, onset."""
 
+    def to_xarray(self):
+        """The growth exponents as an xarray Dataset over their number; of a raster the growth of ripples over q."""
+        columns = self.columns()
+        if "re" not in columns:
+            return dataset(self, columns, next(iter(columns), None), physical(self, "growth"))
+        roots = physical(self, "roots")
+        there = {name: [root[name] for root in roots] for name in roots[0]} if roots else {}
+        return dataset(self, columns, None, there)
+
 
 class BoundaryResult(Result):
     """The boundary of steady motion: alpha over r."""

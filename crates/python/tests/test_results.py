@@ -188,6 +188,10 @@ def test_each_document_is_xarray_in_its_units_and_netcdf(tmp_path, scales):
     assert loads["wavelength"].dims == ("load", "velocity") and loads["critical_load"].attrs["units"] == "nN"
     cycle = stickslip.cycle(alpha=1.3, r=0.8, **scales).to_xarray()
     swept = stickslip.sweep(r=(0.8, 1, 2), alpha=(0.9, 1.3, 3), **scales).to_xarray()
+    stability = stickslip.stability(alpha=1.3, r=0.8, **scales)
+    roots = stability.to_xarray()
+    assert roots["re"].dims == ("point",) and roots["re"].attrs.get("units") == ("1/s" if scales else None)
+    assert np.allclose(roots["im"], np.array([root.im for root in stability.roots]) / (0.016 if scales else 1), rtol=1e-14)
     several = {"run": run.to_xarray(), "image": image, "lines": lines, "cycle": cycle, "swept": swept, "loads": loads}
     for name, data in several.items():
         data.to_netcdf(tmp_path / f"{name}.nc")

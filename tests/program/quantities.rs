@@ -224,7 +224,7 @@ fn measured_data_and_pictures_take_units_too() {
         |i: i32| format!("{},{}\n", i * 2, -30.0 * (-f64::from((i - 25) * (i - 25)) / 98.0).exp());
     folder.write("pit.csv", format!("x_nm,z_nm\n{}", (0..50).map(row).collect::<String>()));
     let wanted = document(&folder, "tip pit.csv --centre 50 --terms 1 --resamples 10");
-    for centre in ["50nm", "0.05um --unit nm"] {
+    for centre in ["50nm", "0.05um", "0.05um --unit nm"] {
         assert_eq!(
             document(&folder, &format!("tip pit.csv --centre {centre} --terms 1 --resamples 10")),
             wanted
@@ -238,6 +238,8 @@ fn measured_data_and_pictures_take_units_too() {
         folder.read("run.svg")
     };
     assert_eq!(picture("--x-range 336ms:0.35s"), picture("--x-range 0.336:0.35"));
+    // A fit has no scale of time.
+    folder.refuses("fit --ripple pit.csv --healing-time 5s", &["--healing-time 5s", "in Γ/k"]);
     let refused = folder.stickslip("plot run.json --x-range 3um:6um -o run.svg");
     assert_eq!(refused.status.code(), Some(1));
 }

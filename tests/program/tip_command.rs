@@ -290,7 +290,12 @@ fn the_units_of_an_image_are_read_or_asked_for() {
     let mut missing = plain.clone();
     missing[data + 4000..data + 4004].copy_from_slice(&f32::NAN.to_le_bytes());
     folder.write("pit.gsf", missing);
-    folder.refuses("tip pit.gsf", &["row"]);
+    folder.refuses(
+        "tip pit.gsf",
+        &["MEASURED.csv pit.gsf", "row 11 has a height that is not finite"],
+    );
+    folder.write("flat.csv", (0..20).map(|i| format!("{i},1\n")).collect::<String>());
+    folder.refuses("tip flat.csv", &["MEASURED.csv flat.csv", "all heights are 1"]);
 }
 
 /// Of a table f(x,y) the noise on the path of the tip is judged, as it is of one f(x).

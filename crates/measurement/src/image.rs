@@ -36,7 +36,13 @@ pub enum ImageError {
         /// Number of rows.
         rows: usize,
     },
-    /// Heights that are not finite, or all the same.
+    /// Heights that are not finite.
+    #[error("row {row} has a height that is not finite")]
+    NotFinite {
+        /// Row, from 1.
+        row: usize,
+    },
+    /// Heights that are all the same, or a profile that contains no footprint.
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// No footprint was found.
@@ -80,7 +86,7 @@ impl Image {
         }
         let finite = |row: &Vec<f64>| row.iter().all(|v| v.is_finite());
         if let Some(row) = rows.iter().position(|row| !finite(row)) {
-            return Err(ProfileError::NotFinite { row: row + 1 }.into());
+            return Err(ImageError::NotFinite { row: row + 1 });
         }
         Ok(Self { x, y, rows })
     }

@@ -2,6 +2,7 @@
 
 use super::brief::Brief;
 use super::examples::examples;
+use super::model::Length;
 use super::{Options, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -29,6 +30,10 @@ pub(crate) struct MeasuredTipArguments {
     /// The profile has both halves.
     #[arg(long, conflicts_with = "half", help_heading = "Data")]
     pub(crate) both: bool,
+
+    /// Centre of symmetry, such as 12nm; a bare number is in the unit of the positions [default: fitted].
+    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Data")]
+    pub(crate) centre: Option<Length>,
 
     /// σ, with a unit, such as 30nm; 1σ if the positions are in σ [default: fitted].
     #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Data")]

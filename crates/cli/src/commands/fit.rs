@@ -1,9 +1,10 @@
 //! `stickslip fit`.
 
 use super::ask::{context, refusal, refuse_strangers};
-use super::fit_image::{fit_image, in_unit, without_width};
+use super::fit_image::{fit_image, without_width};
 use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
+use super::tip::in_unit;
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::files::heading::Heading;

@@ -2,8 +2,8 @@
 
 use super::ask::{context, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
-use super::tip::{ImageInUnits, measured_image, metres};
-use crate::arguments::{Either, FitArguments, Length, Options, TipArguments};
+use super::tip::{ImageInUnits, in_unit, measured_image, metres};
+use crate::arguments::{Either, FitArguments, Options, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::input::{TipFile, read_tip};
@@ -86,19 +86,6 @@ pub(super) fn without_width(arguments: &FitArguments) -> Options<Either<Fit, Fit
     let mut options = arguments.options.clone();
     options.tip.width = None;
     options
-}
-
-/// A length in the unit of the data.
-pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Result<f64, Failure> {
-    match (length, unit) {
-        (Length::Bare(number), _) => Ok(number),
-        (Length::Metres(length), Some(unit)) => Ok(length / metres(unit)?),
-        (Length::Metres(_), None) => {
-            let message =
-                "the unit of the data is not known: give it by --unit, or a number without a unit";
-            Err(Failure::input(option, message))
-        }
-    }
 }
 
 /// σ of a measured tip and its interval, in the unit of the data, with a message.

@@ -45,12 +45,14 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
     const TIME: &[&str] = &["Γ/k"];
     Some(match (command, option) {
         // Quantities in themselves, and pictures.
-        ("units" | "fit" | "friction", _) | ("plot", "width" | "times") => return None,
+        ("units" | "friction", _) | ("fit", "width" | "pitch") => return None,
+        ("tip", "centre") => return None,
+        ("plot", "width" | "times") => return None,
         ("continue" | "cycle" | "sweep", "tolerance") => &["kσ/Γ"],
         (_, "width" | "start-position" | "kick" | "kick-across" | "noise-spacing") => LENGTH,
         (_, "noise-spacing-across" | "width-y" | "pitch" | "pitch-range" | "length") => LENGTH,
         (_, "tolerance" | "x" | "y" | "range" | "y-range" | "spacing" | "spacing-y") => LENGTH,
-        (_, "largest-radius") | ("tip", "centre") => LENGTH,
+        (_, "largest-radius") => LENGTH,
         (_, "until" | "at" | "sample-every" | "sample-at" | "hold" | "healing-time") => TIME,
         (_, "grid-until" | "step" | "longest-period" | "checkpoint-every") => TIME,
         (_, "depth-limit" | "noise") => &["kσ²/a"],
@@ -104,16 +106,11 @@ pub(crate) fn translated(
     let mut translated = Translated { words, typed: vec![] };
     let Some((at, command)) = line.command(parser) else { return Ok(translated) };
     let quantities: Vec<Quantity> = line.quantities(&command).collect();
-    let Some(first) = quantities.first() else { return Ok(translated) };
+    if quantities.is_empty() {
+        return Ok(translated);
+    }
     parser.build();
-    let is_of_data = (&*command[0], &*first.option) == ("tip", "--centre");
-    let (scales, unit) = if is_of_data {
-        let unit = line.value("unit").unwrap_or(first.suffix());
-        let length = Unit::Length.one(unit);
-        (Some(KnownScales { length, ..KnownScales::default() }), Some(unit))
-    } else {
-        (line.scales(session, parser, at, &command, &quantities)?, None)
-    };
+    let scales = line.scales(session, parser, at, &command, &quantities)?;
     let has_scales = option_of(parser, &command, "units").is_some();
     for quantity in &quantities {
         let [number, shown] = quantity.number(scales.as_ref(), has_scales)?;
@@ -122,9 +119,6 @@ pub(crate) fn translated(
             if *is_joined { format!("{option}={number}").into() } else { number.into() };
         let meant = format!("{value} is {shown} {}", quantity.units.join(", "));
         translated.typed.push([format!("{option} {shown}"), format!("{option} {value}"), meant]);
-    }
-    if let Some(unit) = unit.filter(|_| line.value("unit").is_none()) {
-        translated.words.insert(at + 1, format!("--unit={unit}").into());
     }
     Ok(translated)
 }
@@ -140,12 +134,6 @@ struct Quantity {
 }
 
 impl Quantity {
-    /// The unit as typed.
-    fn suffix(&self) -> &str {
-        let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e' | 'E');
-        self.value.trim().trim_start_matches(is_number).trim()
-    }
-
     /// The value in numbers of the model, for the parser and as messages show it.
     fn number(
         &self,

@@ -2,16 +2,17 @@
 
 use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
-use crate::arguments::MeasuredTipArguments;
+use crate::arguments::{Length, MeasuredTipArguments};
 use crate::failure::Failure;
-use crate::files::distinct::Named;
 use crate::files::gsf::read_gsf;
 use crate::files::heading::Heading;
 use crate::files::measured::{one_of, read_measured};
 use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use stickslip::{Ask, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, parameter};
+use stickslip::{
+    Ask, Dimension, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, parameter,
+};
 use stickslip_units::Unit;
 
 const OPTION: &str = "MEASURED.csv";
@@ -20,7 +21,7 @@ pub(crate) fn measured_tip(
     session: &Session,
     arguments: &MeasuredTipArguments,
 ) -> Result<(), Failure> {
-    let MeasuredTipArguments { measured, options, both, sigma, outlet, plot } = arguments;
+    let MeasuredTipArguments { measured, options, both, centre, sigma, outlet, plot } = arguments;
     let [_, parameters] = options.files();
     judge_places(outlet, plot.as_deref(), &[(OPTION, Some(&**measured)), parameters])?;
     let mut values = options.values(session)?;
@@ -28,19 +29,24 @@ pub(crate) fn measured_tip(
     if *both {
         values.insert("half".into(), json!(false));
     }
+    if let Some(centre) = *centre {
+        let centre = in_unit("--centre", centre, data.unit.as_deref())?;
+        values.insert("centre".into(), json!(centre));
+    }
     if let Some(text) = sigma {
         values.insert("sigma".into(), json!(in_positions(text, data.unit.as_deref())?));
     }
     let question = data.asked(values, measured)?;
-    let files = files(measured);
-    let refused = |failure| refusal(failure, &options.tip, &files);
+    let refused = |failure| match failure {
+        stickslip::Failure::Refused(refused)
+            if matches!(&*refused.parameter, "profile" | "image") =>
+        {
+            Failure::input(format!("{OPTION} {}", measured.display()), refused.why)
+        }
+        other => refusal(other, &options.tip, &[]),
+    };
     let job = Job::open::<MeasuredTipDocument>(session, outlet, plot.as_deref())?;
     job.finish(question.ask(&context(session)).map_err(refused)?)
-}
-
-/// The file as the option of a refused profile or image.
-fn files(measured: &Path) -> [Named<'_>; 2] {
-    [("--profile", Some(measured)), ("--image", Some(measured))]
 }
 
 /// The measured data.
@@ -123,6 +129,19 @@ fn unit(
 /// The value in m of a unit of the positions.
 pub(super) fn metres(unit: &str) -> Result<f64, Failure> {
     one_of(Unit::Length, "--unit", unit)
+}
+
+/// A length in the unit of the data.
+pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Result<f64, Failure> {
+    match (length, unit) {
+        (Length::Bare(number), _) => Ok(number),
+        (Length::Metres(length), Some(unit)) => Ok(Dimension::rounded(length / metres(unit)?)),
+        (Length::Metres(_), None) => {
+            let message =
+                "the unit of the data is not known: give it by --unit, or a number without a unit";
+            Err(Failure::input(option, message))
+        }
+    }
 }
 
 /// The value of --sigma in the unit of the positions.

@@ -80,7 +80,6 @@ pub struct MeasuredTip {
     #[schemars(extend("x-option" = option("", "Data", 2)))]
     pub half: Option<bool>,
     /// Centre of symmetry, in the unit of the positions; fitted by default.
-    #[schemars(extend("x-option" = option("X", "Data", 3)))]
     pub centre: Option<f64>,
     /// Fit each side of the profile too: a tip that moves forward meets the surface with the side before it alone, so that
     /// trace and retrace have footprints of their own.

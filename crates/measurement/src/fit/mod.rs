@@ -65,8 +65,9 @@ pub enum FitError {
     Nothing,
     /// No wave is stronger than expected from noise.
     #[error(
-        "no significant ripple: pure noise contains a wave as strong as the strongest one in {:.2} % of such data, where at \
-         most 0.01 % is accepted; give a longer track of settled ripples, or one with less noise",
+        "no significant ripple: pure noise contains a wave as strong as the strongest one in {:.3} % of such data, where at \
+         most 0.01 % is accepted; give a longer track of settled ripples, one with less noise, or one without the curvature of \
+         a scanner",
         100.0 * probability
     )]
     Noise {

@@ -98,6 +98,33 @@ fn ripples_and_friction_give_back_what_they_were_made_of() {
     assert!(table.unwrap().starts_with("number,value,low,high\nalpha,"));
 }
 
+/// Heights and forces are labelled by the unit that their file names; those in V give no scale in metres.
+#[test]
+fn heights_and_forces_keep_their_unit() {
+    let folder = Folder::new("fit_height_units");
+    measured(&folder);
+    let ripple = String::from_utf8(folder.read("ripple.csv")).unwrap();
+    folder.write("volts.csv", ripple.replace("z_nm", "z (V)"));
+    // kσ²/a = 18 nm; a gain that is given counts as one that is fitted.
+    for (line, label, height) in [
+        ("fit --ripple ripple.csv", "height (nm)", Some(18e-9)),
+        ("fit --ripple ripple.csv --height-gain 0.02", "height (nm)", Some(18e-9)),
+        ("fit --ripple volts.csv", "height (V)", None),
+        ("fit --friction trace.csv", "lateral force (nN)", None),
+    ] {
+        folder.prints(&format!("{line} -o fit.json --plot fit.svg"));
+        let picture = String::from_utf8(folder.read("fit.svg")).unwrap();
+        assert!(picture.contains(label) && !picture.contains("unit of the data"), "{line}");
+        let scales =
+            folder.prints_json("stability --r 1 --units fit.json")["physical"]["scales"].clone();
+        let found = scales["height"].as_f64();
+        assert_eq!(found.is_some(), height.is_some(), "{line}: {scales}");
+        if let Some((found, height)) = found.zip(height) {
+            assert!((found / height - 1.0).abs() < 0.03, "{line}: {scales}");
+        }
+    }
+}
+
 /// The same heights over the mirrored positions: the tip came from the right.
 #[test]
 fn a_scan_from_right_to_left_is_recognised() {

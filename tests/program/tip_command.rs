@@ -296,6 +296,11 @@ fn the_units_of_an_image_are_read_or_asked_for() {
     );
     folder.write("flat.csv", (0..20).map(|i| format!("{i},1\n")).collect::<String>());
     folder.refuses("tip flat.csv", &["MEASURED.csv flat.csv", "all heights are 1"]);
+    for (unit, label) in [("m", "height (nm)"), ("V", "height (V)")] {
+        folder.write("pit.gsf", with(&[("ZUnits = m", &format!("ZUnits = {unit}"))], false));
+        folder.prints("tip pit.gsf --resamples 2 -o tip.json --plot tip.svg");
+        assert!(String::from_utf8(folder.read("tip.svg")).unwrap().contains(label), "{label}");
+    }
 }
 
 /// Of a table f(x,y) the noise on the path of the tip is judged, as it is of one f(x).
@@ -341,7 +346,7 @@ fn a_profile_becomes_a_tip_file_that_every_command_takes() {
     assert!((number(&tip["apex"]) + 12.0).abs() < 0.5);
     let alpha = &tip["critical_alpha"];
     assert!(number(&alpha["low"]) <= 1.879_427 && number(&alpha["high"]) >= 1.879_426, "{alpha}");
-    assert!(String::from_utf8(folder.read("tip.svg")).unwrap().contains("nm"));
+    assert!(String::from_utf8(folder.read("tip.svg")).unwrap().contains("height (nm)"));
     // f(0) = 1 to the last digits, and the onset said is that of the file.
     let stability = folder.prints_json("stability --tip-file tip.json --r 1");
     let at = number(&stability["critical"]["alpha"]);

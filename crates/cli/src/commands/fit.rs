@@ -136,12 +136,15 @@ impl<'a> Files<'a> {
         scale(&mut x, self.lengths.factor(&named, &headings[0])?);
         // Heights in the unit of the positions, of which a gain k/a is, where both are known. Volts are scaled by the gain.
         let is_known = matches!(headings[1].unit(Unit::Length), Ok(Some(_)));
+        let mut height_unit = headings[1].written_unit();
         if is_known && self.lengths.unit().is_some() {
             scale(&mut y, self.lengths.factor(&named, &headings[1])?);
+            height_unit = self.lengths.unit();
         } else if gain.is_some() {
             headings[1].unit(Unit::Length).map_err(|error| Failure::input(&named, error))?;
         }
-        Ok(Measured::Ripple { source: named, x, y, gain })
+        let height_unit = height_unit.map(str::to_owned);
+        Ok(Measured::Ripple { source: named, x, y, gain, height_unit })
     }
 
     fn friction(&mut self, path: &Path, gain: Option<f64>) -> Result<Measured, Failure> {
@@ -149,11 +152,13 @@ impl<'a> Files<'a> {
         let Sheet { headings, mut columns, .. } =
             read_measured(self.session, "--friction", path, &[2, 3])?;
         scale(&mut columns[0], self.lengths.factor(&named, &headings[0])?);
+        let mut force_unit = headings[1].written_unit();
         for (column, heading) in columns.iter_mut().zip(&headings).skip(1) {
             // A gain is fitted to forces of any unit; the two ways of a loop have the same.
             let is_known = matches!(heading.unit(Unit::Force), Ok(Some(_)));
             if gain.is_some() || is_known {
                 scale(column, self.forces.factor(&named, heading)?);
+                force_unit = self.forces.unit();
             } else if heading.written_unit() != headings[1].written_unit() {
                 let message = format!(
                     "`{}` and `{}` have different units",
@@ -163,12 +168,10 @@ impl<'a> Files<'a> {
                 return Err(Failure::input(named, message));
             }
         }
-        if columns.len() == 3 {
-            let [x, y, back] = taken("--friction", path, columns)?;
-            return Ok(Measured::Friction { source: named, x, y, back: Some(back), gain });
-        }
+        let force_unit = force_unit.map(str::to_owned);
+        let back = if columns.len() == 3 { columns.pop() } else { None };
         let [x, y] = taken("--friction", path, columns)?;
-        Ok(Measured::Friction { source: named, x, y, back: None, gain })
+        Ok(Measured::Friction { source: named, x, y, back, gain, force_unit })
     }
 
     /// The name of the data, and velocities and loads, with three columns wavelengths.

@@ -235,19 +235,24 @@ impl Scaled {
             fitted.map(|NumberFitted { estimate: EstimateDocument { value, .. }, .. }| value);
         let sigma = fitted.or(question.known("width"))?;
         let data: Vec<DataFitted> = serde_json::from_value(self.data?).ok()?;
-        let gain = data.iter().find(|data| data.kind == "ripple").and_then(|data| data.gain);
-        Some(of_ripples((metres, Some(metres)), sigma, gain))
+        let ripple = data.iter().find(|data| data.kind == "ripple");
+        let height_metres = height_metres(metres, ripple.and_then(|data| data.y_unit.as_deref()));
+        Some(of_ripples((metres, height_metres), sigma, ripple.and_then(|data| data.gain)))
     }
 
-    /// Scales of a fit to an image: σ is given. Heights without a unit are in that of lengths; others than lengths, such as
-    /// volts, give no scale.
+    /// Scales of a fit to an image: σ is given.
     fn fitted_image(self) -> Option<KnownScales> {
         let FitImage { unit, height_unit, width, .. } =
             serde_json::from_value(self.parameters?).ok()?;
         let metres = Unit::Length.one(unit.as_deref()?)?;
-        let height_metres = height_unit.map_or(Some(metres), |unit| Unit::Length.one(&unit));
+        let height_metres = height_metres(metres, height_unit.as_deref());
         Some(of_ripples((metres, height_metres), width?, self.height_gain))
     }
+}
+
+/// The unit of heights in m: without one that of lengths; others than lengths, such as volts, give no scale.
+fn height_metres(metres: f64, unit: Option<&str>) -> Option<f64> {
+    unit.map_or(Some(metres), |unit| Unit::Length.one(unit))
 }
 
 /// Scales from σ and k/a, by the units of lengths and of heights in m.

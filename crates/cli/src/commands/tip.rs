@@ -55,26 +55,30 @@ struct Data {
     image: Option<MeasuredImage>,
     /// Unit of the positions.
     unit: Option<String>,
+    height_unit: Option<String>,
 }
 
 impl Data {
     fn read(session: &Session, path: &Path, given: Option<&str>) -> Result<Self, Failure> {
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gsf")) {
-            let ImageInUnits { image, unit, .. } = measured_image(session, OPTION, path, given)?;
-            return Ok(Self { profile: MeasuredProfile::default(), image: Some(image), unit });
+            let ImageInUnits { image, unit, z_unit } =
+                measured_image(session, OPTION, path, given)?;
+            let profile = MeasuredProfile::default();
+            return Ok(Self { profile, image: Some(image), unit, height_unit: z_unit });
         }
         let sheet = read_measured(session, OPTION, path, &[2])?;
         let unit = unit((OPTION, path), given, &sheet.headings[0])?;
+        let height_unit = sheet.headings[1].written_unit().map(str::to_owned);
         let [x, f] = [0, 1].map(|i| sheet.columns[i].clone());
-        Ok(Self { profile: MeasuredProfile { x, f }, image: None, unit })
+        Ok(Self { profile: MeasuredProfile { x, f }, image: None, unit, height_unit })
     }
 
     /// The question about these data with the other parameters.
     fn asked(self, values: Map<String, Value>, path: &Path) -> Result<MeasuredTip, Failure> {
-        let Self { profile, image, unit } = self;
+        let Self { profile, image, unit, height_unit } = self;
         let source = path.display().to_string();
         let question: MeasuredTip = parameter::question(values)?;
-        Ok(MeasuredTip { source, unit, profile, image, ..question })
+        Ok(MeasuredTip { source, unit, height_unit, profile, image, ..question })
     }
 }
 

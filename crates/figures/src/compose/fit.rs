@@ -84,7 +84,7 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
         _ => ("velocity", "wavelength"),
     };
     let x = labelled(x, unit.filter(|_| !is_series));
-    let y = labelled(y, None);
+    let y = labelled(y, data.y_unit.as_deref());
     let mut above = PanelDocument::new(&data.source, (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
     let mut measured = CurveDocument::new(style, "as measured", &data.x, &data.y);

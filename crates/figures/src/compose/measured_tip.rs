@@ -36,7 +36,8 @@ impl Drawn for MeasuredTipDocument {
         let along: Vec<f64> = (0..=POINTS).map(at).collect();
         let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
-        let mut data = PanelDocument::new("", (&x_label, &labelled("height", None)));
+        let height_label = labelled("height", self.parameters.height_unit.as_deref());
+        let mut data = PanelDocument::new("", (&x_label, &height_label));
         let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
         measured.colour = Some(ColourName::Grey);
         data.curves = vec![

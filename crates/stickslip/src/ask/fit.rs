@@ -153,6 +153,9 @@ pub enum Measured {
         y: Vec<f64>,
         /// k/a, if known: heights are k/a times σ² times those of the model.
         gain: Option<f64>,
+        /// Unit of the heights, such as nm or V; by default unknown.
+        #[serde(default)]
+        height_unit: Option<String>,
     },
     /// Lateral force against the position of the support.
     Friction {
@@ -166,6 +169,9 @@ pub enum Measured {
         back: Option<Vec<f64>>,
         /// k, if known: forces are k times σ times those of the model.
         gain: Option<f64>,
+        /// Unit of the forces, such as nN or V; by default unknown.
+        #[serde(default)]
+        force_unit: Option<String>,
     },
     /// Loads at the onset of stick-slip.
     Onsets {
@@ -203,8 +209,10 @@ impl Measured {
     /// The data by ascending position, averaged if there are more than a few thousand rows.
     fn reduced(self) -> Result<(String, Data), Refused> {
         let (source, data) = match self {
-            Self::Ripple { source, x, y, gain } => (source, Data::Ripple(Track::new(x, y, gain))),
-            Self::Friction { source, x, y, back, gain } => {
+            Self::Ripple { source, x, y, gain, .. } => {
+                (source, Data::Ripple(Track::new(x, y, gain)))
+            }
+            Self::Friction { source, x, y, back, gain, .. } => {
                 let track = Track::new(x, y, gain);
                 let data = match back {
                     Some(back) => Data::Loop(track, back),
@@ -287,6 +295,16 @@ impl Fit {
             known.set(name, value);
         }
         Ok(known)
+    }
+
+    /// The unit of the ordinates of these data; that of loads is unknown.
+    fn ordinate_unit(&self, data: &Measured) -> Option<String> {
+        match data {
+            Measured::Ripple { height_unit: unit, .. }
+            | Measured::Friction { force_unit: unit, .. } => unit.clone(),
+            Measured::Onsets { .. } => None,
+            Measured::Wavelengths { .. } => self.unit.clone(),
+        }
     }
 
     fn is_free(&self, name: FreeName) -> bool {
@@ -372,7 +390,10 @@ impl Ask for Fit {
         let tip = self.footprint(found.values.get(Name::Beta))?.0;
         let r = found.values.get(Name::R);
         let critical_alpha = r.and_then(|r| critical(&Wider::default(), &tip, r).ok());
-        let answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
+        let mut answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
+        for (fitted, measured) in answer.data.iter_mut().zip(&self.data) {
+            fitted.y_unit = self.ordinate_unit(measured);
+        }
         let is_assumed = self.tip.is_none() && !self.is_free(FreeName::Beta);
         let assumed = is_assumed.then(|| ASSUMED.into());
         Ok((answer, assumed.into_iter().chain(found.remarks).collect()))
@@ -430,6 +451,9 @@ pub struct DataFitted {
     pub x: Vec<f64>,
     /// Heights, forces (trace of a loop, then retrace), loads at onset or wavelengths.
     pub y: Vec<f64>,
+    /// Unit of `y`, such as nm or V; null if it is unknown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y_unit: Option<String>,
     /// The model at each of these positions.
     pub model: Vec<f64>,
     /// Standard deviation of the residuals, relative for a series.
@@ -438,7 +462,7 @@ pub struct DataFitted {
     pub offset: Option<f64>,
     /// Slope of the background.
     pub slope: Option<f64>,
-    /// Fitted scale factor, if the scale is unknown: k/a for heights, k for forces.
+    /// Scale factor, fitted or given: k/a for heights, k for forces.
     pub gain: Option<f64>,
     /// Probability of an equally large periodic residual by chance; below 0.005 the model does not explain the data.
     /// Null if there are too few rows.
@@ -527,20 +551,23 @@ impl DataFitted {
                 ("wavelengths", velocity.clone(), wavelength.clone())
             }
         };
-        let averaged = match data {
-            Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => track.averaged,
-            Data::Onsets { .. } | Data::Wavelengths { .. } => 1,
+        let (averaged, given) = match data {
+            Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => {
+                (track.averaged, track.gain)
+            }
+            Data::Onsets { .. } | Data::Wavelengths { .. } => (1, None),
         };
         Self {
             kind: kind.into(),
             source: source.into(),
             x,
             y,
+            y_unit: None,
             model: part.model.clone(),
             residual: part.residual,
             offset: part.offset,
             slope: part.slope,
-            gain: part.gain,
+            gain: part.gain.or(given),
             misfit: part.judged.misfit,
             doubling: part.judged.doubling,
             drift: part.judged.drift,

@@ -76,6 +76,9 @@ pub struct MeasuredTip {
     /// Unit of the positions: m, um, nm, Å, …; that of the data by default.
     #[schemars(extend("x-option" = option("UNIT", "Data", 1)))]
     pub unit: Option<String>,
+    /// Unit of heights, such as nm or V; by default unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<String>,
     /// The profile is one half of an even one, about position 0; by default if it begins at 0 with its apex.
     #[schemars(extend("x-option" = option("", "Data", 2)))]
     pub half: Option<bool>,
@@ -111,11 +114,13 @@ pub struct MeasuredTip {
 impl Default for MeasuredTip {
     fn default() -> Self {
         let (source, profile, image) = (String::new(), MeasuredProfile::default(), None);
-        let (unit, half, centre, sigma, terms) = (None, None, None, None, None);
+        let (unit, height_unit, half, centre) = (None, None, None, None);
+        let (sigma, terms) = (None, None);
         let (both_sides, r, resamples, seed) = (false, 1.0, 400, 0);
         Self {
             source,
             unit,
+            height_unit,
             half,
             centre,
             both_sides,

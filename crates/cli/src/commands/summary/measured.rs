@@ -16,6 +16,8 @@ fn after_number(unit: Option<&str>) -> String {
 impl Product for MeasuredTipDocument {
     fn summary(&self) -> Summary {
         let unit = after_number(self.parameters.unit.as_deref());
+        let height_unit = after_number(self.parameters.height_unit.as_deref());
+        let in_heights = |height: f64, count| format!("{}{height_unit}", digits(height, count));
         let r = digits(self.parameters.r, 6);
         let headline = format!(
             "a sum of {} Gaussian{} with σ = {}{unit}: critical α {} at r = {r}",
@@ -33,9 +35,9 @@ impl Product for MeasuredTipDocument {
         Summary::new(headline)
             .row("σ", format!("{}{unit}", with_interval(&self.sigma)))
             .row("centre", format!("{}{unit}", digits(self.centre, 6)))
-            .row("height", digits(self.apex, 5))
-            .row("noise from row to row", digits(self.noise, 3))
-            .row("residual", digits(self.residual, 3))
+            .row("height", in_heights(self.apex, 5))
+            .row("noise from row to row", in_heights(self.noise, 3))
+            .row("residual", in_heights(self.residual, 3))
             .row("critical α", with_interval(&self.critical_alpha))
             .row("ω there", format!("{} k/Γ", with_interval(&self.critical_omega)))
             .maybe("trapped for ever from α", trapping)

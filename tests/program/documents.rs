@@ -203,6 +203,21 @@ fn csv(folder: &Folder, name: &str, headings: &str) -> Vec<Vec<u64>> {
     columns
 }
 
+/// Positions of a height map are in nm if its heights are.
+#[test]
+fn arrays_of_a_raster_have_one_unit_of_length() {
+    let folder = Folder::new("raster_arrays");
+    let scan =
+        "raster --tip gaussian --alpha 0.4 --r 1 --pitch 0.5 --lines 3 --length 6 --tolerance 1e-4";
+    folder.prints(&format!("{scan} --sigma 20nm --stiffness 0.2N/m --slope-force 5nN -o area.npz"));
+    let mut npz = NpzReader::new(Cursor::new(folder.read("area.npz"))).unwrap();
+    let mut positions = |name: &str| -> Array1<f64> { npz.by_name(name).unwrap() };
+    let (x, y) = (positions("u_x_nm"), positions("u_y_nm"));
+    let u: Array2<f64> = npz.by_name("u_nm").unwrap();
+    assert_eq!(u.dim(), (y.len(), x.len()));
+    assert!((x[x.len() - 1] - 120.0).abs() < 1e-9 && (y[2] - 20.0).abs() < 1e-9, "{x} {y}");
+}
+
 #[test]
 fn numbers_are_the_same_in_json_csv_and_npz() {
     let folder = Folder::new("round_trip");

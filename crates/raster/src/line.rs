@@ -150,10 +150,17 @@ impl Line {
     /// The residence in both coordinates.
     #[must_use]
     pub fn visits(&self) -> Vec<Visit> {
-        let (positions, weights) = self.residence();
-        let off = self.across.iter().flat_map(|(y, across)| across.map(|e| y + e));
-        let off = off.chain(std::iter::repeat(0.0));
-        let nodes = positions.into_iter().zip(weights).zip(off);
-        nodes.map(|((x, weight), off)| Visit { x, y: self.track.y + off, weight }).collect()
+        let (end, wider) = (self.trajectory.end(), self.trajectory.wider());
+        let mut visits = vec![];
+        for (n, step) in self.trajectory.steps().iter().enumerate() {
+            let origin = self.trajectory.support().position(step.t) - step.extension;
+            let across = self.across.get(n);
+            visits.extend(step.moments(wider, end).into_iter().map(|moment| Visit {
+                x: self.track.x(origin + moment.value(&step.displacement)),
+                y: self.track.y + across.map_or(0.0, |(y, across)| y + moment.value(across)),
+                weight: moment.weight,
+            }));
+        }
+        visits
     }
 }

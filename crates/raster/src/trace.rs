@@ -116,9 +116,9 @@ impl Writer {
         let Ways { track, support, wider, duration, .. } = &self.ways;
         let origin = support.position(step.t) - step.extension;
         let mut is_ahead = true;
-        for (d, weight) in step.displacement.into_iter().zip(step.spent(wider, *duration)) {
-            let x = track.x(origin + d);
-            self.density.add(x, weight);
+        for moment in step.moments(wider, *duration) {
+            let x = track.x(origin + moment.value(&step.displacement));
+            self.density.add(x, moment.weight);
             #[expect(clippy::cast_possible_truncation, reason = "a cell")]
             let cell = (x / self.density.spacing()).floor() as i64;
             is_ahead &= cell - BELOW >= self.to.saturating_mul(PIECE as i64);

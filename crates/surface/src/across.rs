@@ -125,7 +125,7 @@ fn carved(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Surface;
+    use crate::{Surface, steady_profile};
     use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Wider, planar, run};
 
     fn scenario(wider: Wider, stiffness: f64, kick_across: f64) -> PlanarScenario {
@@ -168,5 +168,31 @@ mod tests {
         assert!(
             surface.image(41.0, &x, &y).is_err() && surface.image(37.0, &[f64::NAN], &y).is_err()
         );
+    }
+
+    /// Steady motion leaves the profile (24), known in closed form, however fast the surface heals.
+    #[test]
+    fn where_it_heals_within_a_step_it_is_that_of_steady_motion() {
+        let x: Vec<f64> = (0..60).map(|i| 35.0 + 0.1 * f64::from(i)).collect();
+        for time in [3.0, 0.3, 0.1, 0.03, 0.01, 0.001] {
+            let wider = Wider { healing_time: Some(time), ..Wider::default() };
+            let scenario = scenario(wider, 1.0, 0.0);
+            let along = Scenario { kick: 0.0, ..scenario.along.clone() };
+            let scenario = PlanarScenario { along, ..scenario };
+            let model = &scenario.along.model;
+            let one = run(&scenario.along).unwrap();
+            let surface = Surface::new(model, &one.initial_surface, &one.trajectory);
+            let u = surface.heights(40.0, &x).unwrap();
+            let both = planar::run(&scenario).unwrap().trajectory;
+            let across = SurfaceAcross::new(&scenario, &both).unwrap();
+            let v = across.image(40.0, &x, &[0.0]).unwrap();
+            let known = steady_profile(model, one.trajectory.x0(40.0), &x);
+            let worst = |u: &[f64]| {
+                u.iter().zip(&known).map(|(u, known)| (u - known).abs()).fold(0.0, f64::max)
+            };
+            let (line, plane) = (worst(u.as_slice().unwrap()), worst(v.as_slice().unwrap()));
+            println!("{time}: {line:e} {plane:e}");
+            assert!(line < 1e-11 && plane < 1e-11, "{time}: {line:e} {plane:e}");
+        }
     }
 }

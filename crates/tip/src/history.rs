@@ -144,16 +144,62 @@ impl Step {
         self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
     }
 
-    /// The weights of the nodes in the [residence](Trajectory::residence) of the tip until t, at or after the end of
-    /// the step.
+    /// The moments at which the tip was seen until t, for sums over its [residence](Trajectory::residence): the nodes
+    /// of a step that is over; Gauss points of one that is not, or in which more heals than nodes resolve.
     #[must_use]
-    pub fn spent(&self, wider: &Wider, t: f64) -> Stages {
-        let left = match wider.healing_time {
-            None => RADAU.b().map(|b| b * self.h),
-            Some(time) => healing(self.h, time)[STAGES - 1],
+    pub fn moments(&self, wider: &Wider, t: f64) -> Vec<Moment> {
+        let time = wider.healing_time.unwrap_or(f64::INFINITY);
+        let passed = t - self.t;
+        let is_over = self.end() <= t;
+        if is_over && (self.h <= MOST_AT_NODES * time || passed - self.h >= GONE * time) {
+            let left = match wider.healing_time {
+                None => RADAU.b().map(|b| b * self.h),
+                Some(time) => healing(self.h, time)[STAGES - 1],
+            };
+            let (weights, since) = (self.weights(wider), wider.left_after(t - self.end()));
+            let at = |i| Moment { at: At::Node(i), weight: left[i] * weights[i] * since };
+            return (0..STAGES).map(at).collect();
+        }
+        let to = if is_over { self.h } else { passed };
+        let from = (passed - GONE * time).max(0.0);
+        let pieces = ((to - from) / (MOST_AT_POINTS * time)).ceil().max(1.0);
+        let half = 0.5 * (to - from) / pieces;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most five")]
+        let starts = (0..pieces as usize).map(|piece| from + 2.0 * half * piece as f64);
+        let points = GAUSS.as_node_weight_pairs();
+        let at = |start: f64, (node, weight): &(f64, f64)| {
+            let since = start + half * (1.0 + node);
+            let tau = since / self.h;
+            let indented = self.height.map_or(1.0, |height| wider.weight(height.at(tau)));
+            let left = wider.left_after(passed - since);
+            Moment { at: At::Fraction(tau), weight: half * weight * indented * left }
         };
-        let (weights, since) = (self.weights(wider), wider.left_after(t - self.end()));
-        std::array::from_fn(|i| left[i] * weights[i] * since)
+        starts.flat_map(|start| points.iter().map(move |point| at(start, point))).collect()
+    }
+}
+
+/// A moment of a step, with the time that it stands for, multiplied by its undecayed part, and by w with a depth limit.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment {
+    at: At,
+    /// The time, in Γ/k.
+    pub weight: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum At {
+    Node(usize),
+    Fraction(f64),
+}
+
+impl Moment {
+    /// What has its value at the nodes in `stages` and is 0 at the start of the step, at this moment.
+    #[must_use]
+    pub fn value(&self, stages: &Stages) -> f64 {
+        match self.at {
+            At::Node(i) => stages[i],
+            At::Fraction(tau) => RADAU.value(stages, tau),
+        }
     }
 }
 
@@ -179,9 +225,15 @@ pub struct Trajectory {
     steps: Vec<Step>,
 }
 
-/// Points of the Gauss rule on the part of a step up to a given time. It integrates
-/// f(x - polynomial) far beyond the accuracy of the polynomial itself.
+/// Points of the Gauss rule on a part of a step. It integrates f(x - polynomial) far beyond the accuracy of the
+/// polynomial itself.
 const POINTS_ON_A_PART: usize = 16;
+/// Longest part for it, in healing times: on e^{-β} it errs by at most (16!)⁴β³²/(33 (32!)³), 3e-26 of β = 8.
+const MOST_AT_POINTS: f64 = 8.0;
+/// Longest step for the nodes, in healing times. They err on e^{-β} by at most 6 (5!)⁴β¹¹/(2 (11!)³), 5e-18.
+const MOST_AT_NODES: f64 = 0.5;
+/// Healing times after which nothing is left: e^{-40} is 4e-18.
+const GONE: f64 = 40.0;
 
 static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(POINTS_ON_A_PART).unwrap() }));
@@ -285,18 +337,9 @@ impl Trajectory {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
             let origin = self.support.position(step.t) - step.extension;
-            if step.end() <= t {
-                positions.extend(step.displacement.map(|d| origin + d));
-                weights.extend(step.spent(&self.wider, t));
-                continue;
-            }
-            let part = (t - step.t) / step.h;
-            for (node, weight) in GAUSS.as_node_weight_pairs() {
-                let tau = 0.5 * part * (1.0 + node);
-                positions.push(origin + RADAU.value(&step.displacement, tau));
-                let depth = step.height.map_or(1.0, |height| self.wider.weight(height.at(tau)));
-                let left = depth * self.wider.left_after((part - tau) * step.h);
-                weights.push(0.5 * part * step.h * weight * left);
+            for moment in step.moments(&self.wider, t) {
+                positions.push(origin + moment.value(&step.displacement));
+                weights.push(moment.weight);
             }
         }
         (positions, weights)

@@ -113,12 +113,15 @@ fn zigzag_lines_are_those_of_the_full_equations() {
 fn lines_under_the_wider_law_are_those_of_the_full_equations() {
     let limited = Wider { depth_limit: Some(2.0), ..Wider::default() };
     let healing = Wider { healing_time: Some(12.0), ..Wider::default() };
+    // Several healing times in a step: what is left of a line is that of the last part of a step.
+    let quick = Wider { healing_time: Some(0.1), ..Wider::default() };
     let heavy = Wider { inertia: Some(0.5), ..Wider::default() };
     let all = Wider { depth_limit: Some(3.0), healing_time: Some(20.0), ..heavy };
     for (name, wider, path) in [
         ("limited", limited, Path::OneWay),
         ("limited zigzag", limited, Path::Zigzag),
         ("healing", healing, Path::OneWay),
+        ("quick zigzag", quick, Path::Zigzag),
         ("heavy zigzag", heavy, Path::Zigzag),
         ("all", all, Path::Zigzag),
         ("all repeated", all, Path::Repeat),

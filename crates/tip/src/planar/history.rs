@@ -1,11 +1,7 @@
 //! The history of a tip in two coordinates: its accepted steps, each a polynomial along and one across.
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
-use crate::step::healing;
 use crate::{Support, Wider};
-use gauss_quad::legendre::GaussLegendre;
-use std::num::NonZeroUsize;
-use std::sync::LazyLock;
 
 /// One accepted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,10 +70,6 @@ pub struct Visit {
     pub weight: f64,
 }
 
-/// Points of the Gauss rule on the part of a step up to a given time, as in one coordinate.
-static GAUSS: LazyLock<GaussLegendre> =
-    LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(16).unwrap() }));
-
 impl Trajectory {
     /// A trajectory of consecutive steps without gaps.
     ///
@@ -95,39 +87,12 @@ impl Trajectory {
     pub fn residence(&self, t: f64) -> Vec<Visit> {
         let mut visits = vec![];
         for step in self.steps.iter().take_while(|step| step.along.t < t) {
-            let h = step.along.h;
             let origin = self.support.position(step.along.t) - step.along.extension;
-            if step.end() <= t {
-                let since = self.wider.left_after(t - step.end());
-                let left = match self.wider.healing_time {
-                    None => RADAU.b().map(|b| b * h),
-                    Some(time) => healing(h, time)[STAGES - 1],
-                };
-                let indented = step.along.weights(&self.wider);
-                let nodes = step.along.displacement.iter().zip(&step.across);
-                let weights = left.into_iter().zip(indented);
-                visits.extend(nodes.zip(weights).map(|((d, e), (left, indented))| Visit {
-                    x: origin + d,
-                    y: step.y + e,
-                    weight: left * since * indented,
-                }));
-                continue;
-            }
-            let part = (t - step.along.t) / h;
-            visits.extend(GAUSS.as_node_weight_pairs().iter().map(|(node, weight)| {
-                let tau = 0.5 * part * (1.0 + node);
-                let height = step.along.height;
-                let indented = height.map_or(1.0, |height| self.wider.weight(height.at(tau)));
-                Visit {
-                    x: origin + RADAU.value(&step.along.displacement, tau),
-                    y: step.y + RADAU.value(&step.across, tau),
-                    weight: 0.5
-                        * part
-                        * h
-                        * weight
-                        * indented
-                        * self.wider.left_after((part - tau) * h),
-                }
+            let moments = step.along.moments(&self.wider, t).into_iter();
+            visits.extend(moments.map(|moment| Visit {
+                x: origin + moment.value(&step.along.displacement),
+                y: step.y + moment.value(&step.across),
+                weight: moment.weight,
             }));
         }
         visits

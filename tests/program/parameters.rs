@@ -39,14 +39,16 @@ fn a_saved_document_asked_again_is_the_same_document() {
         "run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 5",
         "raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 4 --length 12 --pulse 1,5,1",
         "compare --alpha 1.2 --r 1 --kick 0.05 --until 20",
+        "compare --tip gaussian --alpha 0.4 --r 1 --pitch 1 --lines 2 --length 5",
     ] {
         folder.prints(&format!("{line} -o first.json"));
         let command = line.split(' ').next().unwrap();
         if command == "compare" {
-            // Its grid is no parameter of the run.
-            let again = folder.prints_json("run --parameters first.json");
-            let (first, again) = (folder.json("first.json"), again);
-            assert_eq!(first["parameters"]["kick"], again["parameters"]["kick"]);
+            // Its times are measured.
+            let again = folder.prints_json("compare --parameters first.json");
+            let first = folder.json("first.json");
+            assert_eq!(first["parameters"], again["parameters"], "{line}");
+            assert_eq!(first["max_difference"], again["max_difference"], "{line}");
             continue;
         }
         let again = folder.prints_json(&format!("{command} --parameters first.json"));

@@ -29,11 +29,11 @@ const POINTS: usize = 2001;
 
 pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result<(), Failure> {
     let CompareArguments { options, area, answer: place, .. } = arguments;
-    if options.has("lines") || area.area.is_some() {
-        return raster::compare(session, arguments);
+    let values = options.values(session)?;
+    if values.get("lines").is_some_and(|lines| !lines.is_null()) || area.area.is_some() {
+        return raster::compare(session, arguments, values);
     }
     judge_places(&place.outlet, place.plot.as_deref(), &files(arguments))?;
-    let values = options.values(session)?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales =
         scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;

@@ -14,7 +14,7 @@ use crate::commands::raster::{files_read, question};
 use crate::commands::surface::evenly;
 use crate::failure::{Failure, Typed};
 use crate::session::Session;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::ops::ControlFlow;
 use std::time::Instant;
 use stickslip::{
@@ -30,10 +30,13 @@ use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 /// Number of heights compared on each row.
 const POINTS: usize = 501;
 
-pub(super) fn compare(session: &Session, arguments: &CompareArguments) -> Result<(), Failure> {
+pub(super) fn compare(
+    session: &Session,
+    arguments: &CompareArguments,
+    values: Map<String, Value>,
+) -> Result<(), Failure> {
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
-    let values = options.values(session)?;
     refuse_strangers::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
     let tip_file = options.tip.tip_file.as_deref();
     let scales =

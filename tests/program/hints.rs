@@ -102,6 +102,22 @@ fn the_next_step_of_each_result_runs_as_printed() {
     }
 }
 
+/// A range in which nothing is unstable has no picture, and no first and last threshold.
+#[test]
+fn a_result_without_thresholds_says_so_and_has_no_next_step() {
+    let folder = Folder::new("hints_nothing");
+    for line in [
+        "boundary --r-range 0.05:0.2:3 --healing-time 2",
+        "boundary --tip gaussian --pitch-range 0.5:1:2 --r 0.5 --healing-time 1 --length 40",
+        "boundary --tip gaussian --stiffness-range 0.1:0.5:2 --r 0.3",
+        "boundary --tip gaussian --stiffness-across 0.2 --r-range 0.3:1:2",
+    ] {
+        let text = String::from_utf8(folder.prints(&format!("{line} --format text"))).unwrap();
+        assert!(text.contains("left out"), "{line}\n{text}");
+        assert!(!text.contains("0 to 0") && !text.contains("next: "), "{line}\n{text}");
+    }
+}
+
 /// The command in backticks, or behind words, of a message.
 #[test]
 fn the_remedies_of_refusals_run_as_printed() {

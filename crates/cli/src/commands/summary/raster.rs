@@ -110,13 +110,19 @@ fn angle(at: &RasterCriticalDocument) -> Option<String> {
     at.crest_angle.map(|angle| format!("{} °", digits(angle, 6)))
 }
 
+/// The first and the last of these values.
+fn ends(values: &[f64]) -> String {
+    let [first, last] =
+        [values.first(), values.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
+    format!("{first} to {last}")
+}
+
 impl Product for RasterBoundaryDocument {
     fn summary(&self) -> Summary {
-        let ends = |v: &[f64]| {
-            let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
-            format!("{first} to {last}")
-        };
         let pitches = self.pitch.len();
+        if pitches == 0 {
+            return Summary::new("no ripple grows at any of these pitches").remarks(&self.remarks);
+        }
         let summary = Summary::new(format!(
             "αc from {} at {pitches} pitches from {}",
             ends(&self.alpha),
@@ -138,13 +144,13 @@ impl Product for RasterBoundaryDocument {
 
 impl Product for SnakingBoundaryDocument {
     fn summary(&self) -> Summary {
-        let ends = |v: &[f64]| {
-            let [first, last] = [v.first(), v.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
-            format!("{first} to {last}")
-        };
         let over_stiffness = self.parameters.stiffness_range.is_some();
         let (name, values) =
             if over_stiffness { ("κ_y", &self.stiffness) } else { ("r", &self.r) };
+        if values.is_empty() {
+            return Summary::new(format!("the line snakes at none of these values of {name}"))
+                .remarks(&self.remarks);
+        }
         let headline = format!(
             "the line snakes above α from {} at {} values of {name} from {}",
             ends(&self.alpha),

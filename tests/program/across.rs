@@ -28,6 +28,12 @@ fn a_single_line_says_where_it_snakes() {
         assert!(said.contains(part), "{said}");
     }
     assert!(words(&folder, &format!("{soft} --tip gaussian")).contains("no α"));
+    // Where no α makes it stick and slip, it may snake.
+    let healed = "--beta 2 --r 0.6 --healing-time 1 --stiffness-across 0.02";
+    let refusal = ["--r 0.6", "stable for every alpha", "above alpha = 18.6856", "give --alpha"];
+    folder.refuses(&format!("stability {healed}"), &refusal);
+    let found = folder.prints_json(&format!("stability {healed} --alpha 18.6857"));
+    assert_eq!((&found["stable"], &found["critical"]), (&json!(false), &Value::Null));
     folder.prints(&format!("{soft} --alpha 0.9 -o roots.csv --plot roots.svg"));
     let picture = String::from_utf8(folder.read("roots.svg")).unwrap();
     assert!(picture.contains("snakes") && picture.contains("along the scan"));

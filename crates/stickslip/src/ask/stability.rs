@@ -172,7 +172,11 @@ impl Stability {
             SolveFor::R => ("alpha", self.indentation.alpha, "r"),
         };
         let at = self.critical(&law)?.map_err(|error| {
-            let why = format!("{error}; give {{{other}}} for the growth exponents there");
+            let snakes = self.snaking().ok().flatten().and_then(|line| line.critical().ok()?);
+            let across = snakes.map_or(String::new(), |at| {
+                format!("; across the scan the line snakes above alpha = {:.9}", at.alpha)
+            });
+            let why = format!("{error}{across}; give {{{other}}} for the growth exponents there");
             Refused::number(given, value.unwrap_or(f64::NAN), why)
         })?;
         let indentation = Indentation::given(at.alpha);

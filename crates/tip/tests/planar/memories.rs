@@ -4,7 +4,7 @@ use super::footprints::{gaussians, star};
 use super::limits::resumes_with_the_same_bits;
 use super::lines::{differences, line, on_a_path, problem, support_on, tip};
 use super::reference::Problem;
-use stickslip_tip::planar::{PlanarRunning, PlanarScenario, run};
+use stickslip_tip::planar::{PlanarRun, PlanarRunning, PlanarScenario, run};
 use stickslip_tip::state::State;
 use stickslip_tip::{MemoryChoice, Start, Wider};
 
@@ -91,6 +91,25 @@ fn memories_agree_over_a_surface_that_heals_at_once() {
             let x = (direct.trajectory.x0(t) - other.trajectory.x0(t)).abs();
             let y = (direct.trajectory.y0(t) - other.trajectory.y0(t)).abs();
             assert!(x < 3e-9 && y < 3e-9, "{t}: {x:e} {y:e}");
+        }
+    }
+}
+
+/// Behind the front of a steady groove exponentials grow: there the height under the tip, too, is that of another memory.
+#[test]
+fn memories_agree_on_starts_far_behind_a_steady_groove() {
+    let wider = Wider { depth_limit: Some(3.0), ..plain() };
+    for kick in [2.0, 5.0, 12.0, 30.0] {
+        let scenario = line((tip(0.0, 1.0), wider), 0.5, 1.0, [kick, 0.1], 30.0);
+        let [direct, fft, modes] = MEMORIES.map(|memory| run(&with(&scenario, memory)).unwrap());
+        let start = direct.trajectory.start();
+        for i in 0..=100 {
+            let t = start + (30.0 - start) * f64::from(i) / 100.0;
+            let at = |run: &PlanarRun| [run.trajectory.x0(t), run.trajectory.height(t).unwrap()];
+            for other in [&fft, &modes] {
+                let [x, height] = [0, 1].map(|j| (at(&direct)[j] - at(other)[j]).abs());
+                assert!(x < 1e-8 && height < 1e-7, "{kick}, {t}: {x:e} {height:e}");
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Retreat, Sum, accuracy_needed};
 use stickslip_tip::{
     Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Stages, Start,
-    TipFunction, nodes_and_weights, run,
+    TipFunction, Wider, nodes_and_weights, run,
 };
 
 fn triple() -> TipFunction {
@@ -248,7 +248,8 @@ fn scenario(tip: TipFunction, alpha: f64, r: f64, until: f64) -> Scenario {
 fn largest_difference(a: &Run, b: &Run) -> f64 {
     let (start, end) = (a.trajectory.start(), a.trajectory.end());
     let t = |i: u32| start + (end - start) * f64::from(i) / 5000.0;
-    (0..=5000).map(|i| (a.trajectory.l(t(i)) - b.trajectory.l(t(i))).abs()).fold(0.0, f64::max)
+    let differences = (0..=5000).map(|i| (a.trajectory.l(t(i)) - b.trajectory.l(t(i))).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }
 
 #[test]
@@ -257,6 +258,9 @@ fn runs_with_modes_are_those_with_direct_to_the_tolerance() {
     let u = x.iter().map(|x| 0.6 * (-(x - 22.0_f64).powi(2)).exp()).collect();
     let pulse = |time| Pulse { amplitude: -8.0, time, width: 0.5 };
     let force = Force::new(vec![pulse(25.0), pulse(33.0)], None).unwrap();
+    let gaussian = || TipFunction::gaussian(1.0).unwrap();
+    let wider = Wider { depth_limit: Some(3.0), ..Wider::default() };
+    let limited = Model::under(wider, gaussian(), 0.5, 1.0).unwrap();
     let cases = [
         ("stick-slip", scenario(triple(), 1.2, 1.0, 76.0)),
         ("flat", Scenario { start: Start::Flat, kick: 0.0, ..scenario(triple(), 0.75, 0.6, 90.0) }),
@@ -264,6 +268,12 @@ fn runs_with_modes_are_those_with_direct_to_the_tolerance() {
         ("pulses", Scenario { force, ..scenario(triple(), 0.9, 1.0, 60.0) }),
         ("gaussian 0.8", scenario(TipFunction::gaussian(0.8).unwrap(), 1.6, 1.0, 76.0)),
         ("table", scenario(table(), 1.0, 0.8, 50.0)),
+        // From where the exponentials of the steady groove ahead have grown beyond all numbers, or the kink of |h|.
+        ("kicked", Scenario { kick: 30.0, ..scenario(gaussian(), 0.5, 1.0, 40.0) }),
+        (
+            "kicked, limited",
+            Scenario { kick: 4.0, model: limited, ..scenario(gaussian(), 0.5, 1.0, 40.0) },
+        ),
     ];
     for (name, scenario) in cases {
         for tolerance in [1e-5, 1e-7, 1e-9, 1e-10] {

@@ -19,6 +19,10 @@ impl<M: Memory> Integrator<'_, M> {
         if let Some(steady) = steady {
             told.farthest = told.farthest.max(-steady.distance);
         }
+        if told.farthest > told.retreat {
+            // Exponentials grow there: their sum is no groove, and tells no side of the kink.
+            return false;
+        }
         let age = self.t - self.start;
         let relief = self.model.wider().left_after(age);
         let alpha = self.model.alpha();

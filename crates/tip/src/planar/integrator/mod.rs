@@ -169,6 +169,7 @@ impl<'a> Integrator<'a> {
                 part.remember_steady(&past);
             }
         }
+        integrator.choose_memories()?;
         integrator.corner = Corner::of(model, integrator.groove_now().height, target);
         Ok(integrator)
     }
@@ -218,9 +219,7 @@ impl<'a> Integrator<'a> {
     /// The next step; `None` at the end.
     pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
         if self.made.is_empty() && self.t < until {
-            let t = self.t;
-            let too_far = |TooFar { behind, allowed }| PlanarError::Retreat { t, behind, allowed };
-            self.parts.iter_mut().try_for_each(|part| part.past.begin()).map_err(too_far)?;
+            self.choose_memories()?;
             if !self.step_by_series(until)? {
                 self.step_by_collocation(until)?;
             }
@@ -228,6 +227,13 @@ impl<'a> Integrator<'a> {
         let step = self.made.pop_front();
         self.work.steps += u64::from(step.is_some());
         Ok(step)
+    }
+
+    /// Chooses the memories that are valid where the tip is.
+    fn choose_memories(&mut self) -> Result<(), PlanarError> {
+        let t = self.t;
+        let too_far = |TooFar { behind, allowed }| PlanarError::Retreat { t, behind, allowed };
+        self.parts.iter_mut().try_for_each(|part| part.past.begin()).map_err(too_far)
     }
 
     /// x0

@@ -8,7 +8,7 @@ use stickslip_outcome::{Regime, run_and_judge};
 use stickslip_stability::critical;
 use stickslip_tip::memory::MemoryChoice;
 use stickslip_tip::motion::{Oscillation, latest_extrema};
-use stickslip_tip::{Gaussian, Model, Scenario, TipFunction, Wider, run};
+use stickslip_tip::{Force, Gaussian, Model, Pulse, Scenario, TipFunction, Wider, run};
 
 fn triple(beta: f64, alpha: f64) -> Model {
     Model::new(TipFunction::triple_gaussian(beta, 1.0).unwrap(), alpha, 1.0).unwrap()
@@ -205,13 +205,26 @@ fn the_end_of_a_stick_is_foretold() {
 
 #[test]
 fn where_round_off_decides_a_remark_says_so() {
-    let grows = |kick: f64, alpha: f64| {
-        let scenario = Scenario { kick, ..Scenario::new(triple(1.0, alpha), 100.0) };
+    let remarked = |scenario: Scenario| {
         let outcome = run_and_judge(&scenario).unwrap().1;
         outcome.remarks.iter().any(|remark| matches!(remark, Remark::RoundOffGrows { .. }))
     };
-    assert!(grows(0.0, 4.0));
-    assert!(!grows(0.01, 4.0) && !grows(0.0, 1.0));
+    let plain = |alpha: f64| Scenario::new(triple(1.0, alpha), 100.0);
+    let kicked = |kick: f64, alpha: f64| remarked(Scenario { kick, ..plain(alpha) });
+    assert!(kicked(0.0, 4.0));
+    assert!(!kicked(0.01, 4.0) && !kicked(0.0, 1.0));
+    // A force disturbs it too, unless round-off was faster: at the rate 0.275 it needs some 75 time units.
+    let pushed = |time: f64| {
+        let pulse = Pulse { amplitude: 1e-3, time, width: 1.0 };
+        remarked(Scenario { force: Force::default().with_pulse(pulse), until: 150.0, ..plain(1.9) })
+    };
+    assert!(!pushed(30.0) && !pushed(70.0) && pushed(120.0) && pushed(200.0));
+    // So does a velocity other than that of the support.
+    let wider = Wider { inertia: Some(0.3), ..Wider::default() };
+    let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+    let model = Model::under(wider, tip, 1.9, 1.0).unwrap();
+    let moving = |v| remarked(Scenario { start_velocity: v, ..Scenario::new(model.clone(), 60.0) });
+    assert!(moving(None) && moving(Some(1.0)) && !moving(Some(0.5)));
     // Steady motion that is unstable is not what becomes of a tip.
     let scenario = Scenario::new(triple(1.0, 1.2), 40.0);
     assert_eq!(run_and_judge(&scenario).unwrap().1.regime, Regime::Transient);

@@ -5,7 +5,7 @@ use std::fmt;
 /// A case in which round-off, the initial condition, the tolerance or a disturbance decides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Remark {
-    /// The initial condition is unstable steady motion, without any disturbance.
+    /// The initial condition is unstable steady motion, without an early disturbance.
     RoundOffGrows {
         /// Rate of growth, in k/Γ.
         rate: f64,

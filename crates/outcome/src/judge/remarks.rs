@@ -14,8 +14,8 @@ impl End<'_> {
         let mut remarks = vec![];
         remarks.extend(self.rest_remark());
         let is_papers = model.wider().is_papers();
-        if self.is_undisturbed()
-            && let Linear::Unstable(Slowest { rate, .. }) = self.linear()
+        if let Linear::Unstable(Slowest { rate, .. }) = self.linear()
+            && self.is_undisturbed(rate)
         {
             remarks.push(Remark::RoundOffGrows { rate });
         }
@@ -68,10 +68,15 @@ impl End<'_> {
         (growth > MOST_GROWTH).then_some(Remark::ErrorsGrowAtRest { growth: growth.exp() })
     }
 
-    /// Whether the run began in steady motion, and nothing was to disturb it.
-    fn is_undisturbed(&self) -> bool {
-        let Scenario { start, kick, noise, profile, force, .. } = self.scenario;
-        let still = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();
-        *start == Start::Steady && kick.abs() <= 0.0 && still && force.ends() < self.start()
+    /// Whether the run began in steady motion, and nothing disturbed it before errors, of the order of the tolerance
+    /// and growing at this rate, had become as large as a width.
+    fn is_undisturbed(&self, rate: f64) -> bool {
+        let Scenario { start, kick, noise, profile, force, tolerance, .. } = self.scenario;
+        let smooth = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();
+        let off = self.scenario.velocity_at_start() - self.scenario.model.r();
+        let still = kick.abs() <= 0.0 && off.abs() <= 0.0;
+        let (start_time, begins) = (self.start(), force.begins());
+        let late = begins >= self.last.end() || rate * (begins - start_time) > -tolerance.ln();
+        *start == Start::Steady && still && smooth && (late || force.ends() < start_time)
     }
 }

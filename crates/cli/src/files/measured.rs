@@ -38,9 +38,11 @@ pub(crate) fn parse_measured(table: &Table, columns: &[usize]) -> Result<Sheet, 
         return Err("there is no row of numbers in it".into());
     }
     let name = |i: usize| sheet.headings.get(i).map(|heading| heading.name().to_lowercase());
-    // t,x,u is a surface.
+    // t,x,u is a surface. Behind a position, `lateral` is a force and `displacement` that of a lever.
+    let is_position = |name: &str| POSITIONS.contains(&name);
     if let Some((first, second)) = name(0).zip(name(1))
-        && POSITIONS.contains(&&*second)
+        && is_position(&second)
+        && !is_position(&first)
         && first != "t"
     {
         let [first, second] = [0, 1].map(|i| sheet.headings[i].text());
@@ -178,6 +180,10 @@ mod tests {
             .headings,
             vec![Heading::default(); 3]
         );
+        for heading in ["x_nm,lateral (V)", "distance_nm,displacement_nm"] {
+            let text = format!("{heading}\n0,1.5\n2,3\n");
+            assert!(parse_measured(&(*text).into(), &[2]).is_ok(), "{heading}");
+        }
         for text in
             ["", "x,f\n", "0,1\n2\n", "0,1\nx,f\n", "z,x\n0,1.5\n2,3\n", "n,x\n0,1.5\n2,3\n"]
         {

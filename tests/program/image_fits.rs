@@ -217,9 +217,19 @@ fn friction_forces_and_work_come_in_nanonewtons_and_femtojoules() {
     let bare = folder.prints_json("friction volts.csv");
     assert_eq!((&bare["force_unit"], &bare["work_unit"]), (&"V".into(), &Value::Null));
     assert!(bare["remarks"].to_string().contains("not in fJ"));
+    // A retrace that ends half way has no second reversal.
+    let half: String = String::from_utf8(folder.read("retrace.csv"))
+        .unwrap()
+        .split_inclusive('\n')
+        .take(750)
+        .collect();
+    folder.write("half.csv", half);
+    let part = folder.prints_json("friction trace.csv half.csv")["remarks"].to_string();
+    assert!(part.contains("from 1002 to 2000 in common"), "{part}");
+    assert_eq!(found["remarks"], serde_json::json!([]));
     for (line, words) in [
         ("friction trace.csv", ["trace.csv", "3 are needed"]),
-        ("friction trace.csv trace.csv", ["trace.csv", "no sliding"]),
+        ("friction trace.csv trace.csv", ["trace.csv", "exchanged"]),
         ("friction volts.csv --stiffness 0.2N/m", ["--stiffness 0.2N/m", "unit of length"]),
         ("friction volts.csv --sensitivity 25nN", ["--sensitivity 25nN", "25nN/V"]),
         ("friction trace.csv retrace.csv --force-unit V", ["--force-unit V", "have nN"]),

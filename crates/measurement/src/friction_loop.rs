@@ -55,7 +55,8 @@ pub enum LoopError {
     Value(usize),
     /// The force never stops rising, or the ways do not differ.
     #[error(
-        "no sliding is seen: the force rises to the end of the way, or both ways have the same force"
+        "no sliding is seen: the force rises to the end of the way, or both ways have the same force, or the force of the trace \
+         is the smaller one: are trace and retrace exchanged, or is the sign of the force the other?"
     )]
     NoSliding,
 }

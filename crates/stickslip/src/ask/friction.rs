@@ -2,7 +2,7 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
-use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused};
+use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused, digits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
@@ -90,6 +90,8 @@ pub struct LoopColumns {
     pub retrace: Vec<f64>,
 }
 
+/// Part of all positions that trace and retrace have in common in a whole loop.
+const WHOLE: f64 = 0.95;
 /// m in nm, N in nN, and nN nm in fJ.
 const NANO: f64 = 1e9;
 const FEMTOJOULES: f64 = 1e-3;
@@ -148,6 +150,24 @@ impl Friction {
         let refused = |error: LoopError| Refused::whole("trace and retrace", error);
         FrictionLoop::of_tracks(of(&self.trace), of(&self.retrace)).map_err(refused)
     }
+
+    /// A warning if trace and retrace have only a part of their positions in common.
+    fn partial(&self, measured: &FrictionLoop) -> Option<String> {
+        let all = self.trace.x.iter().chain(&self.retrace.x);
+        let (low, high) = all
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        let along = self.nanometres().ok()?.unwrap_or(1.0);
+        let [x, ..] = measured.rows();
+        let (first, last) = (x[0], x[x.len() - 1]);
+        (last - first < WHOLE * along * (high - low)).then(|| {
+            format!(
+                "trace and retrace have only the positions from {} to {} in common: all numbers are those of this part; static \
+                 peak, stiffness and work need both reversals",
+                digits(first, 6),
+                digits(last, 6)
+            )
+        })
+    }
 }
 
 impl Ask for Friction {
@@ -170,7 +190,8 @@ impl Ask for Friction {
             (false, Some(_)) if has_force => Some("fJ"),
             _ => None,
         };
-        let remarks = work_unit.is_none().then(|| UNKNOWN.into()).into_iter().collect();
+        let remarks = work_unit.is_none().then(|| UNKNOWN.into());
+        let remarks = remarks.into_iter().chain(self.partial(&measured)).collect();
         let units = (length_unit, force_unit, work_unit.map(str::to_owned));
         Ok((FrictionFound::of(&measured, &found, units), remarks))
     }

@@ -147,15 +147,22 @@ impl Line {
         (positions, weights)
     }
 
-    /// The residence in both coordinates.
+    /// The residence in both coordinates at the end of the line.
     #[must_use]
     pub fn visits(&self) -> Vec<Visit> {
-        let (end, wider) = (self.trajectory.end(), self.trajectory.wider());
+        self.visits_until(self.trajectory.end())
+    }
+
+    /// The residence in both coordinates at t.
+    #[must_use]
+    pub fn visits_until(&self, t: f64) -> Vec<Visit> {
+        let wider = self.trajectory.wider();
         let mut visits = vec![];
-        for (n, step) in self.trajectory.steps().iter().enumerate() {
+        let steps = self.trajectory.steps().iter().take_while(|step| step.t < t);
+        for (n, step) in steps.enumerate() {
             let origin = self.trajectory.support().position(step.t) - step.extension;
             let across = self.across.get(n);
-            visits.extend(step.moments(wider, end).into_iter().map(|moment| Visit {
+            visits.extend(step.moments(wider, t).into_iter().map(|moment| Visit {
                 x: self.track.x(origin + moment.value(&step.displacement)),
                 y: self.track.y + across.map_or(0.0, |(y, across)| y + moment.value(across)),
                 weight: moment.weight,

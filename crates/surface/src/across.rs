@@ -67,7 +67,7 @@ impl<'a> SurfaceAcross<'a> {
         let mut columns: Vec<Vec<f64>> = x.iter().copied().map(initial).collect();
         for layer in self.layers {
             let profile: Vec<f64> = y.iter().map(|y| layer.across.value(*y)).collect();
-            let carved = carved(layer, visits, x, y);
+            let carved = carved_across(layer, visits, x, y);
             for ((column, carved), x) in columns.iter_mut().zip(carved).zip(x) {
                 let steady = match along.start {
                     Start::Steady => {
@@ -96,9 +96,10 @@ fn reach(layer: &Layer) -> f64 {
     layer.along.reach().unwrap_or(f64::INFINITY)
 }
 
-/// Σ weight f(x - x0) h(y - y0) of a layer over the visits within reach, for each x and y. The profile h of a visit is
-/// computed once for all x.
-fn carved(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
+/// Σ weight f(x - x0) h(y - y0) of a layer over the visits within reach, for each x and each y in turn. The profile h of
+/// a visit is computed once for all x. The visits are in the order of x0.
+#[must_use]
+pub fn carved_across(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
     let reach = reach(layer);
     let low = x.iter().copied().fold(f64::INFINITY, f64::min) - reach;
     let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max) + reach;

@@ -29,7 +29,7 @@ mod carved;
 mod image;
 mod ripple;
 
-pub use across::SurfaceAcross;
+pub use across::{SurfaceAcross, carved_across};
 pub use carved::{Method, carved, carved_by};
 pub use ripple::{Ripple, ripple_behind};
 

@@ -9,7 +9,7 @@ use crate::size::Width;
 use crate::{FigureError, colours, scene_of};
 use std::io::Cursor;
 use stickslip::{Ask, Context, KnownScales, Raster, RasterDocument, Run, RunDocument};
-use stickslip_raster::{Line, Path, Plan, Scanned, Scanning};
+use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Trajectory, Wider};
 
@@ -322,10 +322,16 @@ fn scanned(plan: &Plan) -> (Vec<Line>, RasterDocument) {
 /// The heights of a scene against those by the transform of all lines, at the end of each line and within a line.
 #[test]
 fn a_growing_raster_has_the_surface_of_its_lines() {
-    for (path, healing_time) in
-        [(Path::OneWay, None), (Path::Zigzag, None), (Path::Zigzag, Some(40.0))]
-    {
+    let free = Free { kick: 0.4, ..Free::new(0.5) };
+    for (path, healing_time, free) in [
+        (Path::OneWay, None, None),
+        (Path::Zigzag, None, None),
+        (Path::Zigzag, Some(40.0), None),
+        (Path::OneWay, None, Some(&free)),
+        (Path::Zigzag, Some(40.0), Some(&free)),
+    ] {
         let plan = plan(path, healing_time);
+        let plan = free.map_or(plan.clone(), |free| plan.with_free(free.clone()));
         let (lines, document) = scanned(&plan);
         let mut scene = scene_of(&document, &Shot::default()).unwrap();
         let mut judge = |t: f64, lines: &[Line]| {
@@ -334,13 +340,16 @@ fn a_growing_raster_has_the_surface_of_its_lines() {
             let wanted = Scanned::new(&plan, lines).heights(&map.x, &map.y);
             let off = map.z.iter().flatten().zip(&wanted).map(|(a, b)| (a - b).abs());
             let off = off.fold(0.0, f64::max);
-            assert!(off < 1e-10 && map.z.len() == 8, "{path:?} {healing_time:?} {t}: {off:e}");
+            assert!(
+                off < 1e-10 && (map.z.len() == 8 || free.is_some()),
+                "{path:?} {healing_time:?} {t}: {off:e}"
+            );
         };
         // Not in order: a scene can be shown again.
         for n in [8, 1, 5, 3] {
             judge(14.0 * f64::from(n) - 1e-12, &lines[..n as usize]);
         }
-        if healing_time.is_none() {
+        if healing_time.is_none() && free.is_none() {
             let steps = lines[4].trajectory().steps();
             let some = steps[..steps.len() / 2].to_vec();
             let t = 4.0 * 14.0 + some[some.len() - 1].end();
@@ -348,6 +357,8 @@ fn a_growing_raster_has_the_surface_of_its_lines() {
             let all: Vec<Line> = lines[..4].iter().cloned().chain([part]).collect();
             judge(t, &all);
         }
+        let moment = scene.moment(14.0 * 3.5).unwrap();
+        assert!((moment.tip.1 - lines[3].y0(7.0)).abs() < 1e-9, "{:?}", moment.tip);
     }
 }
 

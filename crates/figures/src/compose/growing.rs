@@ -10,7 +10,7 @@ use stickslip::{
     RasterDocument, StyleName,
 };
 use stickslip_raster::{Line, Plan};
-use stickslip_surface::carved;
+use stickslip_surface::{carved, carved_across};
 
 /// Largest number of columns and rows of the map: its pixels.
 const MOST: usize = 640;
@@ -80,15 +80,37 @@ impl Growing {
 
     /// Adds the groove that line n has carved by a time since its start, to the surface of that start.
     fn carve(&self, n: usize, t: f64, u: &mut [Vec<f64>]) {
+        let left = self.plan.law.model.wider().left_after(t);
+        if left < 1.0 {
+            u.iter_mut().flatten().for_each(|u| *u *= left);
+        }
         let line = &self.lines[n];
+        if line.is_free() { self.carve_freely(line, t, u) } else { self.carve_on_track(line, t, u) }
+    }
+
+    /// The groove of a tip that leaves its line.
+    fn carve_freely(&self, line: &Line, t: f64, u: &mut [Vec<f64>]) {
+        let (mut visits, alpha) = (line.visits_until(t), self.plan.law.model.alpha());
+        visits.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let Some((low, high)) = extremes(visits.iter().map(|visit| visit.y)) else { return };
+        let (low, high) = (low - self.plan.reach_across(), high + self.plan.reach_across());
+        let y = &self.whole.y;
+        let rows = y.partition_point(|y| *y < low)..y.partition_point(|y| *y <= high);
+        for layer in self.plan.footprint.layers() {
+            let carved = carved_across(layer, &visits, &self.whole.x, &y[rows.clone()]);
+            for (i, column) in carved.iter().enumerate() {
+                let cells = u[rows.clone()].iter_mut().zip(column);
+                cells.for_each(|(row, carved)| row[i] -= alpha * carved);
+            }
+        }
+    }
+
+    /// The groove of a tip that is held on its line.
+    fn carve_on_track(&self, line: &Line, t: f64, u: &mut [Vec<f64>]) {
         let track = line.track();
         let (mut positions, weights) = line.trajectory().residence(t);
         positions.iter_mut().for_each(|x| *x = track.x(*x));
         let model = &self.plan.law.model;
-        let left = model.wider().left_after(t);
-        if left < 1.0 {
-            u.iter_mut().flatten().for_each(|u| *u *= left);
-        }
         let reach = self.plan.reach_across();
         for layer in self.plan.footprint.layers() {
             let along = carved(&layer.along, &positions, &weights, &self.whole.x);
@@ -170,7 +192,7 @@ impl Scene for Growing {
             unit: "Γ/k".into(),
             note: format!("line {} of {}", n + 1, self.lines.len()),
             panels: vec![surface, lag],
-            tip: (line.x0(since), track.y),
+            tip: (line.x0(since), line.y0(since)),
             support: Some((now.0, track.y)),
         })
     }

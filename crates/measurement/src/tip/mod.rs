@@ -304,7 +304,7 @@ impl MeasuredTip {
         let mut remarks = vec![];
         if self.outside() > OUTSIDE * self.sigma.value {
             remarks.push(format!(
-                "the apex, at {:.6}, lies outside of the profile: only a flank was measured, so that width and alpha follow \
+                "the apex, at {:.3e}, lies outside of the profile: only a flank was measured, so that width and alpha follow \
                  from an assumed shape and may be wrong by more than their intervals; measure the apex too",
                 self.centre
             ));

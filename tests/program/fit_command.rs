@@ -115,6 +115,10 @@ fn heights_and_forces_keep_their_unit() {
         folder.prints(&format!("{line} -o fit.json --plot fit.svg"));
         let picture = String::from_utf8(folder.read("fit.svg")).unwrap();
         assert!(picture.contains(label) && !picture.contains("unit of the data"), "{line}");
+        let text = String::from_utf8(folder.prints(&format!("{line} --format text"))).unwrap();
+        let unit = label.split_once('(').unwrap().1.trim_end_matches(')');
+        let noise = text.lines().find(|row| row.trim().starts_with("noise")).unwrap();
+        assert!(noise.ends_with(&format!(" {unit}")), "{noise}");
         let scales =
             folder.prints_json("stability --r 1 --units fit.json")["physical"]["scales"].clone();
         let found = scales["height"].as_f64();

@@ -69,13 +69,15 @@ impl Product for FitDocument {
             }
         }
         for data in &self.data {
+            // Residuals of a series, which has no scan, are relative.
+            let unit = after_number(data.y_unit.as_deref().filter(|_| data.scan.is_some()));
             summary = summary
                 .row(
                     &data.source,
-                    format!("{} rows, residual {}", data.y.len(), digits(data.residual, 3)),
+                    format!("{} rows, residual {}{unit}", data.y.len(), digits(data.residual, 3)),
                 )
                 .maybe("scan", data.scan.clone())
-                .maybe("noise", data.noise.map(|noise| digits(noise, 3)))
+                .maybe("noise", data.noise.map(|noise| format!("{}{unit}", digits(noise, 3))))
                 .maybe("probability of the misfit", data.misfit.map(|p| digits(p, 2)))
                 .maybe("gain", data.gain.map(|gain| digits(gain, 5)));
         }
@@ -97,6 +99,7 @@ impl Product for FitImageDocument {
         );
         let word = |name: Value| name.as_str().map(str::to_owned);
         let lateral = self.lateral.as_ref();
+        let lateral_unit = after_number(self.parameters.lateral_unit.as_deref());
         let of_lever = lateral.and_then(|found| {
             let unit = found.stiffness_unit.as_deref().unwrap_or_default();
             Some(
@@ -120,7 +123,10 @@ impl Product for FitImageDocument {
                 "retrace shifted by",
                 self.retrace.map(|r| format!("{}{unit}", digits(r.shift, 3))),
             )
-            .maybe("amplitude of the lateral image", lateral.map(|l| with_interval(&l.amplitude)))
+            .maybe(
+                "amplitude of the lateral image",
+                lateral.map(|l| format!("{}{lateral_unit}", with_interval(&l.amplitude))),
+            )
             .maybe("lag of the model", lateral.map(|l| format!("{}{unit}", with_interval(&l.lag))))
             .maybe("stiffness k of the lever", of_lever)
             .maybe(

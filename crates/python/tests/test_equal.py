@@ -127,6 +127,8 @@ def test_columns_of_a_fit_are_a_tuple_and_several_data_a_list():
     alone = [stickslip.fit(ripple=given, **asked).to_dict() for given in (columns, [columns], height)]
     for fit in alone:
         fit["data"][0].pop("source")
+    # Only a heading names the unit of the heights.
+    assert alone[2]["data"][0].pop("y_unit") == "nm"
     assert alone[0] == alone[1] == alone[2] and len(alone[0]["data"]) == 1
     with pytest.raises(TypeError, match=r"ripple\[0\] is a file, columns such as \(x, f\)"):
         stickslip.fit(ripple=list(columns), **asked)

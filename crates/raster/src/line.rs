@@ -162,11 +162,13 @@ impl Line {
         for (n, step) in steps.enumerate() {
             let origin = self.trajectory.support().position(step.t) - step.extension;
             let across = self.across.get(n);
-            visits.extend(step.moments(wider, t).into_iter().map(|moment| Visit {
-                x: self.track.x(origin + moment.value(&step.displacement)),
-                y: self.track.y + across.map_or(0.0, |(y, across)| y + moment.value(across)),
-                weight: moment.weight,
-            }));
+            step.each_moment(wider, t, |moment| {
+                visits.push(Visit {
+                    x: self.track.x(origin + moment.value(&step.displacement)),
+                    y: self.track.y + across.map_or(0.0, |(y, across)| y + moment.value(across)),
+                    weight: moment.weight,
+                });
+            });
         }
         visits
     }

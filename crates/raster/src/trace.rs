@@ -116,14 +116,14 @@ impl Writer {
         let Ways { track, support, wider, duration, .. } = &self.ways;
         let origin = support.position(step.t) - step.extension;
         let mut is_ahead = true;
-        for moment in step.moments(wider, *duration) {
+        step.each_moment(wider, *duration, |moment| {
             let x = track.x(origin + moment.value(&step.displacement));
             self.density.add(x, moment.weight);
             #[expect(clippy::cast_possible_truncation, reason = "a cell")]
             let cell = (x / self.density.spacing()).floor() as i64;
             is_ahead &= cell - BELOW >= self.to.saturating_mul(PIECE as i64);
             self.farthest = self.farthest.max(cell);
-        }
+        });
         is_ahead
     }
 

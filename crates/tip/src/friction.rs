@@ -103,20 +103,18 @@ fn peak(motion: &Trajectory, phase: Phase) -> Option<Peak> {
     let within: Vec<&Step> = steps[first..].iter().take_while(|step| step.t < phase.to).collect();
     let mut at = vec![];
     for step in &within {
-        at.push((step.t, step.lag(support, step.t)));
+        let mut add = |t| at.push(Peak { t, lag: step.lag(support, t) });
+        add(step.t);
         // R - x0 turns where l of a support of the same velocity does.
-        extrema_within(step, support.velocity(step.t), |turn| {
-            at.push((turn.t, step.lag(support, turn.t)));
-        });
+        extrema_within(step, support.velocity(step.t), |turn| add(turn.t));
+        add(step.end());
     }
-    let last = within.last()?;
-    at.push((last.end(), last.lag(support, last.end())));
-    let larger = |a: &&(f64, f64), b: &&(f64, f64)| match phase.direction {
-        Ordering::Less => b.1.total_cmp(&a.1),
-        _ => a.1.total_cmp(&b.1),
+    let larger = |a: &Peak, b: &Peak| match phase.direction {
+        Ordering::Less => b.lag.total_cmp(&a.lag),
+        _ => a.lag.total_cmp(&b.lag),
     };
-    let (t, lag) = *at.iter().max_by(larger)?;
-    (t < last.end()).then_some(Peak { t, lag })
+    let end = within.last()?.end();
+    at.into_iter().max_by(larger).filter(|peak| peak.t < end)
 }
 
 /// Work ∫ (R - x0)dR of the support between two times.

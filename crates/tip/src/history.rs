@@ -144,10 +144,9 @@ impl Step {
         self.height.map_or([1.0; STAGES], |height| height.nodes.map(|height| wider.weight(height)))
     }
 
-    /// The moments at which the tip was seen until t, for sums over its [residence](Trajectory::residence): the nodes
-    /// of a step that is over; Gauss points of one that is not, or in which more heals than nodes resolve.
-    #[must_use]
-    pub fn moments(&self, wider: &Wider, t: f64) -> Vec<Moment> {
+    /// Calls `each` with the moments of the step until t, for sums over the [residence](Trajectory::residence) of the
+    /// tip: the nodes of a step that is over; Gauss points of one that is not, or in which more heals than nodes resolve.
+    pub fn each_moment(&self, wider: &Wider, t: f64, mut each: impl FnMut(Moment)) {
         let time = wider.healing_time.unwrap_or(f64::INFINITY);
         let passed = t - self.t;
         let is_over = self.end() <= t;
@@ -157,24 +156,25 @@ impl Step {
                 Some(time) => healing(self.h, time)[STAGES - 1],
             };
             let (weights, since) = (self.weights(wider), wider.left_after(t - self.end()));
-            let at = |i| Moment { at: At::Node(i), weight: left[i] * weights[i] * since };
-            return (0..STAGES).map(at).collect();
+            for i in 0..STAGES {
+                each(Moment { at: At::Node(i), weight: left[i] * weights[i] * since });
+            }
+            return;
         }
         let to = if is_over { self.h } else { passed };
         let from = (passed - GONE * time).max(0.0);
         let pieces = ((to - from) / (MOST_AT_POINTS * time)).ceil().max(1.0);
         let half = 0.5 * (to - from) / pieces;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most five")]
-        let starts = (0..pieces as usize).map(|piece| from + 2.0 * half * piece as f64);
-        let points = GAUSS.as_node_weight_pairs();
-        let at = |start: f64, (node, weight): &(f64, f64)| {
-            let since = start + half * (1.0 + node);
-            let tau = since / self.h;
-            let indented = self.height.map_or(1.0, |height| wider.weight(height.at(tau)));
-            let left = wider.left_after(passed - since);
-            Moment { at: At::Fraction(tau), weight: half * weight * indented * left }
-        };
-        starts.flat_map(|start| points.iter().map(move |point| at(start, point))).collect()
+        for start in (0..pieces as usize).map(|piece| from + 2.0 * half * piece as f64) {
+            for (node, weight) in GAUSS.as_node_weight_pairs() {
+                let since = start + half * (1.0 + node);
+                let tau = since / self.h;
+                let indented = self.height.map_or(1.0, |height| wider.weight(height.at(tau)));
+                let left = wider.left_after(passed - since);
+                each(Moment { at: At::Fraction(tau), weight: half * weight * indented * left });
+            }
+        }
     }
 }
 
@@ -337,10 +337,10 @@ impl Trajectory {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
             let origin = self.support.position(step.t) - step.extension;
-            for moment in step.moments(&self.wider, t) {
+            step.each_moment(&self.wider, t, |moment| {
                 positions.push(origin + moment.value(&step.displacement));
                 weights.push(moment.weight);
-            }
+            });
         }
         (positions, weights)
     }

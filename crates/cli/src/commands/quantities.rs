@@ -45,9 +45,8 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
     const TIME: &[&str] = &["Γ/k"];
     Some(match (command, option) {
         // Quantities in themselves, and pictures.
-        ("units" | "friction", _) | ("fit", "width" | "pitch") => return None,
-        ("tip", "centre") => return None,
-        ("plot", "width" | "times") => return None,
+        ("units" | "friction", _) | ("plot", "width" | "times") => return None,
+        ("fit", "width" | "pitch") | ("tip", "centre") => return None,
         ("continue" | "cycle" | "sweep", "tolerance") => &["kσ/Γ"],
         (_, "width" | "start-position" | "kick" | "kick-across" | "noise-spacing") => LENGTH,
         (_, "noise-spacing-across" | "width-y" | "pitch" | "pitch-range" | "length") => LENGTH,

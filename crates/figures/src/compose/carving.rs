@@ -1,7 +1,7 @@
 //! A run as a scene: the tip on its spring, the surface that it carves, and the spring force.
 
 use super::axes::{LAG, NATURAL, SURFACE, VELOCITY};
-use super::dense::Part;
+use super::dense::{Part, duration, shown};
 use super::tip::run_title;
 use crate::axis::extremes;
 use crate::error::FigureError;
@@ -158,17 +158,10 @@ fn trail(trajectory: &Trajectory, times: [f64; 2]) -> CurveDocument {
 /// First and last time: as requested, or the last ripples.
 fn times(run: &RunDocument, trajectory: &Trajectory, shot: &Shot) -> Result<[f64; 2], FigureError> {
     let (start, end) = (trajectory.start(), trajectory.end());
-    if let Some([from, to]) = shot.times {
-        let (first, last) = (from.max(start), to.min(end));
-        if first < last {
-            return Ok([first, last]);
-        }
-        return Err(FigureError::Still(format!(
-            "the run lasts from t = {start} to {end}, and the times {from} to {to} are outside of it"
-        )));
+    if let Some(times) = shot.times {
+        return shown("run", [start, end], times);
     }
-    let velocity = (trajectory.x0(end) - trajectory.x0(start)).abs() / (end - start);
-    let path = PATH / velocity.max(1e-3);
+    let path = duration(PATH, (trajectory.x0(end) - trajectory.x0(start), end - start));
     let ripples = run.oscillation.as_ref().map(|o| {
         let period = o.period;
         (PERIODS.0 * period).min(path.max(PERIODS.1 * period))

@@ -1,5 +1,6 @@
 //! Curves from the dense history of a motion, which include every peak in runs of any length.
 
+use crate::error::FigureError;
 use stickslip::{CurveDocument, StyleName};
 use stickslip_tip::{Step, Trajectory};
 
@@ -17,6 +18,29 @@ pub(super) type Quantity<'a> = &'a dyn Fn(&Step, f64) -> f64;
 /// Lowest and highest value in each column, in temporal order, with their times.
 struct Columns {
     points: Vec<[(f64, f64); 2]>,
+}
+
+/// The part of a motion between two times.
+///
+/// # Errors
+/// There is none.
+pub(super) fn shown(
+    motion: &str,
+    [start, end]: [f64; 2],
+    [from, to]: [f64; 2],
+) -> Result<[f64; 2], FigureError> {
+    let times = [from.max(start), to.min(end)];
+    if times[0] < times[1] {
+        return Ok(times);
+    }
+    Err(FigureError::Still(format!(
+        "the {motion} lasts from t = {start} to {end}, and the times {from} to {to} are outside of it"
+    )))
+}
+
+/// Duration of a path of this length at the mean velocity of a motion.
+pub(super) fn duration(path: f64, (way, time): (f64, f64)) -> f64 {
+    path / (way.abs() / time).max(1e-3)
 }
 
 /// A part of a trajectory.

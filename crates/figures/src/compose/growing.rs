@@ -1,6 +1,7 @@
 //! A raster as a scene: the surface line by line with the tip, and the lag along the line.
 
 use super::axes::{LAG, MAP, NATURAL, heights_within};
+use super::dense::shown;
 use super::tip::raster_title;
 use crate::axis::extremes;
 use crate::error::FigureError;
@@ -47,13 +48,7 @@ impl Growing {
             Some(*end)
         }));
         let end = starts.last().copied().unwrap_or_default();
-        let [from, to] = shot.times.unwrap_or([0.0, end]);
-        let times = [from.max(0.0), to.min(end)];
-        if times[0] >= times[1] {
-            return Err(FigureError::Still(format!(
-                "the raster lasts from t = 0 to {end}, and the times {from} to {to} are outside of it"
-            )));
-        }
+        let times = shown("raster", [0.0, end], shot.times.unwrap_or([0.0, end]))?;
         let map = raster.height_map()?;
         let whole = raster.heights(sparse(map.x), sparse(map.y))?;
         let lag = |line: &Line| {

@@ -1,6 +1,7 @@
 //! The surface of a run in the plane from above, with the path of the tip on it.
 
 use super::axes::MAP;
+use super::dense::{duration, shown};
 use crate::axis::extremes;
 use crate::error::FigureError;
 use stickslip::{
@@ -39,13 +40,9 @@ impl Plane {
     pub(super) fn of(run: &RunDocument, times: Option<[f64; 2]>) -> Result<Self, FigureError> {
         let (scenario, trajectory) = run.trajectory_across()?;
         let (start, end) = (trajectory.start(), trajectory.end());
-        let [from, to] = times.unwrap_or([last_path(&trajectory), end]);
-        let times = [from.max(start), to.min(end)];
-        if times[0] >= times[1] {
-            return Err(FigureError::Still(format!(
-                "the run lasts from t = {start} to {end}, and the times {from} to {to} are outside of it"
-            )));
-        }
+        let way = trajectory.x0(end) - trajectory.x0(start);
+        let last = [end - duration(PATH, (way, end - start)), end];
+        let times = shown("run", [start, end], times.unwrap_or(last))?;
         let mut plane = Self { scenario, trajectory, times, x: vec![], y: vec![] };
         let (tip, support) = (plane.path(times[1]), plane.instants(times[1]));
         let support = support.filter_map(|t| plane.support(t)).map(|[x, _]| x);
@@ -62,6 +59,7 @@ impl Plane {
         self.times
     }
 
+    #[cfg(feature = "animation")]
     pub(super) fn trajectory(&self) -> &Trajectory {
         &self.trajectory
     }
@@ -118,13 +116,6 @@ impl Plane {
             support => Some([support.position(t), 0.0]),
         }
     }
-}
-
-/// Start of the last part of the motion that is as long as the path shown.
-fn last_path(trajectory: &Trajectory) -> f64 {
-    let (start, end) = (trajectory.start(), trajectory.end());
-    let velocity = (trajectory.x0(end) - trajectory.x0(start)).abs() / (end - start);
-    start.max(end - PATH / velocity.max(1e-3))
 }
 
 fn even((low, high): (f64, f64), spacing: f64) -> Vec<f64> {

@@ -9,6 +9,7 @@ use crate::error::FigureError;
 use crate::scene::{Moment, Scene, Shot};
 use stickslip::{CurveDocument, FigureDocument, PanelDocument, RunDocument, StyleName};
 use stickslip_tip::Support;
+use stickslip_tip::planar::Trajectory;
 
 /// A run in the plane between two times.
 pub(super) struct Wandering {
@@ -16,8 +17,15 @@ pub(super) struct Wandering {
     still: FigureDocument,
     /// Heights that the colours cover.
     colours: Option<[f64; 2]>,
-    /// For each panel below the map: the curve, and its labels.
-    curves: Vec<(CurveDocument, (&'static str, &'static str))>,
+    /// The panels below the map.
+    tracks: Vec<Track>,
+}
+
+/// A quantity against time.
+struct Track {
+    of: fn(&Trajectory, f64) -> f64,
+    labels: (&'static str, &'static str),
+    curve: CurveDocument,
 }
 
 impl Wandering {
@@ -28,14 +36,13 @@ impl Wandering {
         let times = plane.times();
         let t: Vec<f64> = plane.instants(times[1]).collect();
         let trajectory = plane.trajectory();
-        let curve = |of: &dyn Fn(f64) -> f64| {
-            let values: Vec<f64> = t.iter().map(|t| of(*t)).collect();
-            CurveDocument::new(StyleName::Line, "", &t, &values)
+        let track = |of: fn(&Trajectory, f64) -> f64, labels| {
+            let values: Vec<f64> = t.iter().map(|t| of(trajectory, *t)).collect();
+            Track { of, labels, curve: CurveDocument::new(StyleName::Line, "", &t, &values) }
         };
-        let mut curves = vec![(curve(&|t| trajectory.y0(t)), ACROSS)];
-        if !matches!(trajectory.support(), Support::None) {
-            curves.insert(0, (curve(&|t| trajectory.lag(t)), LAG));
-        }
+        let has_spring = !matches!(trajectory.support(), Support::None);
+        let lag = has_spring.then(|| track(Trajectory::lag, LAG));
+        let tracks: Vec<Track> = lag.into_iter().chain([track(Trajectory::y0, ACROSS)]).collect();
         let model = run.parameters.model_parameters();
         let mut still = FigureDocument::new("wandering", &run_title(run), vec![model]);
         let mut map = plane.seen(times[1], None)?;
@@ -46,8 +53,8 @@ impl Wandering {
         });
         map.curves.clear();
         still.panels = vec![map];
-        still.panels.extend(curves.iter().map(|(curve, labels)| whole(curve, *labels, times)));
-        Ok(Self { plane, still, colours, curves })
+        still.panels.extend(tracks.iter().map(|track| whole(&track.curve, track.labels, times)));
+        Ok(Self { plane, still, colours, tracks })
     }
 }
 
@@ -62,13 +69,10 @@ impl Scene for Wandering {
 
     fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
         let mut panels = vec![self.plane.seen(t, self.colours)?];
-        panels.extend(self.curves.iter().enumerate().map(|(i, (curve, labels))| {
-            let trajectory = self.plane.trajectory();
-            let is_across = i + 1 == self.curves.len();
-            let now = if is_across { trajectory.y0(t) } else { trajectory.lag(t) };
+        panels.extend(self.tracks.iter().map(|Track { of, labels, curve }| {
             let mut panel = PanelDocument::new("", *labels);
             panel.natural = NATURAL;
-            panel.curves = past(curve, t, now).into();
+            panel.curves = past(curve, t, of(self.plane.trajectory(), t)).into();
             panel
         }));
         let (unit, note) = ("Γ/k".into(), String::new());

@@ -230,8 +230,8 @@ impl Ripples {
             && shift.abs() > 3.0 * shift_error
         {
             remarks.push(format!(
-                "the lateral image lies {shift:.4} further along the lines than the model predicts: it is of another scan, has the other sign, or the scanner has a \
-                 hysteresis; α, r and k do not depend on this shift"
+                "the lateral image lies {shift:.4} further along the lines than the model predicts: it is of another scan, \
+                 has the other sign, or the scanner has a hysteresis; α, r and k do not depend on this shift"
             ));
         }
         if self.amplitude.value < 2.0 * self.residual {

@@ -88,12 +88,13 @@ impl Trajectory {
         let mut visits = vec![];
         for step in self.steps.iter().take_while(|step| step.along.t < t) {
             let origin = self.support.position(step.along.t) - step.along.extension;
-            let moments = step.along.moments(&self.wider, t).into_iter();
-            visits.extend(moments.map(|moment| Visit {
-                x: origin + moment.value(&step.along.displacement),
-                y: step.y + moment.value(&step.across),
-                weight: moment.weight,
-            }));
+            step.along.each_moment(&self.wider, t, |moment| {
+                visits.push(Visit {
+                    x: origin + moment.value(&step.along.displacement),
+                    y: step.y + moment.value(&step.across),
+                    weight: moment.weight,
+                });
+            });
         }
         visits
     }

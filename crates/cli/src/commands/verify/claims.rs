@@ -296,11 +296,9 @@ impl Claims {
         if let Some(trajectory) = trajectory {
             let steps = trajectory.steps().len();
             self.judge("work.steps", &json!(run.work.steps), &json!(steps), &|_, _| 0.0);
-            let parameters = &run.parameters;
-            let on_path =
-                parameters.support_path.is_some() && parameters.stiffness_across.is_none();
+            let is_held_on_line = run.parameters.stiffness_across.is_none();
             let (loops, holds) =
-                if on_path { RunFound::of_path(trajectory) } else { Default::default() };
+                if is_held_on_line { RunFound::of_path(trajectory) } else { (None, None) };
             self.judge_if("loops", run.loops.as_ref(), loops.as_ref(), &digits);
             // Older documents have none.
             if run.holds.is_some() {

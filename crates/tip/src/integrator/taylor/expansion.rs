@@ -12,21 +12,21 @@ impl<M: Memory> Integrator<'_, M> {
         let known = self.surface.jet_on(&self.stretch, self.position(), &mut jet);
         let Some(count) = known else { return false };
         let steady = self.steady_past();
-        let told = &mut self.taylor.told;
-        if !self.memory.derivatives(steady.as_ref(), order + 1, told) {
+        let derivatives = &mut self.taylor.derivatives;
+        if !self.memory.derivatives(steady.as_ref(), order + 1, derivatives) {
             return false;
         }
         if let Some(steady) = steady {
-            told.farthest = told.farthest.max(-steady.distance);
+            derivatives.farthest = derivatives.farthest.max(-steady.distance);
         }
-        if told.farthest > told.retreat {
-            // Exponentials grow there: their sum is no groove, and tells no side of the kink.
+        if derivatives.farthest > derivatives.retreat {
+            // There the exponentials grow: their sum is not the groove, and its sign not the side of the kink.
             return false;
         }
         let age = self.t - self.start;
         let relief = self.model.wider().left_after(age);
         let alpha = self.model.alpha();
-        let groove = (&told.past, &told.of_tip);
+        let groove = (&derivatives.past, &derivatives.of_tip);
         let first = (order, self.corner.is_some());
         jet[..count].iter_mut().for_each(|jet| *jet *= relief);
         self.taylor.chain.start(first, alpha, groove, &jet[..count]);

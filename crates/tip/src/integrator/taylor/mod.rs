@@ -39,7 +39,7 @@ pub(super) struct Taylor {
     order: usize,
     /// Relative indentation rate of a tip in steady motion.
     steady_weight: f64,
-    told: Derivatives,
+    derivatives: Derivatives,
     chain: Chain,
     pieces: Pieces,
     switch: Switch,
@@ -69,7 +69,7 @@ impl Taylor {
         Self {
             order: length::order(SHARE_OF_SERIES * target, length::ORDER_PER_DIGIT),
             steady_weight: model.steady_weight(),
-            told: Derivatives::nothing(),
+            derivatives: Derivatives::nothing(),
             chain: Chain::new(),
             pieces: Pieces::none(),
             switch: Switch::new(model.wider().inertia.is_some()),
@@ -182,12 +182,12 @@ impl<M: Memory> Integrator<'_, M> {
         if let Some(part) = self.leaves(parts, positions, value) {
             return Some(part * total);
         }
-        let told = &self.taylor.told;
-        let mut farthest = told.farthest;
+        let derivatives = &self.taylor.derivatives;
+        let mut farthest = derivatives.farthest;
         for (part, position) in parts.iter().zip(positions) {
             if *position > farthest {
                 farthest = *position;
-            } else if *position < farthest - told.retreat {
+            } else if *position < farthest - derivatives.retreat {
                 return Some(0.5 * part * total);
             }
         }

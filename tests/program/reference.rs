@@ -6,6 +6,7 @@
 use crate::folder::Folder;
 use serde_json::Value;
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::{env, fs};
 
 /// Set by `make reference`.
@@ -24,6 +25,30 @@ fn is_up_to_date(name: &str, page: &str) {
     let written = fs::read_to_string(path).unwrap_or_default();
     let differs = written.lines().zip(page.lines()).find(|(old, new)| old != new);
     assert!(written == page, "docs/reference/{name} is stale: make reference\n{differs:?}");
+}
+
+/// The schemas in files are those of the types.
+#[test]
+fn schemas_are_those_of_the_types() {
+    let folder = format!("{}/../stickslip/schemas", env!("CARGO_MANIFEST_DIR"));
+    let mut known = vec![];
+    for (name, schema) in stickslip::derived() {
+        let text = format!("{}\n", serde_json::to_string_pretty(&schema).unwrap());
+        let path = PathBuf::from(format!("{folder}/{name}"));
+        if env::var_os(WRITES).is_some() {
+            fs::write(&path, text).unwrap();
+        } else {
+            let written = fs::read_to_string(&path).unwrap_or_default();
+            assert!(written == text, "crates/stickslip/schemas/{name} is stale: make reference");
+        }
+        known.push(path);
+    }
+    for part in ["documents", "questions"] {
+        for file in fs::read_dir(format!("{folder}/{part}")).unwrap() {
+            let path = file.unwrap().path();
+            assert!(known.contains(&path), "{} is of no type", path.display());
+        }
+    }
 }
 
 /// What `stickslip WORDS --help` prints.

@@ -1,9 +1,9 @@
 //! The envelope of a document: the question, the program that answered it, the answer, and warnings.
 
 use crate::documents::table::{Array, Named, Tabular};
-use crate::parameter::strictly;
+use crate::parameter::{Parameters, strictly};
+use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, History, InUnits, Physical, Software};
-use schemars::{JsonSchema, Schema, schema_for};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{DeserializeOwned, DeserializeSeed, Error, IntoDeserializer, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -14,7 +14,7 @@ use std::ops::{Deref, DerefMut};
 
 /// The parameters of a document: the question.
 pub trait Question:
-    Debug + Clone + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
+    Debug + Clone + Serialize + Parameters + JsonSchema + Send + Sync + 'static
 {
     /// Format of the documents of this question: `stickslip/` and the name by which `stickslip schema` knows it.
     const FORMAT: &'static str;
@@ -61,10 +61,11 @@ impl<Q: Question> Document<Q> {
     pub const FORMAT: &'static str = Q::FORMAT;
 
     /// The JSON Schema of the document, with its format as name and the description of the answer.
-    pub fn schema() -> Schema {
-        let mut schema = schema_for!(Self);
+    #[cfg(feature = "schema")]
+    pub fn schema() -> schemars::Schema {
+        let mut schema = schemars::schema_for!(Self);
         schema.insert("title".into(), Q::FORMAT.into());
-        if let Some(description) = schema_for!(Q::Answer).remove("description") {
+        if let Some(description) = schemars::schema_for!(Q::Answer).remove("description") {
             schema.insert("description".into(), description);
         }
         schema

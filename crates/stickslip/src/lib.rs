@@ -28,11 +28,16 @@
     rustdoc::broken_intra_doc_links,
     reason = "t[i] is an entry, also in the descriptions of the schemas"
 )]
+#![cfg_attr(
+    not(feature = "schema"),
+    allow(unused_imports, reason = "attributes of parameters use what only schemas need")
+)]
 
 mod ask;
 mod document;
 mod documents;
 pub mod parameter;
+pub mod schema;
 
 pub use stickslip_convolution as convolution;
 pub use stickslip_cycles as cycles;
@@ -77,7 +82,9 @@ pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };
 pub use documents::run_lines::{RunHead, RunLine};
-pub use documents::schemas::{NamedSchema, SCHEMAS, schema};
+#[cfg(feature = "schema")]
+pub use documents::schemas::derived;
+pub use documents::schemas::{SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
     CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,

@@ -1,8 +1,8 @@
-//! The parameters of a question, read from its JSON Schema. Options of the command line, keywords of Python and parameter
-//! files are all made of them, so that a parameter is declared in one place: a field of a question.
+//! The parameters of a question, read from its JSON Schema, a file that is made from the type. Options of the command
+//! line, keywords of Python and parameter files are all made of them, so that a parameter is declared in one place: a
+//! field of a question.
 
 use crate::{Refused, Typed};
-use schemars::{JsonSchema, schema_for};
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
@@ -15,6 +15,7 @@ const OPTION: &str = "x-option";
 
 /// Schema attributes of a parameter: the symbol of its value, its group, and its rank on the help page. A field
 /// without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents but is no option.
+#[cfg_attr(not(feature = "schema"), allow(dead_code, reason = "only schemas need it"))]
 pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
     json!({ "symbol": symbol, "group": group, "place": place })
 }
@@ -70,6 +71,23 @@ pub enum Kind {
     Other,
 }
 
+/// A type with parameters or names: what users may set.
+pub trait Parameters: DeserializeOwned + 'static {
+    /// JSON Schema of the type.
+    const SCHEMA: &'static str;
+}
+
+/// The JSON Schema of a type; null if its file is damaged, which a test excludes.
+fn schema<Q: Parameters>() -> Value {
+    serde_json::from_str(Q::SCHEMA).unwrap_or_default()
+}
+
+/// The names that a type has, each with its meaning.
+#[must_use]
+pub fn names<T: Parameters>() -> Vec<(String, String)> {
+    names_of(&schema::<T>())
+}
+
 /// The parsed schema of a question, computed once per process.
 struct Described {
     /// All properties of the schema, options or not.
@@ -84,13 +102,13 @@ struct Property {
 }
 
 /// The parsed schema of a question, cached because computing it takes longer than many an answer.
-fn described<Q: JsonSchema + 'static>() -> &'static Described {
+fn described<Q: Parameters>() -> &'static Described {
     static KNOWN: Mutex<BTreeMap<TypeId, &'static Described>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     // There are as many as types of questions.
     known
         .entry(TypeId::of::<Q>())
-        .or_insert_with(|| Box::leak(Box::new(Described::of(&schema_for!(Q).to_value()))))
+        .or_insert_with(|| Box::leak(Box::new(Described::of(&schema::<Q>()))))
 }
 
 impl Described {
@@ -126,7 +144,7 @@ impl Described {
 }
 
 /// The parameters that a user may give, in the order of a help page.
-pub fn parameters<Q: JsonSchema + 'static>() -> &'static [Parameter] {
+pub fn parameters<Q: Parameters>() -> &'static [Parameter] {
     &described::<Q>().options
 }
 
@@ -184,9 +202,7 @@ fn names_of(schema: &Value) -> Vec<(String, String)> {
 ///
 /// # Errors
 /// An unknown name, a missing parameter, or a value of the wrong kind.
-pub fn question<Q: JsonSchema + DeserializeOwned + 'static>(
-    values: Map<String, Value>,
-) -> Result<Q, Refused> {
+pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused> {
     let properties = &described::<Q>().properties;
     for (name, value) in &values {
         let Some(property) = properties.get(name) else {
@@ -215,7 +231,7 @@ pub fn question<Q: JsonSchema + DeserializeOwned + 'static>(
 
 /// Reads a question and rejects unknown names as [`question`] does; serde alone accepts unknown names in grouped
 /// parameters.
-pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: JsonSchema + DeserializeOwned + 'static>(
+pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
     let refused = |refused: Refused| D::Error::custom(refused.described(str::to_owned));
@@ -274,7 +290,7 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
 }
 
 /// The first of these names that is not a parameter of `Q`.
-pub fn stranger<Q: JsonSchema + 'static>(values: &Map<String, Value>) -> Option<&str> {
+pub fn stranger<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
     let properties = &described::<Q>().properties;
     values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
 }

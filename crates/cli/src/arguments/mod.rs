@@ -170,7 +170,7 @@ pub(crate) enum Command {
 #[command(after_help = "Example:\n  stickslip schema run > run.schema.json")]
 pub(crate) struct SchemaArguments {
     /// Kind of document.
-    #[arg(value_parser = PossibleValuesParser::new(SCHEMAS.map(|(name, _)| name)))]
+    #[arg(value_parser = PossibleValuesParser::new(SCHEMAS.iter().map(|(name, _)| *name)))]
     pub(crate) name: String,
 }
 

@@ -176,7 +176,7 @@ where
     let context = context(session);
     let question = question.resolved(&context)?;
     let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
-    let job = Job::open::<Document<Q>>(session, &place.outlet, place.plot.as_deref())?;
+    let job = Job::open(session, Q::FORMAT, &place.outlet, place.plot.as_deref())?;
     job.finish(question.answered(&context)?.in_units(scales.as_ref()))
 }
 

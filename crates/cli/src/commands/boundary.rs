@@ -69,7 +69,7 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
         return Err(Failure::input(option(name), message));
     }
     let question: Boundary = parameter::question(values)?;
-    let job = Job::open::<BoundaryDocument>(session, &answer.outlet, answer.plot.as_deref())?;
+    let job = Job::open(session, BoundaryDocument::FORMAT, &answer.outlet, answer.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", plot_onset.as_deref())?;
     let document = answered(session, question, answer, options.tip.tip_file.as_deref())?;
     if let Some(figure) = plot_onset {

@@ -38,7 +38,7 @@ pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result
     let scales =
         scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let asked = Asked::of(session, arguments, values, scales.as_ref())?;
-    let job = Job::open::<CompareDocument>(session, &place.outlet, place.plot.as_deref())?;
+    let job = Job::open(session, CompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let sides = match &asked.across {
         None => on_its_line(&asked)?,
         Some(scenario) => across::sides(&asked, scenario)?,

@@ -27,7 +27,7 @@ pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result
     let context = context_cancelled_by(session, Arc::clone(interrupt.flag()));
     let question = question.resolved(&context)?;
     let scales = scales(session, &place.in_units, tip_file.1, question.support_velocity())?;
-    let job = Job::open::<ContinueDocument>(session, &place.outlet, place.plot.as_deref())?;
+    let job = Job::open(session, ContinueDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let found = question.answered(&context);
     let signal = interrupt.signal();
     let document = match (found, signal) {

@@ -2,8 +2,7 @@
 
 use crate::failure::Failure;
 use crate::message::harmless;
-use schemars::{JsonSchema, schema_for};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Requested fields, checked against the schema of the document.
@@ -11,14 +10,30 @@ use std::collections::BTreeSet;
 pub(crate) struct Fields(Vec<String>);
 
 impl Fields {
+    /// Fields of a document of this format, such as "stickslip/run".
+    ///
     /// # Errors
     /// A document of this kind has no such field; the message lists similar ones.
-    pub(crate) fn asked<D: JsonSchema>(paths: &[String]) -> Result<Self, Failure> {
+    pub(crate) fn asked(format: &str, paths: &[String]) -> Result<Self, Failure> {
+        let name = format.trim_start_matches("stickslip/");
+        Self::within(|| schema(name), paths)
+    }
+
+    /// Fields of the last line of a run that is written as lines.
+    ///
+    /// # Errors
+    /// As [`Fields::asked`].
+    pub(crate) fn of_last_line(paths: &[String]) -> Result<Self, Failure> {
+        let last = || json!({ "$ref": "#/$defs/RunEnd", "$defs": schema("run-lines")["$defs"] });
+        Self::within(last, paths)
+    }
+
+    fn within(schema: impl FnOnce() -> Value, paths: &[String]) -> Result<Self, Failure> {
         if paths.is_empty() {
-            // A schema takes longer to make than many a result.
+            // A schema takes longer to read than many a result to compute.
             return Ok(Self::default());
         }
-        let schema = schema_for!(D).to_value();
+        let schema = schema();
         let found = |path: &String| match path
             .strip_prefix("physical.")
             .filter(|below| !below.starts_with("scales"))
@@ -43,6 +58,12 @@ impl Fields {
         let document = document.map_err(|error| Failure::Run(error.to_string()))?;
         Ok(self.0.iter().map(|path| format!("{}\n", shown(&document, path))).collect())
     }
+}
+
+/// The schema of a document; null if there is none.
+fn schema(name: &str) -> Value {
+    let text = stickslip::schema(name).unwrap_or_default();
+    serde_json::from_str(text).unwrap_or_default()
 }
 
 fn shown(document: &Value, path: &str) -> String {
@@ -219,12 +240,13 @@ mod tests {
             "work",
         ];
         let good = good.map(String::from);
-        assert!(Fields::asked::<RunDocument>(&good).is_ok());
+        assert!(Fields::asked(RunDocument::FORMAT, &good).is_ok());
         for bad in ["oscillation.perod", "samples.t.first", "regime.x", "zzz", ""] {
-            let refused = Fields::asked::<RunDocument>(&[bad.into()]).unwrap_err().to_string();
+            let refused =
+                Fields::asked(RunDocument::FORMAT, &[bad.into()]).unwrap_err().to_string();
             assert!(refused.contains("there is no such field"), "{refused}");
         }
-        let refused = Fields::asked::<StabilityDocument>(&["critical.x".into()]).unwrap_err();
+        let refused = Fields::asked(StabilityDocument::FORMAT, &["critical.x".into()]).unwrap_err();
         assert!(refused.to_string().contains("critical.alpha, critical.kind"), "{refused}");
     }
 
@@ -232,7 +254,7 @@ mod tests {
     fn a_name_is_enough_where_it_is_the_only_one() {
         let only = |paths: &[&str]| {
             let paths: Vec<String> = paths.iter().map(|path| (*path).into()).collect();
-            Fields::asked::<RunDocument>(&paths).map(|fields| fields.0)
+            Fields::asked(RunDocument::FORMAT, &paths).map(|fields| fields.0)
         };
         let found = only(&["period", "amplitude_u", "steps", "regime"]).unwrap();
         assert_eq!(
@@ -267,9 +289,9 @@ mod tests {
             "physical.scales.length",
             "physical",
         ];
-        assert!(Fields::asked::<RunDocument>(&good.map(String::from)).is_ok());
+        assert!(Fields::asked(RunDocument::FORMAT, &good.map(String::from)).is_ok());
         for bad in ["physical.perod_s", "physical.samples.x1_nm", "physical.scales.x"] {
-            assert!(Fields::asked::<RunDocument>(&[bad.into()]).is_err(), "{bad}");
+            assert!(Fields::asked(RunDocument::FORMAT, &[bad.into()]).is_err(), "{bad}");
         }
     }
 

@@ -28,7 +28,7 @@ pub(crate) fn fit(session: &Session, arguments: &FitArguments) -> Result<(), Fai
     read.push(("--wavelengths", arguments.wavelengths.as_deref()));
     judge_places(outlet, plot.as_deref(), &read)?;
     let question = question(session, arguments)?;
-    let job = Job::open::<FitDocument>(session, outlet, plot.as_deref())?;
+    let job = Job::open(session, FitDocument::FORMAT, outlet, plot.as_deref())?;
     let refused = |failure| match failure {
         stickslip::Failure::Refused(refused) if refused.parameter == "data" => {
             Failure::input(refused.value.unwrap_or_default(), refused.why)

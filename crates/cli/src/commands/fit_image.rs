@@ -30,7 +30,7 @@ pub(super) fn fit_image(
     judge_places(outlet, plot.as_deref(), &files)?;
     let question = question(session, arguments, path)?;
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let job = Job::open::<FitImageDocument>(session, outlet, plot.as_deref())?;
+    let job = Job::open(session, FitImageDocument::FORMAT, outlet, plot.as_deref())?;
     job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 

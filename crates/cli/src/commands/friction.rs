@@ -22,7 +22,7 @@ pub(crate) fn friction(session: &Session, arguments: &FrictionArguments) -> Resu
     let read = [(TRACE, Some(&**trace)), (RETRACE, retrace.as_deref()), parameters];
     judge_places(outlet, plot.as_deref(), &read)?;
     let question = question(session, arguments)?;
-    let job = Job::open::<FrictionDocument>(session, outlet, plot.as_deref())?;
+    let job = Job::open(session, FrictionDocument::FORMAT, outlet, plot.as_deref())?;
     let source = question.source.clone();
     let refused = |failure| match failure {
         stickslip::Failure::Refused(refused) if refused.parameter == "trace and retrace" => {

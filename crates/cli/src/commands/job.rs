@@ -12,7 +12,6 @@ use crate::files::table::{write_csv, write_npz};
 use crate::made::{pictured, plain};
 use crate::session::Session;
 use crate::sign_of_life;
-use schemars::JsonSchema;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -20,7 +19,7 @@ use stickslip::Tabular;
 use stickslip_figures::Drawn;
 
 /// The result of a command: a document with columns, a figure and a summary.
-pub(crate) trait Product: Serialize + JsonSchema + Tabular + Sized {
+pub(crate) trait Product: Serialize + Tabular + Sized {
     /// The summary for the user.
     fn summary(&self) -> Summary;
 
@@ -52,22 +51,24 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// The output for a result of type `P`, with its figure at `plot`.
+    /// The output for a document of this format, with its figure at `plot`.
     ///
     /// # Errors
     /// The output cannot be written, or has no such format or field.
-    pub(crate) fn open<P: Product>(
+    pub(crate) fn open(
         session: &Session,
+        document: &str,
         outlet: &OutletArguments,
         plot: Option<&Path>,
     ) -> Result<Self, Failure> {
         let format = format(session, outlet.format, &outlet.output, "")?;
-        Self::of_format::<P>(session, format, &outlet.output, &outlet.fields, plot)
+        Self::of_format(session, document, format, &outlet.output, &outlet.fields, plot)
     }
 
     /// The same for a command with a fixed format.
-    pub(crate) fn of_format<P: JsonSchema>(
+    pub(crate) fn of_format(
         session: &Session,
+        document: &str,
         format: Format,
         output: &Path,
         fields: &FieldArguments,
@@ -76,7 +77,7 @@ impl Job {
         Ok(Self {
             session: session.clone(),
             format,
-            fields: Fields::asked::<P>(&fields.print)?,
+            fields: Fields::asked(document, &fields.print)?,
             is_file: output != Path::new("-"),
             has_summary: output != Path::new("-"),
             figure: Figure::asked("--plot", plot)?,

@@ -27,7 +27,7 @@ use motion::{Motion, Recorded};
 use record::{Record, Sink};
 use serde_json::Value;
 use std::path::Path;
-use stickslip::{Order, RunDocument, RunEnd, RunFormat};
+use stickslip::{Order, RunDocument, RunFormat};
 use stickslip_outcome::Watched;
 use stickslip_tip::{RunError, Scenario};
 use write::Target;
@@ -112,7 +112,7 @@ fn open(
 ) -> Result<(Target, Sink), Failure> {
     let (output, fields) = (arguments.output(), &arguments.fields);
     if order.format == RunFormat::Jsonl {
-        let fields = Fields::asked::<RunEnd>(&fields.print)?;
+        let fields = Fields::of_last_line(&fields.print)?;
         let stream = Stream::open("--output", output, checkpoint.is_some())?;
         if checkpoint.is_some() && !stream.is_file() {
             return Err(Failure::input(
@@ -138,7 +138,7 @@ fn job(
     plot: Option<&Path>,
     fields: &FieldArguments,
 ) -> Result<Job, Failure> {
-    Job::of_format::<RunDocument>(session, format_of(order.format), output, fields, plot)
+    Job::of_format(session, RunDocument::FORMAT, format_of(order.format), output, fields, plot)
 }
 
 fn format_of(format: RunFormat) -> Format {

@@ -122,7 +122,7 @@ impl Place<'_> {
         Q::Point: Part,
     {
         let scales = scales(self.session, self.in_units, tip_file, grid.support_velocity())?;
-        let job = Job::open::<Document<Q>>(self.session, self.outlet, self.plot)?;
+        let job = Job::open(self.session, Q::FORMAT, self.outlet, self.plot)?;
         let indices = grid.indices();
         let is_done = |file| merge::is_done::<Document<Q>>(self.session, file, &grid, &indices);
         if self.work.if_needed && job.file().is_some_and(is_done) {

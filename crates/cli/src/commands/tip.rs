@@ -45,7 +45,7 @@ pub(crate) fn measured_tip(
         }
         other => refusal(other, &options.tip, &[]),
     };
-    let job = Job::open::<MeasuredTipDocument>(session, outlet, plot.as_deref())?;
+    let job = Job::open(session, MeasuredTipDocument::FORMAT, outlet, plot.as_deref())?;
     job.finish(question.ask(&context(session)).map_err(refused)?)
 }
 

@@ -19,7 +19,7 @@ pub(crate) fn units(session: &Session, arguments: &UnitsArguments) -> Result<(),
         return Err(Failure::input(named, message));
     }
     let question = question(session, arguments)?;
-    let job = Job::open::<UnitsDocument>(session, outlet, None)?;
+    let job = Job::open(session, UnitsDocument::FORMAT, outlet, None)?;
     job.write(question.answered().map_err(|failure| as_typed(failure, arguments))?)
 }
 

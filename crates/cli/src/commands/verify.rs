@@ -45,7 +45,7 @@ fn job(session: &Session, outlet: &OutletArguments) -> Result<Job, Failure> {
         None if outlet.output == Path::new("-") => on_standard_output(session),
         None => Format::Json,
     };
-    Job::of_format::<VerifyDocument>(session, format, &outlet.output, &outlet.fields, None)
+    Job::of_format(session, VerifyDocument::FORMAT, format, &outlet.output, &outlet.fields, None)
 }
 
 fn of_document(

@@ -2,11 +2,11 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
     OnsetKindName, Question, Refused, Tip, Typed,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use stickslip_stability::{

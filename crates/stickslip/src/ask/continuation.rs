@@ -2,11 +2,11 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Cycle, CycleDocument, Document, Failure, Indentation, Law, ModelParameters,
     Question, Refused, Tip, Unusable, digits,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use stickslip_cycles::{

@@ -2,11 +2,11 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, ComplexDocument, Context, Document, Failure, History, Indentation, Law, ModelParameters,
     Question, Refused, Tip, Unusable,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles as cycles;
 use stickslip_cycles::CycleError;

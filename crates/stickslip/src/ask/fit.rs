@@ -2,10 +2,10 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, EstimateDocument, Failure, GaussianDocument, Question, Refused, Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
     self as measurement, Alternative, Data, FitError, FitRequest, FittedNumber, Name, Part, Scan,

@@ -3,11 +3,11 @@
 use super::lines::footprint;
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, EstimateDocument, Failure, MeasuredImage, Question, Refused, ScanName,
     Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
     Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples,

@@ -2,8 +2,8 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused, digits};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
 use stickslip_units::Unit;

@@ -7,8 +7,8 @@
 use super::boundary::{judge_range, refused_range};
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, Failure, Law, Question, Refused, RegimeName, Tip};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::DEFAULT_TOLERANCE;
 use stickslip_outcome::{Motion, motion};

@@ -2,8 +2,8 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, Failure, GaussianDocument, Question, Refused};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
     Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, Sides, TipError,

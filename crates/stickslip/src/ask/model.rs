@@ -1,8 +1,8 @@
 //! The model in a document.
 
 use crate::parameter::{NOTHING_DRAGS, option};
+use crate::schema::JsonSchema;
 use crate::{Refused, Unusable};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{
     Across, Footprint, Gaussian, Layer, Model, TipFunction, TipFunctionError, Wider,

@@ -1,14 +1,13 @@
 //! Parameters that several questions share: footprint, law, indentation rate.
 
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     GaussianDocument, Law, LayerDocument, ModelParameters, Refused, TipDocument, Typed,
     judge_details,
 };
-use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
 use stickslip_stability as stability;
 use stickslip_tip::{Model, ModelError, TipFunction, Wider};
 
@@ -168,13 +167,14 @@ impl<'de> Deserialize<'de> for Tip {
     }
 }
 
+#[cfg(feature = "schema")]
 impl JsonSchema for Tip {
-    fn schema_name() -> Cow<'static, str> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
         TipDocument::schema_name()
     }
 
     /// The schema of the form that is written.
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         TipDocument::json_schema(generator)
     }
 }

@@ -3,11 +3,11 @@
 use super::lines::footprint;
 use crate::documents::table::Array;
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, Failure, HeightMap, Indentation, Law, MemoryName, ModelParameters,
     PulseParameters, Question, RasterFound, Refused, Sampling, Tip, Typed, Unusable,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, AreaLine, Free, Line, Path, Plan, RasterError, Scanning};
 use stickslip_tip::planar::PlanarError;

@@ -5,10 +5,10 @@ use super::boundary::{judge_range, refused_range};
 use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, Failure, Law, Question, RasterKindName, Refused, SpacingName, Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{RasterCritical, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Wider};

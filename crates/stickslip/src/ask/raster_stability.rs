@@ -4,11 +4,11 @@
 use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, Failure, Indentation, Law, ModelParameters, PathName, Question,
     Refused, Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{
     Raster, RasterCertificate, RasterCritical, RasterKind, RasterPath, StabilityError,

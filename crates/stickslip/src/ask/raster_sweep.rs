@@ -3,11 +3,11 @@
 use super::lines::footprint;
 use super::points::{Points, all_points};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, Failure, Law, PathName, Question, RasterSweepFound, RasterSweepPoint,
     Refused, ShardDocument, Tip, Typed,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{
     Free, Line, LineRegime, Path, Plan, RasterError, Scanning, line_regime, pattern,

@@ -4,11 +4,11 @@ use super::across;
 use super::lines::footprint;
 use super::run_found::{RunFound, became, sampled};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, Context, Document, FARTHEST, Failure, History, Indentation, Law, ModelParameters,
     Question, Refused, RunEnd, Samples, Sampling, SteadyState, Tip, Typed, Unusable,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::Watched;
 use stickslip_tip::planar::{HeightTable, PlanarError, PlanarScenario, TextureError};

@@ -1,11 +1,11 @@
 //! The result of a run.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{
     CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
     SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Observer, Outcome, Watched, judge};
 use stickslip_surface::{Surface, ripple_behind};

@@ -2,7 +2,7 @@
 
 use crate::Refused;
 use crate::parameter::option;
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Times at which a motion is sampled; by default 2,001 times at even intervals.

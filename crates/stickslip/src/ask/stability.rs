@@ -4,12 +4,12 @@
 use super::exponents::{failed, judge_count, leftmost, remarks};
 use super::lines::footprint;
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, ComplexDocument, Context, CriticalDocument, Document, Failure, Indentation, Law,
     LimitsDocument, ModelParameters, OnsetDocument, Question, Refused, SolveFor, StabilityFound,
     Tip, TrappingDocument,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability as theory;
 use stickslip_stability::{Creep, Critical, Onset, OnsetKind, Snaking, Spectrum, StabilityError};

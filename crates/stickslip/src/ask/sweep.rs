@@ -5,11 +5,11 @@ mod started;
 
 use super::points::{Points, all_points};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, AxisDocument, AxisName, Context, EnsembleDocument, Failure, Law, Refused, ShardDocument,
     StartName, SweepFound, SweepParameters, SweepPoint, SweepRunParameters, Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::TOLERANCES;
 use stickslip_outcome::motion;

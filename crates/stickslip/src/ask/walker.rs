@@ -4,11 +4,11 @@ use super::run::default_tolerance;
 use super::walker_motion::{CircleDocument, WalkerRegime, motion};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, ComplexDocument, Context, Document, Failure, PulseParameters, Question, Refused,
     SampleLine, Samples, Sampling, StartName,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use stickslip_stability::{self as theory};

@@ -1,6 +1,6 @@
 //! The kind of motion at the end of a walker's run: rest, a straight line, a circle, or none of these.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use stickslip_tip::walker::WalkerTrajectory;

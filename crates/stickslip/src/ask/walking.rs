@@ -3,11 +3,11 @@
 use super::exponents::{failed, judge_count, remarks};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
+use crate::schema::JsonSchema;
 use crate::{
     Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, Indentation, Law,
     ModelParameters, Question, Refused, Stability, Tip,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{self as theory, Walk};
 use stickslip_tip::Model;

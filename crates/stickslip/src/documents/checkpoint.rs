@@ -1,8 +1,8 @@
 //! `stickslip/checkpoint`.
 
 use crate::parameter::strictly;
+use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, KnownScales, Run, Software, Times};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! `stickslip/compare`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{Document, Question, Run};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Comparison of the closed equation with the full PDE. Lengths in σ, times in Γ/k, heights in kσ²/a.

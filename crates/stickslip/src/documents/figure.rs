@@ -1,8 +1,8 @@
 //! `stickslip/figure`: figures as data.
 
 use crate::documents::table::{Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, ModelParameters, Software};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The content of a figure, in drawing order. Lengths in σ, times in Γ/k, heights in kσ²/a.

@@ -2,7 +2,7 @@
 
 use crate::Unusable;
 use crate::documents::table::Array;
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and_weights, planar};
 

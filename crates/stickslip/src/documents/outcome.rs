@@ -1,6 +1,6 @@
 //! The regime at the end of a run, as stored in documents.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime, Snaking};
 use stickslip_surface::Ripple;

@@ -1,7 +1,7 @@
 //! `stickslip/reproduction`.
 
+use crate::schema::JsonSchema;
 use crate::{Document, Question};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Comparison of the numbers printed in the paper with ours.

@@ -1,8 +1,8 @@
 //! `stickslip/run-lines`.
 
 use crate::parameter::strictly;
+use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, Run, RunEnd, SampleLine, Software, SteadyState};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A line of a run written during the run (`.jsonl`): the first defines the run, one follows for each sample, the

@@ -1,53 +1,100 @@
-//! The schemas of all documents, by name.
+//! The schemas of all documents and questions: files, made from the types by `make reference`.
 
+use crate::parameter::Parameters;
 use crate::{
-    BoundaryDocument, CheckpointHead, CompareDocument, ContinueDocument, CycleDocument,
-    FigureDocument, FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument,
-    MeasuredTipDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument,
-    ResponseDocument, RunDocument, RunLine, SnakingBoundaryDocument, StabilityDocument,
-    SurfaceDocument, SweepDocument, UnitsDocument, VerifyDocument, WalkerDocument, WalkingDocument,
+    Boundary, BoundaryDocument, CheckpointHead, CompareDocument, CompareParameters, Continue,
+    ContinueDocument, Cycle, CycleDocument, FigureDocument, Fit, FitDocument, FitImage,
+    FitImageDocument, Friction, FrictionDocument, GridName, LoadMap, LoadMapDocument, MeasuredTip,
+    MeasuredTipDocument, Raster, RasterBoundary, RasterBoundaryDocument, RasterCompareDocument,
+    RasterCompareParameters, RasterDocument, RasterStability, RasterStabilityDocument,
+    RasterSurfaceDocument, RasterSweep, RasterSweepDocument, ReproductionDocument,
+    ReproductionParameters, Response, ResponseDocument, Run, RunDocument, RunFormat, RunLine,
+    SnakingBoundary, SnakingBoundaryDocument, Stability, StabilityDocument, SurfaceDocument,
+    SurfaceParameters, Sweep, SweepDocument, SweepParameters, TipName, Units, UnitsDocument,
+    VerifyDocument, Walker, WalkerDocument, Walking, WalkingDocument,
 };
-
+#[cfg(feature = "schema")]
 use schemars::{Schema, schema_for};
 
-/// The name of a document, which follows "stickslip/" in its `format`, and its schema.
-pub type NamedSchema = (&'static str, fn() -> Schema);
+macro_rules! documents {
+    ($($name:literal: $schema:expr),+ $(,)?) => {
+        /// The JSON Schemas (draft 2020-12) of all documents, by the name that follows "stickslip/" in their `format`.
+        pub const SCHEMAS: &[(&str, &str)] = &[
+            $(($name, include_str!(concat!("../../schemas/documents/", $name, ".json")))),+
+        ];
 
-/// All documents with a schema.
-pub const SCHEMAS: [NamedSchema; 29] = [
-    ("run", || schema_for!(RunDocument)),
-    ("run-lines", || schema_for!(RunLine)),
-    ("checkpoint", || schema_for!(CheckpointHead)),
-    ("verify", || schema_for!(VerifyDocument)),
-    ("surface", SurfaceDocument::schema),
-    ("stability", StabilityDocument::schema),
-    ("walking", WalkingDocument::schema),
-    ("walker", WalkerDocument::schema),
-    ("boundary", BoundaryDocument::schema),
-    ("compare", CompareDocument::schema),
-    ("response", ResponseDocument::schema),
-    ("cycle", CycleDocument::schema),
-    ("continue", ContinueDocument::schema),
-    ("raster", || schema_for!(RasterDocument)),
-    ("raster-compare", RasterCompareDocument::schema),
-    ("raster-sweep", RasterSweepDocument::schema),
-    ("raster-surface", || schema_for!(RasterSurfaceDocument)),
-    ("raster-stability", RasterStabilityDocument::schema),
-    ("raster-boundary", RasterBoundaryDocument::schema),
-    ("load-map", LoadMapDocument::schema),
-    ("snaking-boundary", SnakingBoundaryDocument::schema),
-    ("sweep", SweepDocument::schema),
-    ("tip", MeasuredTipDocument::schema),
-    ("fit", FitDocument::schema),
-    ("fit-image", FitImageDocument::schema),
-    ("friction", FrictionDocument::schema),
-    ("units", || schema_for!(UnitsDocument)),
-    ("figure", || schema_for!(FigureDocument)),
-    ("reproduction", ReproductionDocument::schema),
-];
+        #[cfg(feature = "schema")]
+        const DOCUMENTS: &[Derived] = &[$(($name, || $schema)),+];
+    };
+}
 
-/// The JSON Schema (draft 2020-12) of the document with this name.
-pub fn schema(name: &str) -> Option<Schema> {
-    SCHEMAS.iter().find(|(other, _)| *other == name).map(|(_, schema)| schema())
+documents! {
+    "run": schema_for!(RunDocument),
+    "run-lines": schema_for!(RunLine),
+    "checkpoint": schema_for!(CheckpointHead),
+    "verify": schema_for!(VerifyDocument),
+    "surface": SurfaceDocument::schema(),
+    "stability": StabilityDocument::schema(),
+    "walking": WalkingDocument::schema(),
+    "walker": WalkerDocument::schema(),
+    "boundary": BoundaryDocument::schema(),
+    "compare": CompareDocument::schema(),
+    "response": ResponseDocument::schema(),
+    "cycle": CycleDocument::schema(),
+    "continue": ContinueDocument::schema(),
+    "raster": schema_for!(RasterDocument),
+    "raster-compare": RasterCompareDocument::schema(),
+    "raster-sweep": RasterSweepDocument::schema(),
+    "raster-surface": schema_for!(RasterSurfaceDocument),
+    "raster-stability": RasterStabilityDocument::schema(),
+    "raster-boundary": RasterBoundaryDocument::schema(),
+    "load-map": LoadMapDocument::schema(),
+    "snaking-boundary": SnakingBoundaryDocument::schema(),
+    "sweep": SweepDocument::schema(),
+    "tip": MeasuredTipDocument::schema(),
+    "fit": FitDocument::schema(),
+    "fit-image": FitImageDocument::schema(),
+    "friction": FrictionDocument::schema(),
+    "units": schema_for!(UnitsDocument),
+    "figure": schema_for!(FigureDocument),
+    "reproduction": ReproductionDocument::schema(),
+}
+
+macro_rules! parameters {
+    ($($question:ident),+ $(,)?) => {
+        $(impl Parameters for $question {
+            const SCHEMA: &'static str =
+                include_str!(concat!("../../schemas/questions/", stringify!($question), ".json"));
+        })+
+
+        #[cfg(feature = "schema")]
+        const QUESTIONS: &[Derived] = &[$((stringify!($question), || schema_for!($question))),+];
+    };
+}
+
+parameters! {
+    Boundary, CompareParameters, Continue, Cycle, Fit, FitImage, Friction, GridName, LoadMap,
+    MeasuredTip, Raster, RasterBoundary, RasterCompareParameters, RasterStability, RasterSweep,
+    ReproductionParameters, Response, Run, RunFormat, SnakingBoundary, Stability,
+    SurfaceParameters, Sweep, SweepParameters, TipName, Units, Walker, Walking,
+}
+
+/// The JSON Schema of the document with this name, as text.
+#[must_use]
+pub fn schema(name: &str) -> Option<&'static str> {
+    SCHEMAS.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
+}
+
+/// A name, and the schema that schemars derives for it.
+#[cfg(feature = "schema")]
+type Derived = (&'static str, fn() -> Schema);
+
+/// The schemas that the types have now, each with the name of its file in the folder `schemas` of this crate.
+#[cfg(feature = "schema")]
+#[must_use]
+pub fn derived() -> Vec<(String, Schema)> {
+    let of = |folder: &'static str, all: &'static [Derived]| {
+        all.iter().map(move |(name, schema)| (format!("{folder}/{name}.json"), schema()))
+    };
+    of("documents", DOCUMENTS).chain(of("questions", QUESTIONS)).collect()
 }

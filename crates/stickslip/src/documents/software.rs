@@ -1,6 +1,6 @@
 //! The program that wrote a document, and the version of its format.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

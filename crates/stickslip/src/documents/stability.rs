@@ -1,7 +1,7 @@
 //! `stickslip/stability`.
 
 use crate::documents::table::{Column, Named, Tabular};
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use stickslip_stability::{
     Certificate, Creep, Critical, Criticality, Onset, OnsetKind, SnakingCritical,

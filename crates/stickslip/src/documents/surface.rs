@@ -1,8 +1,8 @@
 //! `stickslip/surface`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{Document, ModelParameters, Question};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Surfaces reconstructed from a run. Lengths in σ, times in Γ/k, heights in kσ²/a.

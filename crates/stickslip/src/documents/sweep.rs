@@ -6,12 +6,12 @@ mod point;
 mod points;
 
 use crate::documents::table::{Array, Column, Named, Rows, Tabular};
+use crate::schema::JsonSchema;
 use crate::{Document, InUnits, Law, Question, StartName, Tip};
 pub use axis::{AxisDocument, AxisName};
 pub use ensemble::{EnsembleDocument, RegimeCounts, StatisticsDocument};
 pub use point::{SourceName, SweepPoint};
 pub use points::SweepPoints;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::Wider;
 

@@ -1,6 +1,6 @@
 //! Comparison of a run with a repetition.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_verify::{Difference, Verification};
 

@@ -2,8 +2,8 @@
 
 use crate::documents::table::{Named, Tabular};
 use crate::parameter::strictly;
+use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, LinesDocument, Run, Software, VerificationDocument};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -1,6 +1,6 @@
 //! Cost of a run, and the steady motion at its parameters.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{Model, Work};
 

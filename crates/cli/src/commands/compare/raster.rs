@@ -49,7 +49,8 @@ pub(super) fn compare(
     // The steps of the grid itself, unless times are requested, at which it would have to stop.
     let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
     let times = if is_asked { parameters.times(&plan)? } else { vec![] };
-    let job = Job::open::<RasterCompareDocument>(session, &place.outlet, place.plot.as_deref())?;
+    let job =
+        Job::open(session, RasterCompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;

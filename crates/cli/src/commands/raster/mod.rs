@@ -41,8 +41,9 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
     let (question, plan) = question(session, options, values, (area, pulse), scales.as_ref())?;
     let times = question.times(&plan)?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
-    let job = Job::of_format::<RasterDocument>(
+    let job = Job::of_format(
         session,
+        RasterDocument::FORMAT,
         format,
         output,
         &arguments.fields,

@@ -18,7 +18,7 @@ use crate::files::stream::{Stream, part_of};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use std::path::{Path, PathBuf};
-use stickslip::{CheckpointHead, Order, RunEnd, RunFormat};
+use stickslip::{CheckpointHead, Order, RunFormat};
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::Scenario;
 
@@ -79,7 +79,7 @@ fn resumed<R: Motion>(
         let stream = Stream::resume(target, head.written, &others)?;
         let mut record = record(order, scenario, Sink::Lines(stream));
         record.taken = head.samples;
-        (Target::Lines(Fields::asked::<RunEnd>(&arguments.fields.print)?), record)
+        (Target::Lines(Fields::of_last_line(&arguments.fields.print)?), record)
     } else {
         let job = job(session, order, &order.output, order.plot.as_deref(), &arguments.fields)?;
         let mut record = record(order, scenario, Sink::Memory);

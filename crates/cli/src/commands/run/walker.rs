@@ -36,7 +36,8 @@ pub(super) fn run(
     let context = context_cancelled_by(session, Arc::clone(interrupt.flag()));
     let question = question.resolved(&context)?;
     let fields = &arguments.fields;
-    let job = Job::of_format::<WalkerDocument>(session, format_of(format), output, fields, plot)?;
+    let job =
+        Job::of_format(session, WalkerDocument::FORMAT, format_of(format), output, fields, plot)?;
     let found = question.answered(&context);
     let signal = interrupt.signal();
     let document = match (found, signal) {

@@ -61,8 +61,14 @@ pub(super) fn surface(
         SurfaceFormat::Gsf => Format::Json,
     };
     let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-    let job =
-        Job::of_format::<RasterSurfaceDocument>(session, written, output, &arguments.fields, plot)?;
+    let job = Job::of_format(
+        session,
+        RasterSurfaceDocument::FORMAT,
+        written,
+        output,
+        &arguments.fields,
+        plot,
+    )?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
     let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
     let document = document.in_units(scales.as_ref());

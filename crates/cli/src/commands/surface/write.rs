@@ -77,7 +77,7 @@ impl SurfaceFormat {
             Self::Gsf => Format::Json,
         };
         let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-        Job::of_format::<SurfaceDocument>(session, format, output, &arguments.fields, plot)
+        Job::of_format(session, SurfaceDocument::FORMAT, format, output, &arguments.fields, plot)
     }
 }
 

@@ -63,7 +63,7 @@ fn merged<D: Divided>(session: &Session, arguments: &MergeArguments) -> Result<(
         whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
     }
     let scales = scales(session, &arguments.in_units, None, whole.velocity())?;
-    let job = Job::open::<D>(session, &arguments.outlet, arguments.plot.as_deref())?;
+    let job = Job::open(session, D::FORMAT, &arguments.outlet, arguments.plot.as_deref())?;
     job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 

@@ -11,7 +11,7 @@ mod names;
 pub use dimension::Dimension;
 pub use names::dimension;
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 

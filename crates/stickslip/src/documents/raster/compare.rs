@@ -1,8 +1,8 @@
 //! `stickslip/raster-compare`.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{DifferenceDocument, Document, GridName, GridWork, Question, Raster};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Scanned};
 

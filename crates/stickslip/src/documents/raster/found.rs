@@ -1,9 +1,9 @@
 //! Results of a raster: its lines and their pattern.
 
 use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::schema::JsonSchema;
 use crate::{PatternDocument, RasterHistory, RasterLine, RasterRegimeName, RasterSamples};
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Written, pattern, volume};
 

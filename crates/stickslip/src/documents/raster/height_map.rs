@@ -1,6 +1,6 @@
 //! Heights of the surface after a raster.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, Line, Path, Plan, Scanned};
 

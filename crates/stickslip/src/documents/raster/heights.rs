@@ -2,10 +2,10 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::parameter::strictly;
+use crate::schema::JsonSchema;
 use crate::{
     FORMAT_VERSION, HeightMap, InUnits, Physical, Raster, RasterDocument, Software, Unusable,
 };
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Surfaces of a raster. Lengths in σ, heights in kσ²/a.

@@ -1,9 +1,9 @@
 //! The lines of a raster.
 
 use crate::documents::table::Array;
+use crate::schema::JsonSchema;
 use crate::{History, Unusable};
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
 use stickslip_tip::{Heights, STAGES, Step, Support, Work, nodes_and_weights, planar};

@@ -1,6 +1,6 @@
 //! The pattern of a raster.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
 

@@ -3,7 +3,7 @@
 use super::RasterRegimeName;
 use crate::PatternDocument;
 use crate::documents::table::{Column, Named, Tabular};
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;
 

@@ -1,6 +1,6 @@
 //! Further axes of a sweep, besides footprint, r and α.
 
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A parameter, named by its option, with its values.

@@ -2,7 +2,7 @@
 
 use super::{AxisName, SweepParameters, SweepPoint, SweepPoints};
 use crate::RegimeName;
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Statistics of points that differ only in the seed of their noise.

@@ -1,7 +1,7 @@
 //! A point of a sweep, and the method that found its motion.
 
 use crate::RegimeName;
-use schemars::JsonSchema;
+use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_cycles::Cycle;
 use stickslip_outcome::{Motion, Outcome};

@@ -19,6 +19,7 @@ mod compare_command;
 mod confined_files;
 mod cycle_commands;
 mod damaged_documents;
+mod document_text;
 mod documents;
 mod extreme_numbers;
 mod figures;

@@ -18,14 +18,14 @@ use crate::made;
 use crate::message::harmless;
 use crate::session::Session;
 use clap::{ArgAction, CommandFactory, FromArgMatches};
-use serde::Serialize;
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, identified, read_from};
-use stickslip_figures::{Drawn, Taker, saved_as};
+use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, identified};
+use stickslip_figures::Drawn;
+use stickslip_saved::{Saved, Taker, drawn_as};
 use stickslip_tip::stop;
 
 /// The reason why there is no result.
@@ -198,15 +198,11 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
 /// # Errors
 /// The stream is not a document of this program.
 pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
-    let (kind, source) = identified(source, "stickslip/COMMAND")?;
+    let (kind, mut source) = identified(source, "stickslip/COMMAND")?;
     match kind.format.as_deref() {
-        Some(format @ UnitsDocument::FORMAT) => {
-            read_from::<UnitsDocument>(source, format).map(made::plain)
-        }
-        Some(format @ VerifyDocument::FORMAT) => {
-            read_from::<VerifyDocument>(source, format).map(made::plain)
-        }
-        _ => saved_as(source, Keep),
+        Some(UnitsDocument::FORMAT) => UnitsDocument::read(&mut source).map(made::plain),
+        Some(VerifyDocument::FORMAT) => VerifyDocument::read(&mut source).map(made::plain),
+        _ => drawn_as(source, Keep),
     }
 }
 
@@ -216,10 +212,7 @@ struct Keep;
 impl Taker for Keep {
     type Taken = Box<dyn Document>;
 
-    fn take<D>(self, document: D) -> Box<dyn Document>
-    where
-        D: Drawn + Tabular + Serialize + Clone + Send + Sync + 'static,
-    {
+    fn take<D: Drawn + Tabular + Saved>(self, document: D) -> Box<dyn Document> {
         made::pictured(document)
     }
 }

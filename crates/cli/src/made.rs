@@ -1,9 +1,9 @@
 //! The result of a command in memory: a document of any kind, with a summary.
 
-use serde::Serialize;
 use std::any::Any;
 use stickslip::Tabular;
 use stickslip_figures::Drawn;
+use stickslip_saved::Saved;
 
 /// The result of a command.
 pub struct Made {
@@ -39,7 +39,7 @@ struct Held<D> {
 /// Wraps a document without a picture.
 pub(crate) fn plain<D>(document: D) -> Box<dyn Document>
 where
-    D: Serialize + Tabular + Clone + Send + Sync + 'static,
+    D: Saved + Tabular,
 {
     Box::new(Held { document, drawn: None })
 }
@@ -47,14 +47,14 @@ where
 /// Wraps a document with a picture.
 pub(crate) fn pictured<D>(document: D) -> Box<dyn Document>
 where
-    D: Serialize + Tabular + Drawn + Clone + Send + Sync + 'static,
+    D: Saved + Tabular + Drawn,
 {
     Box::new(Held { document, drawn: Some(|document| document) })
 }
 
-impl<D: Serialize + Tabular + Clone + Send + Sync + 'static> Document for Held<D> {
+impl<D: Saved + Tabular> Document for Held<D> {
     fn serialized(&self) -> &dyn erased_serde::Serialize {
-        &self.document
+        self.document.serialized()
     }
 
     fn table(&self) -> &dyn Tabular {

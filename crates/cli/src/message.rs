@@ -7,6 +7,7 @@ use crate::sign_of_life::aside;
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{Write, stderr};
+use stickslip::is_harmful;
 
 /// Largest number of characters of a line; of longer lines the beginning and the end are printed.
 const LONGEST: usize = 2000;
@@ -40,13 +41,6 @@ pub(crate) fn harmless(text: &str) -> Cow<'_, str> {
         }
     }
     escaped.into()
-}
-
-/// Whether a character is a control, a mark of direction or of separation, or has no width.
-pub(crate) fn is_harmful(c: char) -> bool {
-    let is_invisible = matches!(c,
-        '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
-    c.is_control() || is_invisible
 }
 
 /// The text, shortened to its beginning and its end if it is long.

@@ -47,9 +47,7 @@ mod ticks;
 pub use animation::{Film, animate};
 #[cfg(feature = "animation")]
 pub use compose::scene_of;
-pub use compose::{
-    Drawn, FORMATS, Taker, View, can_be_drawn, judge_sweep, of, onset_of, saved, saved_as,
-};
+pub use compose::{Drawn, View, can_be_drawn, judge_sweep, of, onset_of};
 pub use encode::{draw, svg};
 pub use error::FigureError;
 pub use format::{AnimationFormat, FigureFormat};

@@ -1,6 +1,6 @@
 //! A figure as a whole: limits, bytes, what is drawn of what.
 
-use crate::{FigureFormat, Size, View, draw, of, saved, svg};
+use crate::{FigureFormat, Size, View, draw, of, svg};
 use stickslip::{
     CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, MapDocument,
     ModelParameters, PanelDocument, Run, RunDocument, ScaleName, StyleName,
@@ -152,6 +152,10 @@ fn lines_over_cells_have_a_light_edge() {
     assert_eq!(edges(&panel), 1);
 }
 
+fn read_figure(text: &str) -> FigureDocument {
+    stickslip::read(text, FigureDocument::FORMAT).unwrap()
+}
+
 #[test]
 fn a_figure_reads_back_as_it_was_and_leaves_out_what_is_plain() {
     let mut figure = figure(vec![panel(&[0.0, 1.0], &[0.0, 1.0])]);
@@ -165,7 +169,7 @@ fn a_figure_reads_back_as_it_was_and_leaves_out_what_is_plain() {
     figure.panels[0].x_scale = ScaleName::Logarithmic;
     figure.panels[0].curves[0].colour = Some(ColourName::Green);
     let text = serde_json::to_string(&figure).unwrap();
-    let again = of(&*saved(text.as_bytes()).unwrap(), &View::default()).unwrap();
+    let again = of(&read_figure(&text), &View::default()).unwrap();
     assert_eq!(serde_json::to_string(&again).unwrap(), text);
 }
 
@@ -174,7 +178,7 @@ fn a_map_that_does_not_fit_its_axes_is_refused() {
     let text = r#"{"format":"stickslip/figure","format_version":1,"software":{"name":"","version":""},"name":"",
         "title":"","parameters":{"models":[]},"remarks":[],"panels":[{"heading":"","x_label":"","y_label":"",
         "curves":[],"map":{"x":[0,1],"y":[0],"z":[[1]],"z_label":"","colours":"grey"},"y_range":null}]}"#;
-    let error = of(&*saved(text.as_bytes()).unwrap(), &View::default()).unwrap_err();
+    let error = of(&read_figure(text), &View::default()).unwrap_err();
     assert!(error.to_string().contains("as many rows and columns"), "{error}");
 }
 

@@ -101,7 +101,7 @@ impl<Q: Question> Physical for Document<Q> {
 
     fn lean(&mut self) -> serde_json::Result<Value> {
         let history = Q::history(&mut self.answer).and_then(Option::take);
-        let value = serde_json::to_value(&*self);
+        let value = serde_json::to_value(&*self as &dyn erased_serde::Serialize);
         if let Some(place) = Q::history(&mut self.answer) {
             *place = history;
         }

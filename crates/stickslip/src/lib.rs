@@ -77,7 +77,9 @@ pub use documents::raster::{
     RasterComparedWork, RasterFound, RasterHistory, RasterLine, RasterRegimeName, RasterSamples,
     RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint, RasterWork,
 };
-pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
+pub use documents::read::{
+    Kind, Unusable, identified, kind_of, read, read_from, read_raster, read_run, read_sweep,
+};
 pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };
@@ -105,6 +107,7 @@ pub use documents::verification::{
 pub use documents::verify::{ClaimDocument, VerifyDocument};
 
 pub use documents::work::{SteadyState, WorkDocument};
+pub use documents::write::{is_harmful, write, write_on_threads};
 
 /// The README's example is compiled and run.
 #[cfg(doctest)]

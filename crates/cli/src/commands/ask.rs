@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
-use stickslip::parameter::overridden;
+use stickslip::parameter::{Parameter, overridden};
 use stickslip::{
     self as documents, Ask, Context, Document, Physical, Question, Refused, Tip, parameter,
 };
@@ -87,7 +87,7 @@ impl<Q: Questions> Options<Q> {
     /// # Errors
     /// A file cannot be read, or the footprint is invalid.
     pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
-        let read = |path| read_parameters::<Q>(session, path);
+        let read = |path| read_parameters(session, path, (Q::formats, Q::parameters));
         let base = self.parameters.as_deref().map(read).transpose()?;
         self.values_instead_of(session, base.unwrap_or_default())
     }
@@ -113,10 +113,14 @@ impl<Q: Questions> Options<Q> {
     }
 }
 
-/// The parameters of `Q` in a file: a document, or its `parameters` alone.
-fn read_parameters<Q: Questions>(
+/// The formats of documents with the parameters of a command, and these parameters.
+type Known = (fn() -> Vec<&'static str>, fn() -> Vec<&'static Parameter>);
+
+/// The parameters in a file: a document, or its `parameters` alone.
+fn read_parameters(
     session: &Session,
     path: &Path,
+    (formats, known): Known,
 ) -> Result<Map<String, Value>, Failure> {
     const OPTION: &str = "--parameters";
     let named = || format!("{OPTION} {}", path.display());
@@ -131,8 +135,8 @@ fn read_parameters<Q: Questions>(
     let Some(Value::Object(mut parameters)) = whole.remove("parameters") else {
         return Err(Failure::input(named(), "is a document without \"parameters\""));
     };
-    if !Q::formats().contains(&format.as_str()) {
-        let known = Q::parameters();
+    if !formats().contains(&format.as_str()) {
+        let known = known();
         parameters.retain(|name, _| known.iter().any(|parameter| parameter.name == *name));
         let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
         session.remark(format_args!(

@@ -29,7 +29,7 @@ pub(crate) fn cycle(session: &Session, arguments: &CycleArguments) -> Result<(),
 pub(super) type Start<'a> = (&'a Path, CycleDocument);
 
 pub(super) fn read_cycle<'a>(session: &Session, path: &'a Path) -> Result<Start<'a>, Failure> {
-    Ok((path, read_document(session, "--from", path, CycleDocument::FORMAT)?))
+    Ok((path, read_document(session, "--from", path)?))
 }
 
 fn again(path: &Path, document: &CycleDocument) -> Result<Cycle, Failure> {

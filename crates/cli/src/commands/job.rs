@@ -17,9 +17,10 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use stickslip::Tabular;
 use stickslip_figures::Drawn;
+use stickslip_saved::Saved;
 
 /// The result of a command: a document with columns, a figure and a summary.
-pub(crate) trait Product: Serialize + Tabular + Sized {
+pub(crate) trait Product: Saved + Serialize + Tabular {
     /// The summary for the user.
     fn summary(&self) -> Summary;
 
@@ -103,27 +104,23 @@ impl Job {
     }
 
     /// Draws and writes the result, and prints the summary.
-    pub(crate) fn finish<P: Product + Drawn + Clone + Send + Sync + 'static>(
-        self,
-        product: P,
-    ) -> Result<(), Failure> {
+    pub(crate) fn finish<P: Product + Drawn>(self, product: P) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let figure = self.write_by(&product, &summary, |output| product.write_json(output))?;
+        let write = |output: Output| product.write_json(output);
+        let figure = self.write_by((&product, product.serialized()), &summary, &write)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
         session.give(|| summary.of(pictured(product)));
         drawn
     }
 
     /// Writes a result without a figure, and prints the summary.
-    pub(crate) fn write<P: Product + Clone + Send + Sync + 'static>(
-        self,
-        product: P,
-    ) -> Result<(), Failure> {
+    pub(crate) fn write<P: Product>(self, product: P) -> Result<(), Failure> {
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        self.write_with(&product, &summary)?;
+        let write = |output: Output| output.write_json(&product);
+        self.write_by((&product, product.serialized()), &summary, &write)?;
         session.give(|| summary.of(plain(product)));
         Ok(())
     }
@@ -134,31 +131,31 @@ impl Job {
         product: &(impl Serialize + Tabular),
         summary: &Summary,
     ) -> Result<Option<Figure>, Failure> {
-        self.write_by(product, summary, |output| output.write_json(product))
+        self.write_by((product, product), summary, &|output| output.write_json(product))
     }
 
     fn write_by(
         self,
-        product: &(impl Serialize + Tabular),
+        (table, document): (&dyn Tabular, &dyn erased_serde::Serialize),
         summary: &Summary,
-        write_json: impl FnOnce(Output) -> Result<(), Failure>,
+        write_json: &dyn Fn(Output) -> Result<(), Failure>,
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
         // Fields take the place of the document, and a host takes it as it is.
         if self.is_file || (self.fields.is_empty() && !self.session.has_host()) {
             match self.format {
                 Format::Json => write_json(self.output)?,
-                Format::Csv => write_csv(product, self.output)?,
-                Format::Npz => write_npz(product, self.output)?,
+                Format::Csv => write_csv(table, self.output)?,
+                Format::Npz => write_npz(table, self.output)?,
                 Format::Text => self.output.write_bytes(summary.text().as_bytes())?,
             }
         }
-        after(&self.session, product, summary, &self.fields, self.has_summary)?;
+        after(&self.session, document, summary, &self.fields, self.has_summary)?;
         Ok(self.figure)
     }
 
     /// Draws a result that was already written as these bytes, and prints the summary.
-    pub(crate) fn finish_bytes<P: Product + Drawn + Clone + Send + Sync + 'static>(
+    pub(crate) fn finish_bytes<P: Product + Drawn>(
         mut self,
         bytes: &[u8],
         product: P,
@@ -166,7 +163,7 @@ impl Job {
         let figure = self.figure.take();
         let summary = product.summary().in_units(product.physical());
         self.output.write_bytes(bytes)?;
-        after(&self.session, &product, &summary, &self.fields, self.has_summary)?;
+        after(&self.session, product.serialized(), &summary, &self.fields, self.has_summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
         self.session.give(|| summary.of(pictured(product)));
         drawn
@@ -176,13 +173,13 @@ impl Job {
 /// Output after the document: requested fields on standard output, or the summary if the result went to a file.
 pub(crate) fn after(
     session: &Session,
-    product: &dyn erased_serde::Serialize,
+    document: &dyn erased_serde::Serialize,
     summary: &Summary,
     fields: &Fields,
     has_summary: bool,
 ) -> Result<(), Failure> {
     if !fields.is_empty() {
-        let text = fields.of(product)?;
+        let text = fields.of(document)?;
         let done = io::stdout().lock().write_all(text.as_bytes());
         done.map_err(|error| Failure::Write { target: "standard output".into(), error })?;
     }

@@ -73,12 +73,11 @@ fn figure(
     };
     if arguments.onset {
         let option = format!("--onset with {option}");
-        let document: BoundaryDocument =
-            read_document(session, &option, path, BoundaryDocument::FORMAT)?;
+        let document: BoundaryDocument = read_document(session, &option, path)?;
         let view = View { scales: scales(session, &arguments.in_units, None, None)?, ..*view };
         return figures::onset_of(&document, &view).map_err(refused);
     }
-    let document = figures::saved(open(session, option, path)?)
+    let document = stickslip_saved::drawn(open(session, option, path)?)
         .map_err(|error| Failure::input(named(), error))?;
     // With the velocity of the support times need the one r of what is drawn.
     let r = match &arguments.in_units.velocity {

@@ -6,11 +6,11 @@ use super::text::unreadable;
 use crate::failure::Failure;
 use crate::session::Session;
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 use stickslip::{self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable};
+use stickslip_saved::Saved;
 
 /// Largest size of a document: a run of some ten million steps.
 const LARGEST_DOCUMENT: u64 = 4 << 30;
@@ -58,7 +58,7 @@ pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {
     };
     let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
     if kind.is_ok_and(|kind| kind.format.is_some()) {
-        let measured = documents::read(text, MeasuredTipDocument::FORMAT);
+        let measured = MeasuredTipDocument::read(&mut text.as_bytes());
         return measured.map(|m| TipFile::Measured(Box::new(m))).map_err(|e| e.to_string());
     }
     let tip: TipJson = serde_json::from_str(text).map_err(|error| {
@@ -101,14 +101,14 @@ pub(crate) fn read_scanned(session: &Session, path: &Path) -> Result<RunOrRaster
         return Ok(RunOrRaster::Run(Box::new(run)));
     }
     let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
-    let (kind, source) =
+    let (kind, mut source) =
         documents::identified(open(session, "RUN.json", path)?, RunDocument::FORMAT)
             .map_err(refused)?;
     if kind.format.as_deref() == Some(RasterDocument::FORMAT) {
-        let raster = documents::read_from(source, RasterDocument::FORMAT).map_err(refused)?;
+        let raster = RasterDocument::read(&mut source).map_err(refused)?;
         return Ok(RunOrRaster::Raster(Box::new(raster)));
     }
-    let run = documents::read_from(source, RunDocument::FORMAT).map_err(refused)?;
+    let run = RunDocument::read(&mut source).map_err(refused)?;
     Ok(RunOrRaster::Run(Box::new(run)))
 }
 
@@ -129,26 +129,25 @@ pub(crate) fn run_in(
     if bytes.find(|byte| !byte.is_ascii_whitespace()) != Some(b'{') {
         return Ok(None);
     }
-    read_document(session, option, path, RunDocument::FORMAT).map(Some)
+    read_document(session, option, path).map(Some)
 }
 
 /// Reads a document of `stickslip run` from an open file.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
-    documents::read_from(reader.take(LARGEST_DOCUMENT), RunDocument::FORMAT)
+    RunDocument::read(&mut reader.take(LARGEST_DOCUMENT))
         .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))
 }
 
-/// Reads a document of this format, which has the name of a command.
-pub(crate) fn read_document<D: DeserializeOwned + Clone + 'static>(
+/// Reads a document of this kind.
+pub(crate) fn read_document<D: Saved>(
     session: &Session,
     option: &str,
     path: &Path,
-    wanted: &str,
 ) -> Result<D, Failure> {
     if let Some(document) = session.document(path) {
         return Ok(document);
     }
-    documents::read_from(open(session, option, path)?, wanted)
+    D::read(&mut open(session, option, path)?)
         .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
 }
 

@@ -10,7 +10,6 @@ pub(crate) mod heading;
 mod in_model_units;
 pub(crate) mod input;
 pub(crate) mod journal;
-mod json;
 pub(crate) mod lines;
 mod lock;
 pub(crate) mod measured;

@@ -1,6 +1,5 @@
 //! Output files: places are checked before the computation, and files get their names when complete.
 
-use super::json;
 use super::place::{Place, place};
 use super::special::is_special;
 use super::temporary::kept_elsewhere;
@@ -76,7 +75,7 @@ impl Output {
     /// Writes the document as JSON, followed by a line break.
     pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
         self.write_with(|out| {
-            json::write(out, document)?;
+            stickslip::write(out, document)?;
             out.write_all(b"\n")
         })
     }
@@ -85,7 +84,7 @@ impl Output {
     pub(crate) fn write_json_on_threads(self, document: &impl Serialize) -> Result<(), Failure> {
         let threads = self.threads;
         self.write_with(|out| {
-            json::write_on_threads(out, document, threads)?;
+            stickslip::write_on_threads(out, document, threads)?;
             out.write_all(b"\n")
         })
     }

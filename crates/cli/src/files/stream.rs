@@ -5,12 +5,11 @@ use super::journal::Journal;
 use super::place::{Place, Target, place, refused};
 use super::replace::{Looks, sync_folder};
 use crate::failure::Failure;
-use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use stickslip::Mark;
+use stickslip::{Mark, RunLine};
 
 /// Lines of output. A file grows as `FILE.part` and gets its name when it is complete: until then an older file of
 /// that name remains, and no reader sees an incomplete one.
@@ -106,10 +105,9 @@ impl Stream {
     }
 
     /// Writes a line of JSON.
-    pub(crate) fn line(&mut self, line: &impl Serialize) -> Result<(), Failure> {
+    pub(crate) fn line(&mut self, line: &RunLine) -> Result<(), Failure> {
         self.line.clear();
-        serde_json::to_writer(&mut self.line, line)
-            .map_err(|error| Failure::Run(error.to_string()))?;
+        line.append_to(&mut self.line).map_err(|error| Failure::Run(error.to_string()))?;
         self.line.push(b'\n');
         let out: &mut dyn Write = match &mut self.sink {
             Sink::Stdout(out) => out,

@@ -41,16 +41,7 @@ use crate::scene::{Scene, Shot};
 use in_units::InUnits;
 use in_units::{asked_of, in_units, judge_ranges};
 use quantity::settle;
-use serde::Serialize;
-use std::io::Read;
-use stickslip::{
-    BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
-    FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument, MeasuredTipDocument,
-    PanelDocument, RasterBoundaryDocument, RasterCompareDocument, RasterDocument,
-    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, ResponseDocument,
-    RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument,
-    Tabular, Unusable, WalkerDocument, WalkingDocument, identified, read_from,
-};
+use stickslip::{BoundaryDocument, FigureDocument, PanelDocument, Tabular, Unusable};
 
 pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
@@ -140,114 +131,6 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 #[must_use]
 pub fn can_be_drawn(range: [f64; 2]) -> bool {
     is_range(range)
-}
-
-/// Formats of all documents that have a figure.
-pub const FORMATS: [&str; 24] = [
-    RunDocument::FORMAT,
-    SurfaceDocument::FORMAT,
-    StabilityDocument::FORMAT,
-    BoundaryDocument::FORMAT,
-    CycleDocument::FORMAT,
-    ContinueDocument::FORMAT,
-    SweepDocument::FORMAT,
-    RasterSweepDocument::FORMAT,
-    ResponseDocument::FORMAT,
-    CompareDocument::FORMAT,
-    RasterDocument::FORMAT,
-    RasterCompareDocument::FORMAT,
-    RasterSurfaceDocument::FORMAT,
-    RasterStabilityDocument::FORMAT,
-    RasterBoundaryDocument::FORMAT,
-    SnakingBoundaryDocument::FORMAT,
-    LoadMapDocument::FORMAT,
-    WalkingDocument::FORMAT,
-    WalkerDocument::FORMAT,
-    MeasuredTipDocument::FORMAT,
-    FitDocument::FORMAT,
-    FitImageDocument::FORMAT,
-    FrictionDocument::FORMAT,
-    FigureDocument::FORMAT,
-];
-
-/// A function of a document whose type is determined at run time.
-pub trait Taker {
-    /// Result of the function.
-    type Taken;
-
-    /// Applies the function to the document.
-    fn take<D>(self, document: D) -> Self::Taken
-    where
-        D: Drawn + Tabular + Serialize + Clone + Send + Sync + 'static;
-}
-
-/// The document in a stream, of any of [`FORMATS`]; a stream of another kind is read only as far as necessary to
-/// recognise that.
-///
-/// # Errors
-/// The stream is not JSON, is a document without a figure, or is damaged.
-pub fn saved(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
-    saved_as(source, Boxed)
-}
-
-/// Applies a function to the document in a stream, with its own type.
-///
-/// # Errors
-/// As [`saved`].
-pub fn saved_as<T: Taker>(source: impl Read, taker: T) -> Result<T::Taken, Unusable> {
-    macro_rules! by_format {
-        ($source:ident, $format:ident, $($document:ident),+) => {
-            match $format.as_str() {
-                $($document::FORMAT => Ok(taker.take(read_from::<$document>($source, &$format)?)),)+
-                _ => Err(Unusable::new(format_args!(
-                    "format is {}; pictures are available for {}",
-                    if $format.is_empty() { "missing" } else { &$format },
-                    FORMATS.join(", ")
-                ))),
-            }
-        };
-    }
-    let (kind, source) = identified(source, "stickslip/COMMAND")?;
-    let format = kind.format.unwrap_or_default();
-    by_format!(
-        source,
-        format,
-        RunDocument,
-        SurfaceDocument,
-        StabilityDocument,
-        BoundaryDocument,
-        CycleDocument,
-        ContinueDocument,
-        SweepDocument,
-        RasterSweepDocument,
-        ResponseDocument,
-        CompareDocument,
-        RasterDocument,
-        RasterCompareDocument,
-        RasterSurfaceDocument,
-        RasterStabilityDocument,
-        RasterBoundaryDocument,
-        SnakingBoundaryDocument,
-        LoadMapDocument,
-        WalkingDocument,
-        WalkerDocument,
-        MeasuredTipDocument,
-        FitDocument,
-        FitImageDocument,
-        FrictionDocument,
-        FigureDocument
-    )
-}
-
-/// Keeps a document as a trait object with its figure.
-struct Boxed;
-
-impl Taker for Boxed {
-    type Taken = Box<dyn Drawn>;
-
-    fn take<D: Drawn + 'static>(self, document: D) -> Box<dyn Drawn> {
-        Box::new(document)
-    }
 }
 
 /// Figure of the oscillation along a boundary; in physical units if the view or the document contains the scales of

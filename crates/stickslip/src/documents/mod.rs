@@ -21,3 +21,4 @@ pub(crate) mod table;
 pub(crate) mod verification;
 pub(crate) mod verify;
 pub(crate) mod work;
+pub(crate) mod write;

@@ -13,7 +13,8 @@ pub trait Physical: Serialize + Sized {
 
     /// The document as JSON, without large parts that are not converted to physical units.
     fn lean(&mut self) -> serde_json::Result<Value> {
-        serde_json::to_value(&*self)
+        // Through a pointer: the code that makes values of documents is compiled once.
+        serde_json::to_value(self as &dyn erased_serde::Serialize)
     }
 
     /// Adds the numbers in physical units, as far as the scales are known.

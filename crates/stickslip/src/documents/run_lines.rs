@@ -18,6 +18,16 @@ pub enum RunLine {
     End(Box<RunEnd>),
 }
 
+impl RunLine {
+    /// Appends the JSON of the line, without a line break, to a text.
+    ///
+    /// # Errors
+    /// None but those of serde.
+    pub fn append_to(&self, text: &mut Vec<u8>) -> serde_json::Result<()> {
+        serde_json::to_writer(text, self)
+    }
+}
+
 /// The definition of a run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

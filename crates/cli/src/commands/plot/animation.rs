@@ -25,7 +25,7 @@ pub(super) fn write(
     let output = Output::open("--output", &arguments.output)?;
     let option = "DOCUMENT.json";
     let named = || format!("{option} {}", arguments.document.display());
-    let document = figures::saved(open(session, option, &arguments.document)?)
+    let document = stickslip_saved::drawn(open(session, option, &arguments.document)?)
         .map_err(|error| Failure::input(named(), error))?;
     let scales = scales(session, &arguments.in_units, None, one_r(arguments, &*document))?;
     let known = scales.or_else(|| document.physical().map(|physical| physical.scales));

@@ -7,7 +7,7 @@ use crate::files::rows::{Rows, journal_of};
 use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
-use stickslip::{Mark, Samples, Times};
+use stickslip::{Mark, RunLine, Samples, Times};
 use stickslip_tip::{MOST_STEPS, Scenario, Step, Support, Wider};
 
 /// The record of a run.
@@ -92,7 +92,7 @@ impl<S: Recorded> Record<S> {
             }
             let sample = step.sample((&self.support, &self.wider), t);
             match &mut self.sink {
-                Sink::Lines(stream) => stream.line(&sample)?,
+                Sink::Lines(stream) => stream.line(&RunLine::Sample(sample))?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
                     S::write_sample(&sample, journal).map_err(|error| failed(path, error))?;
                     self.samples.push(&sample);

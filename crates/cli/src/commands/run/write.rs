@@ -11,8 +11,8 @@ use crate::session::Session;
 use serde::Serialize;
 use std::path::Path;
 use stickslip::{
-    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead, SteadyState,
-    Tabular, became,
+    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead, RunLine,
+    SteadyState, Tabular, became,
 };
 use stickslip_outcome::Watched;
 use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
@@ -33,7 +33,9 @@ pub(super) fn head<S>(
 ) -> Result<(), Failure> {
     match &mut record.sink {
         Sink::Lines(stream) => {
-            stream.line(&RunHead::new(order.parameters.clone(), SteadyState::of(&scenario.model)))
+            let steady = SteadyState::of(&scenario.model);
+            let head = RunHead::new(order.parameters.clone(), steady);
+            stream.line(&RunLine::Head(Box::new(head)))
         }
         Sink::Memory | Sink::Journal(..) => Ok(()),
     }
@@ -67,7 +69,7 @@ pub(super) fn finish_lines(
     end: &RunEnd,
 ) -> Result<(), Failure> {
     let Sink::Lines(mut stream) = sink else { unreachable!("lines are written to a stream") };
-    stream.line(end)?;
+    stream.line(&RunLine::End(Box::new(end.clone())))?;
     stream.finish()?;
     job::after(session, end, &summary::of_lines(end), fields, order.output != Path::new("-"))
 }

@@ -5,7 +5,6 @@ use crate::commands::finished::Part;
 use crate::commands::job::Product;
 use crate::failure::Failure;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::io::{self, Write};
 use stickslip::{
     Document, EnsembleDocument, Physical, RasterSweep, RasterSweepDocument, RasterSweepFound,
@@ -15,15 +14,11 @@ use stickslip::{
 use stickslip_figures::{Drawn, FigureError, judge_sweep};
 
 /// A document of points that may be computed in parts.
-pub(crate) trait Divided:
-    Product + Drawn + Physical + DeserializeOwned + Clone + Send + Sync + 'static
-{
+pub(crate) trait Divided: Product + Drawn + Physical {
     /// A point of the document.
     type Point: Part;
     /// Parameters of all points.
     type Parameters: PartialEq;
-    /// The value of the field `format`.
-    const FORMAT: &'static str;
 
     /// The document of these points.
     fn of(parameters: Self::Parameters, points: <Self::Point as Part>::All) -> Self;
@@ -87,7 +82,6 @@ macro_rules! by_fields {
     ($point:ty, $parameters:ty, $found:expr) => {
         type Point = $point;
         type Parameters = $parameters;
-        const FORMAT: &'static str = Self::FORMAT;
 
         fn of(parameters: $parameters, points: <$point as Part>::All) -> Self {
             Document::new(parameters, $found(points), vec![])

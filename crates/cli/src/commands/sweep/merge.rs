@@ -124,7 +124,7 @@ pub(super) fn is_done<D: Divided>(
 }
 
 fn read<D: Divided>(session: &Session, path: &Path) -> Result<D, Failure> {
-    let mut part: D = read_document(session, PART, path, D::FORMAT)?;
+    let mut part: D = read_document(session, PART, path)?;
     let refused = |message| Err(Failure::input(format!("{PART} {}", path.display()), message));
     let kept = *part.held().crc32;
     match kept {

@@ -1,7 +1,6 @@
 //! JSON of documents, written by one thread or several. One goes through the document and leaves each number as its bits;
 //! all of them turn numbers into text, piece by piece.
 
-use crate::message::is_harmful;
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
@@ -44,14 +43,28 @@ impl Formatter for Harmless {
     }
 }
 
-/// Writes the document.
-pub(super) fn write(out: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+/// Whether a character is a control, a mark of direction or of separation, or has no width.
+#[must_use]
+pub fn is_harmful(c: char) -> bool {
+    let is_invisible = matches!(c,
+        '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
+    c.is_control() || is_invisible
+}
+
+/// Writes a document as JSON, in which characters that could control a terminal are escaped.
+///
+/// # Errors
+/// The output fails.
+pub fn write(out: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
     document.serialize(&mut Serializer::with_formatter(out, Harmless))?;
     Ok(())
 }
 
-/// Writes the same bytes by this number of threads.
-pub(super) fn write_on_threads(
+/// Writes the same bytes as [`write`], by this number of threads.
+///
+/// # Errors
+/// The output fails.
+pub fn write_on_threads(
     out: &mut dyn Write,
     document: &impl Serialize,
     threads: usize,
@@ -141,7 +154,6 @@ impl Write for Pieces<'_> {
     }
 
     /// A piece ends before a single byte: never between a mark and the bits of its number.
-    #[inline]
     fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
         if let [byte] = bytes {
             if self.piece.len() >= PIECE {
@@ -188,53 +200,4 @@ fn text_of(piece: &[u8]) -> Vec<u8> {
     }
     text.extend_from_slice(rest);
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use serde_json::json;
-
-    /// Documents of several pieces, with any number and any text, have the same bytes on any number of threads.
-    #[test]
-    fn bytes_do_not_depend_on_threads() {
-        let numbers: Vec<f64> = (0..60_000_u64)
-            .map(|n| f64::from_bits(n.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
-            .chain([0.0, -0.0, 1.0, 1e300, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY])
-            .collect();
-        let text = "\u{7f}\u{9b}31m ÿ \u{ff} \"σ\"\n";
-        let document =
-            json!({ text: { "numbers": numbers, "count": 7, "none": null, "text": text } });
-        let written = |threads| {
-            let mut out = vec![];
-            write_on_threads(&mut out, &(&document, &numbers), threads).unwrap();
-            out
-        };
-        let alone = written(1);
-        assert!(alone.len() > 20 * PIECE, "{}", alone.len());
-        for threads in [2, 3, 64] {
-            assert!(written(threads) == alone, "{threads} threads");
-        }
-    }
-
-    /// An output that fails ends the work.
-    #[test]
-    fn an_error_is_returned() {
-        struct Full(usize);
-        impl Write for Full {
-            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-                self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
-                Ok(bytes.len())
-            }
-
-            fn flush(&mut self) -> io::Result<()> {
-                Ok(())
-            }
-        }
-        let numbers = vec![0.1_f64.sqrt(); 200_000];
-        for room in [0, 300_000, 2_000_000] {
-            let error = write_on_threads(&mut Full(room), &numbers, 2).unwrap_err();
-            assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-        }
-    }
 }

@@ -2,8 +2,8 @@
 //! forces of these lines. The lines are integrated one after another in time: they share no code with the settled pattern that is
 //! fitted.
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 use stickslip::tip::{Footprint, Model, TipFunction};
 use stickslip::{Ask, Context, EstimateDocument, FitImage, FitImageDocument, MeasuredImage, Tip};

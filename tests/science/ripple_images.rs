@@ -1,8 +1,8 @@
 //! α, r, wavelength and crest angle by the question `fit-image`, from images of rasters whose lines are integrated one after another
 //! in time, by the closed equation and on a grid: neither shares code with the settled pattern that is fitted.
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use stickslip::tip::{Footprint, Model, TipFunction, Wider};

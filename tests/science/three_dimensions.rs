@@ -5,9 +5,9 @@
 //! tips; sums of the two-dimensional Gaussians as given; and the linear equation of y0 stepped in time.
 
 use crate::acceptance::Acceptance;
+use chacha20::ChaCha8Rng;
 use gauss_quad::legendre::GaussLegendre;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::num::NonZeroUsize;
 use stickslip_surface::{Surface, SurfaceError, carved};
 use stickslip_tip::{

@@ -3,8 +3,8 @@
 
 use crate::folder::{Folder, said};
 use crate::runs::without_seconds;
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::fs;
 use std::process::{Command, Output, Stdio};
 use std::thread::sleep;

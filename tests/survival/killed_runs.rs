@@ -3,8 +3,8 @@
 
 use crate::folder::Folder;
 use crate::runs::{assert_same, checkpoint_time, without_seconds};
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use std::fs;
 use std::process::Stdio;

@@ -3,8 +3,8 @@
 //! still takes.
 
 use crate::folder::{Folder, processor_time, wait_until_it_listens};
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! Random footprints, as the files that a user brings.
 
+use chacha20::ChaCha20Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha20Rng;
 use std::fmt::Write;
 use stickslip_tip::{Gaussian, TipFunction};
 

@@ -6,9 +6,9 @@
 
 use crate::Profile;
 use crate::tip::{Request, tip};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::PI;
 use stickslip_stability::critical;
 use stickslip_tip::{TipFunction, Wider};

@@ -4,8 +4,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
 use stickslip_cycles::{Cycle, cycle};
 use stickslip_outcome::{Oscillation, Outcome, Regime, judge_trajectory};

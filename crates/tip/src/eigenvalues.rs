@@ -244,8 +244,8 @@ fn reflector(vector: &[f64; 3]) -> Option<([f64; 3], f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chacha20::ChaCha20Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha20Rng;
 
     fn sorted(mut values: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
         values.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));

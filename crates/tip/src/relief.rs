@@ -7,11 +7,11 @@ use crate::memory::ROOM;
 use crate::series::{SeriesError, checked};
 use crate::spline::CubicSpline;
 use crate::{Model, TipFunction};
+use chacha20::ChaCha8Rng;
 use expanded::Expanded;
 pub use expanded::Ground;
 use on_lattice::OnLattice;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::sync::Arc;
 use stickslip_convolution::Field;
 

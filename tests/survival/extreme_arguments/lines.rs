@@ -2,8 +2,8 @@
 
 use super::values::{Kind, value};
 use crate::folder::Folder;
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, seq::IndexedRandom};
-use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 
 /// What is read by the lines.

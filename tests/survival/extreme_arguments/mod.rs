@@ -8,9 +8,9 @@ mod values;
 mod watch;
 
 use crate::folder::Folder;
+use chacha20::ChaCha8Rng;
 use lines::{Options, PREPARED, TABLES, line};
 use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 use std::fs;
 use watch::watched;

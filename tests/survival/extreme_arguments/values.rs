@@ -1,7 +1,7 @@
 //! Values of options.
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, seq::IndexedRandom};
-use rand_chacha::ChaCha8Rng;
 
 /// What an option takes.
 #[derive(Debug, Clone, Copy, PartialEq)]

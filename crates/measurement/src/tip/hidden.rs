@@ -6,8 +6,8 @@ use super::shape::{Shape, pair};
 use crate::Profile;
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
+use chacha20::ChaCha8Rng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 
 /// Positions of such a Gaussian that are tried, in widths of the first, and its widths.
 const PLACES: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];

@@ -5,9 +5,9 @@ use super::answers::{Answers, normalised};
 use super::hidden;
 use super::search::Candidate;
 use crate::Profile;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 use stickslip_tip::{Gaussian, stop};
 

@@ -3,8 +3,8 @@
 //! Judge of the motion: the full PDE on a grid (`stickslip_grid`) with the whole, asymmetric f. It knows nothing of halves.
 
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
 use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use stickslip_grid as grid;
 use stickslip_measurement::{Profile, Request, sides, tip};
 use stickslip_stability::critical;

@@ -3,8 +3,8 @@
 //! Judge: motions and surfaces of the full PDE (`stickslip_grid`), which shares no code with the cycles that are fitted.
 
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 use stickslip_grid as grid;
 use stickslip_measurement::{Data, Track};
 use stickslip_stability::critical;

@@ -5,9 +5,9 @@
 
 use crate::carved::{Made, Truth};
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stickslip_measurement::{
     Data, Fit, FitError, FitRequest, Name, Profile, Request, Scan, Shape, Track, Values, fit, tip,
 };

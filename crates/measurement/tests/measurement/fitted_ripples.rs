@@ -4,9 +4,9 @@
 //! the cycles that are fitted to them. Noise of 1 to 5 % of the ripple's amplitude, offset, slope, an unknown phase.
 
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stickslip_grid as grid;
 use stickslip_measurement::{Data, Fit, FitRequest, Name, Shape, Track, Values, fit};
 use stickslip_stability::critical;

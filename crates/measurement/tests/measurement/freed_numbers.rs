@@ -6,9 +6,9 @@
 
 use crate::carved::{Truth, friction, friction_loop, ripple};
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stickslip_measurement::{Data, Fit, FitRequest, Name, Part, Shape, Values, fit};
 use stickslip_tip::TipFunction;
 

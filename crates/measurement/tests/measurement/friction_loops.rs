@@ -1,8 +1,8 @@
 //! Friction loops: numbers put in, and loops of the model, whose steady lag has a closed form.
 
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
 use stickslip_tip::{Model, Scenario, SupportPath, TipFunction, run};
 

@@ -3,8 +3,8 @@
 //! Judge: the sums of Gaussians that the images are drawn from, off centre, on a tilted plane, with noise.
 
 use crate::noise::normal;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use stickslip_measurement::{Image, Request, tip};
 
 /// Amplitude, centre and width along x, width across; in nm.

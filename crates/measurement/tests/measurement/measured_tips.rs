@@ -4,9 +4,9 @@
 //! 401 rows. Noise of 0.5 to 5 % of the apex, a tilt of up to 30 % over the profile and in one of four a curved drift, rows
 //! at uneven distances, off centre, one side or both.
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use stickslip_measurement::{MeasuredTip, Profile, Request, tip};
 use stickslip_stability::critical;
 use stickslip_tip::{TipFunction, Wider};

@@ -1,7 +1,7 @@
 //! What instruments add.
 
+use chacha20::ChaCha8Rng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
 
 /// A normal deviate, by Box and Muller.
 pub(crate) fn normal(random: &mut ChaCha8Rng) -> f64 {

@@ -1,8 +1,8 @@
 //! A raw table as tests of its judgement draw it, of the library and of this program.
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// A Gaussian in this many rows, each off by up to `noise`, the last one 0.
 pub(crate) fn table(rows: u32, noise: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {

@@ -2,8 +2,8 @@
 //! time: it shares no code with the settled pattern that is fitted.
 
 use crate::noise::normal;
+use chacha20::ChaCha8Rng;
 use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use stickslip_measurement::{Image, RippleError, RippleRequest, Ripples, ripples};
 use stickslip_raster::{Path, Plan, Scanned, Scanning};
 use stickslip_stability::{Raster, RasterPath};

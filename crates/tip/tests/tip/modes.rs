@@ -6,8 +6,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Retreat, Sum, accuracy_needed};
 use stickslip_tip::{
     Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Stages, Start,

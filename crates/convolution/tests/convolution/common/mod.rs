@@ -1,8 +1,8 @@
 //! Kernels with their derivatives, random sources, and the one acceptance rule.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use stickslip_convolution::Kernel;
 
 /// Accepted error of a sum over `Σ|w| max|K|`, and of its derivative over `Σ|w| max|K'|`.

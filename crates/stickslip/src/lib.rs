@@ -64,6 +64,7 @@ pub use documents::figure::{
 };
 pub use documents::history::{FARTHEST, History};
 pub use documents::in_units::{Dimension, InUnits, KnownScales, dimension};
+pub use documents::large::{read_raster, read_run, read_sweep};
 pub use documents::outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, SwingDocument,
     TransientDocument, digits, to_its_digits,
@@ -77,9 +78,7 @@ pub use documents::raster::{
     RasterComparedWork, RasterFound, RasterHistory, RasterLine, RasterRegimeName, RasterSamples,
     RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint, RasterWork,
 };
-pub use documents::read::{
-    Kind, Unusable, identified, kind_of, read, read_from, read_raster, read_run, read_sweep,
-};
+pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
 pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };

@@ -6,6 +6,7 @@ pub(crate) mod compare;
 pub(crate) mod figure;
 pub(crate) mod history;
 pub(crate) mod in_units;
+pub(crate) mod large;
 pub(crate) mod outcome;
 pub(crate) mod physical;
 pub(crate) mod raster;

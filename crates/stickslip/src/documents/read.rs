@@ -1,6 +1,6 @@
 //! Reading of documents from text.
 
-use crate::{FORMAT_VERSION, RasterDocument, RunDocument, SweepDocument};
+use crate::FORMAT_VERSION;
 use serde::de::{DeserializeOwned, Error as _, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::error::Category;
@@ -78,30 +78,6 @@ fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Res
             Unusable(format!("damaged, or {}", no_document(&error, wanted)))
         }
     })
-}
-
-/// Reads a document of `stickslip run`.
-///
-/// # Errors
-/// As [`read_from`].
-pub fn read_run(source: &mut dyn Read) -> Result<RunDocument, Unusable> {
-    read_through(source, RunDocument::FORMAT)
-}
-
-/// Reads a document of `stickslip raster`.
-///
-/// # Errors
-/// As [`read_from`].
-pub fn read_raster(source: &mut dyn Read) -> Result<RasterDocument, Unusable> {
-    read_through(source, RasterDocument::FORMAT)
-}
-
-/// Reads a document of `stickslip sweep`.
-///
-/// # Errors
-/// As [`read_from`].
-pub fn read_sweep(source: &mut dyn Read) -> Result<SweepDocument, Unusable> {
-    read_through(source, SweepDocument::FORMAT)
 }
 
 /// The kind of document in a stream, and the stream again from its beginning.

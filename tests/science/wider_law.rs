@@ -16,17 +16,30 @@ fn wider(b: Option<f64>, time: Option<f64>, mass: Option<f64>) -> Wider {
     Wider { depth_limit: b, healing_time: time, inertia: mass, ..Wider::default() }
 }
 
-/// The largest difference of x0 between a run and the grid at eleven times.
+/// The largest difference of x0 between a run and the grid at eleven times, less the grid's own doubt.
+///
+/// With a depth limit the rate of indentation has corners, which the error estimate of the grid's solver now and then
+/// misses: its x0 is off by 2e-8 to 1.4e-7 in 3 of 150 motions, and which they are depends on the processor. Its doubt is
+/// what its x0 changes by with shorter steps.
 fn miss(scenario: &Scenario, tolerance: f64) -> f64 {
     let (from, to) = (scenario.start_time(), scenario.until);
     let times: Vec<f64> = (1..=11).map(|k| from + (to - from) * f64::from(k) / 11.0).collect();
-    let exact = by_grid(scenario, &times, tolerance);
+    let stepping = Stepping::absolute(tolerance);
+    let exact = by_grid(scenario, &times, stepping);
+    let again = match scenario.model.wider().depth_limit {
+        Some(_) => by_grid(scenario, &times, Stepping { max_step: 0.02, ..stepping }),
+        None => exact.clone(),
+    };
     let found = run(scenario).unwrap();
-    let miss = |(t, x0): (&f64, f64)| (found.trajectory.x0(*t) - x0).abs();
-    times.iter().zip(exact).map(miss).fold(0.0, f64::max)
+    let miss = |(t, (x0, again)): (&f64, (&f64, &f64))| {
+        let doubt = (x0 - again).abs();
+        assert!(doubt < 1e-6, "the grid at t = {t}: {doubt:e}");
+        (found.trajectory.x0(*t) - x0).abs() - doubt
+    };
+    times.iter().zip(exact.iter().zip(&again)).map(miss).fold(0.0, f64::max)
 }
 
-fn by_grid(scenario: &Scenario, times: &[f64], tolerance: f64) -> Vec<f64> {
+fn by_grid(scenario: &Scenario, times: &[f64], stepping: Stepping) -> Vec<f64> {
     let model = &scenario.model;
     let TipFunction::Gaussians(sum) = model.tip() else { unreachable!("a sum of Gaussians") };
     let f = |x: f64| model.tip().value(x);
@@ -64,7 +77,7 @@ fn by_grid(scenario: &Scenario, times: &[f64], tolerance: f64) -> Vec<f64> {
         .collect();
     let method = Method::Spectral { gaussians, spacing: std::f64::consts::PI / 8.7 };
     let request = Request { times, points: &[] };
-    solve(&problem, &method, &Stepping::absolute(tolerance), &request).unwrap().x0
+    solve(&problem, &method, &stepping, &request).unwrap().x0
 }
 
 fn scenario(law: Wider, (beta, alpha, r): (f64, f64, f64), kick: f64, length: f64) -> Scenario {

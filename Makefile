@@ -69,6 +69,7 @@ judge: ## 1,000 random runs, each against one ten times as long: regimes, errors
 check: ## what a change must pass: format, clippy, tests, docs, benches compile
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	$(CARGO) clippy -p stickslip-cli --no-default-features --locked -- -D warnings
 	$(CARGO) test --workspace --locked
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) bench --workspace --locked --no-run

@@ -54,7 +54,7 @@ fn animate(
 }
 
 #[cfg(not(feature = "animation"))]
-fn animate(arguments: &PlotArguments, _: AnimationFormat) -> Result<(), Failure> {
+fn animate(_: &Session, arguments: &PlotArguments, _: AnimationFormat) -> Result<(), Failure> {
     let option = format!("--output {}", arguments.output.display());
     Err(Failure::input(option, FigureError::Missing("animations", "animation")))
 }

@@ -22,13 +22,26 @@ fn names<T: Parameters>() -> Vec<PossibleValue> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stickslip::{GridName, RunFormat, TipName};
+    use stickslip::parameter::{Kind, parameters};
+    use stickslip::{Continue, GridName, Run, RunFormat, Stability, TipName};
+
+    /// The names that a parameter of a question may have.
+    fn of<Q: Parameters>(parameter: &str) -> Vec<PossibleValue> {
+        let found = parameters::<Q>().iter().find(|one| one.name == parameter).unwrap();
+        let Kind::Name(names) = &found.kind else { panic!("{:?}", found.kind) };
+        names.iter().map(|(name, meaning)| PossibleValue::new(name).help(meaning)).collect()
+    }
 
     #[test]
     fn every_name_is_there_and_explained() {
-        for (names, count) in
-            [(names::<TipName>(), 4), (names::<RunFormat>(), 5), (names::<GridName>(), 4)]
-        {
+        for (names, count) in [
+            (of::<Run>("memory"), 4),
+            (names::<RunFormat>(), 5),
+            (names::<GridName>(), 4),
+            (of::<Continue>("over"), 2),
+            (of::<Stability>("solve_for"), 2),
+            (names::<TipName>(), 4),
+        ] {
             assert_eq!(names.len(), count, "{names:?}");
             for name in names {
                 assert!(!name.get_name().is_empty());

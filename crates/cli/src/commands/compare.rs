@@ -19,10 +19,9 @@ use grid::{Discretisation, Motion};
 use serde_json::{Map, Value};
 use stickslip::{
     Ask, ClosedDocument, CompareDocument, CompareFound, CompareParameters, DifferenceDocument,
-    Document, GridName, KnownScales, Physical, Run, parameter,
+    Document, GridName, KnownScales, Physical, Run, RunScenario, parameter,
 };
 use stickslip_tip::Scenario;
-use stickslip_tip::planar::PlanarScenario;
 
 /// Number of heights compared.
 const POINTS: usize = 2001;
@@ -39,9 +38,9 @@ pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result
         scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let asked = Asked::of(session, arguments, values, scales.as_ref())?;
     let job = Job::open(session, CompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
-    let sides = match &asked.across {
-        None => on_its_line(&asked)?,
-        Some(scenario) => across::sides(&asked, scenario)?,
+    let sides = match &asked.scenario {
+        RunScenario::Along(scenario) => on_its_line(&asked, scenario)?,
+        RunScenario::Across(scenario) => across::sides(&asked, scenario)?,
     };
     let document = document(arguments, &asked, sides)?;
     job.finish(document.in_units(scales.as_ref()))
@@ -55,11 +54,11 @@ struct Sides {
 }
 
 /// Both sides of a tip that is held on its line.
-fn on_its_line(asked: &Asked) -> Result<Sides, Failure> {
-    let closed = closed::run(asked)?;
+fn on_its_line(asked: &Asked, scenario: &Scenario) -> Result<Sides, Failure> {
+    let closed = closed::run(asked, scenario)?;
     let x = asked.positions(|t| closed.trajectory.x0(t))?;
-    let motion = grid::run(asked, &x)?;
-    let closed = closed.document(&asked.scenario, &motion.t, asked.grid_until, &x)?;
+    let motion = grid::run(asked, scenario, &x)?;
+    let closed = closed.document(scenario, &motion.t, asked.grid_until, &x)?;
     Ok(Sides { x, closed, motion })
 }
 
@@ -67,10 +66,7 @@ fn on_its_line(asked: &Asked) -> Result<Sides, Failure> {
 struct Asked<'a> {
     session: &'a Session,
     question: Run,
-    /// The motion along the scan.
-    scenario: Scenario,
-    /// The whole motion of a tip that is free to move across the scan.
-    across: Option<PlanarScenario>,
+    scenario: RunScenario,
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
@@ -85,17 +81,16 @@ impl<'a> Asked<'a> {
         values: Map<String, Value>,
         scales: Option<&KnownScales>,
     ) -> Result<Self, Failure> {
-        let (question, scenario, across) = run_of(session, arguments, values, scales)?;
-        warn_of_idle(
-            session,
-            &arguments.disturbance,
-            &question,
-            (scenario.start_time(), scenario.until),
-        );
-        let second_order = match across {
-            None => grid::SECOND_ORDER,
-            Some(_) if arguments.grid == GridName::Uniform => return Err(plane::no_uniform()),
-            Some(_) => plane::SECOND_ORDER,
+        let (question, whole) = run_of(session, arguments, values, scales)?;
+        let scenario = whole.along();
+        let span = (scenario.start_time(), scenario.until);
+        warn_of_idle(session, &arguments.disturbance, &question, span);
+        let second_order = match whole {
+            RunScenario::Along(_) => grid::SECOND_ORDER,
+            RunScenario::Across(_) if arguments.grid == GridName::Uniform => {
+                return Err(plane::no_uniform());
+            }
+            RunScenario::Across(_) => plane::SECOND_ORDER,
         };
         let (usual, tip) = (question.tolerance, scenario.model.tip());
         let discretisation = Discretisation::of(arguments, usual, (tip, second_order))?;
@@ -115,12 +110,18 @@ impl<'a> Asked<'a> {
             ));
         }
         let time_limit = time_limit(arguments)?;
-        Ok(Self { session, question, scenario, across, discretisation, grid_until, time_limit })
+        Ok(Self { session, question, scenario: whole, discretisation, grid_until, time_limit })
+    }
+
+    /// Start and end of the run.
+    fn span(&self) -> (f64, f64) {
+        let along = self.scenario.along();
+        (along.start_time(), along.until)
     }
 
     /// Least and largest value of a coordinate until the grid ends.
     fn range(&self, coordinate: impl Fn(f64) -> f64) -> (f64, f64) {
-        let times = super::surface::evenly(self.scenario.start_time(), self.grid_until, POINTS);
+        let times = super::surface::evenly(self.span().0, self.grid_until, POINTS);
         let values = times.into_iter().map(coordinate);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     }
@@ -141,13 +142,13 @@ fn files(arguments: &CompareArguments) -> Vec<Named<'_>> {
     [&read[..], &[parameters]].concat()
 }
 
-/// The run that both sides compute: its motion along the scan and, if the tip is free to move across it, the whole.
+/// The run that both sides compute.
 fn run_of(
     session: &Session,
     arguments: &CompareArguments,
     values: Map<String, Value>,
     scales: Option<&KnownScales>,
-) -> Result<(Run, Scenario, Option<PlanarScenario>), Failure> {
+) -> Result<(Run, RunScenario), Failure> {
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run, _>(
         options,
@@ -159,14 +160,16 @@ fn run_of(
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);
     let run = run.resolved(&context(session)).map_err(refused)?;
-    if let Some(scenario) = run.prepared_across().map_err(refused)? {
-        scenario.texture().map_err(|error| refused(run.refused_across(error)))?;
-        return Ok((run, scenario.along.clone(), Some(scenario)));
-    }
     let scenario = run.prepared().map_err(refused)?;
-    let initial = scenario.initial_surface();
-    initial.map_err(|error| refused(run.refused(&error)))?;
-    Ok((run, scenario, None))
+    match &scenario {
+        RunScenario::Along(scenario) => {
+            scenario.initial_surface().map_err(|error| refused(run.refused(&error)))?;
+        }
+        RunScenario::Across(scenario) => {
+            scenario.texture().map_err(|error| refused(run.refused_across(error)))?;
+        }
+    }
+    Ok((run, scenario))
 }
 
 /// Time limit of either side, in seconds.
@@ -187,7 +190,8 @@ fn document(
     sides: Sides,
 ) -> Result<CompareDocument, Failure> {
     let Sides { x, closed, motion: Motion { t, grid } } = sides;
-    let spans = [asked.grid_until, asked.scenario.until].map(|t| t - asked.scenario.start_time());
+    let (start, until) = asked.span();
+    let spans = [asked.grid_until, until].map(|t| t - start);
     let rates = [grid.work.seconds / spans[0], closed.work.seconds / spans[1]];
     let across = closed.y0.as_ref().zip(grid.y0.as_ref());
     let max_difference = DifferenceDocument {

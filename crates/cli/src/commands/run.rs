@@ -27,7 +27,7 @@ use motion::{Motion, Recorded};
 use record::{Record, Sink};
 use serde_json::Value;
 use std::path::Path;
-use stickslip::{Order, RunDocument, RunFormat};
+use stickslip::{Order, RunDocument, RunFormat, RunScenario};
 use stickslip_outcome::Watched;
 use stickslip_tip::{RunError, Scenario};
 use write::Target;
@@ -44,12 +44,13 @@ fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
     if values.get("walker") == Some(&Value::Bool(true)) {
         return walker::run(session, arguments, values);
     }
-    let order = order::order(session, arguments, values)?;
-    let refusal_of = |failure| refusal(failure, &arguments.options.tip, &order::files(arguments));
-    if let Some(scenario) = order.parameters.prepared_across().map_err(refusal_of)? {
-        return across::start(session, arguments, &order, &scenario);
-    }
-    let scenario = order.parameters.prepared()?;
+    let (order, scenario) = order::order(session, arguments, values)?;
+    let scenario = match scenario {
+        RunScenario::Along(scenario) => scenario,
+        RunScenario::Across(scenario) => {
+            return across::start(session, arguments, &order, &scenario);
+        }
+    };
     let refused = |error: RunError| {
         refusal(order.parameters.refused(&error), &arguments.options.tip, &order::files(arguments))
     };

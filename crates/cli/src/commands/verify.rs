@@ -13,12 +13,12 @@ use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
-use claims::{Judged, Summary};
+use claims::Summary;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip::{
-    ClaimDocument, LinesDocument, RunDocument, SampleLine, Unusable, VerificationDocument,
-    VerifyDocument,
+    ClaimDocument, LinesDocument, RunDocument, RunScenario, SampleLine, Unusable,
+    VerificationDocument, VerifyDocument,
 };
 use stickslip_tip::{Scenario, Trajectory};
 use stickslip_verify::{
@@ -58,26 +58,27 @@ fn of_document(
         Failure::input(named, format!("damaged: {message}"))
     };
     let unusable = |error: Unusable| damaged(error.to_string());
-    if run.parameters.stiffness_across.is_some() {
-        return across::of_document(session, run, arguments);
-    }
-    let scenario = run.parameters.scenario().map_err(unusable)?;
+    let whole = run.parameters.prepared();
+    let whole = whole.map_err(|failure| damaged(failure.described(str::to_owned)))?;
+    let RunScenario::Along(scenario) = &whole else {
+        return across::of_document(session, run, &whole, arguments);
+    };
     let memory = &run.work.memory;
     let trajectory =
         run.history.is_some().then(|| run.trajectory().map_err(unusable)).transpose()?;
     let samples = match &trajectory {
         Some(trajectory) => {
-            is_of(&scenario, (trajectory.start(), trajectory.end())).map_err(damaged)?;
-            samples(&run, &scenario).map_err(damaged)?
+            is_of(scenario, (trajectory.start(), trajectory.end())).map_err(damaged)?;
+            samples(&run, scenario).map_err(damaged)?
         }
-        None => samples_alone(&run, &scenario).map_err(damaged)?,
+        None => samples_alone(&run, scenario).map_err(damaged)?,
     };
     let first = trajectory.as_ref().map(|trajectory| trajectory.x0(trajectory.start()));
-    begins_as(&scenario, first, &samples).map_err(damaged)?;
+    begins_as(scenario, first, &samples).map_err(damaged)?;
     let job = job(session, &arguments.outlet)?;
     let verification = match &trajectory {
-        Some(trajectory) => of_history(session, &scenario, memory, trajectory)?,
-        None => of_samples(session, &scenario, memory, &samples)?,
+        Some(trajectory) => of_history(session, scenario, memory, trajectory)?,
+        None => of_samples(session, scenario, memory, &samples)?,
     };
     let (wider, support) = (*scenario.model.wider(), scenario.support());
     let summary = trajectory.as_ref().map(|along| {
@@ -85,7 +86,7 @@ fn of_document(
         (along, move |i: usize, t: f64| SampleLine::of(&along.steps()[i], law, t))
     });
     let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
-    let differences = claims::of_document(session, &run, Judged::Along(&scenario), summary)?;
+    let differences = claims::of_document(session, &run, &whole, summary)?;
     finish(session, run, job, verification, differences)
 }
 

@@ -92,8 +92,8 @@ pub use raster_stability::{
 pub use raster_sweep::{RasterSweep, RasterSweepDocument};
 pub use response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
 pub use run::{
-    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument, StartName,
-    SupportPathParameters, SurfaceTable,
+    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument,
+    RunScenario, StartName, SupportPathParameters, SurfaceTable,
 };
 pub use run_found::{
     HoldDocument, LoopDocument, PeakDocument, RunEnd, RunFound, SampleLine, Samples, became,

@@ -147,13 +147,34 @@ impl Document<Run> {
     /// The tip is held on its line, the parameters define no run, or the history is missing or invalid.
     pub fn trajectory_across(&self) -> Result<(PlanarScenario, planar::Trajectory), Unusable> {
         let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
-        let scenario = self.parameters.prepared_across().map_err(unusable)?;
-        let scenario = scenario.ok_or_else(|| Unusable::new("the tip is held on its line"))?;
+        let RunScenario::Across(scenario) = self.parameters.prepared().map_err(unusable)? else {
+            return Err(Unusable::new("the tip is held on its line"));
+        };
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
         let history = self.history.as_ref().ok_or_else(missing)?;
         let along = &scenario.along;
         let trajectory = history.across(*along.model.wider(), along.support())?;
         Ok((scenario, trajectory))
+    }
+}
+
+/// The scenario of a run.
+#[derive(Debug, Clone)]
+#[expect(clippy::large_enum_variant, reason = "a run has one")]
+pub enum RunScenario {
+    /// Of a tip that is held on its line.
+    Along(Scenario),
+    /// Of a tip that is free to move across the scan, whose model has f(x,y).
+    Across(PlanarScenario),
+}
+
+impl RunScenario {
+    /// The motion along the scan.
+    pub fn along(&self) -> &Scenario {
+        match self {
+            Self::Along(scenario) => scenario,
+            Self::Across(scenario) => &scenario.along,
+        }
     }
 }
 
@@ -430,14 +451,14 @@ impl Run {
     /// # Errors
     /// The start is not before the end, or a parameter is out of its range.
     pub(crate) fn started_at(&self) -> Result<f64, Failure> {
-        Ok(Self { start: Some(StartName::Steady), ..self.clone() }.prepared()?.start_time())
+        Ok(Self { start: Some(StartName::Steady), ..self.clone() }.checked()?.start_time())
     }
 
-    /// The scenario of a resolved question.
+    /// The motion along the scan of a resolved question.
     ///
     /// # Errors
     /// A parameter is out of its range, or contradicts another.
-    pub fn prepared(&self) -> Result<Scenario, Failure> {
+    pub(super) fn checked(&self) -> Result<Scenario, Failure> {
         let scenario = self.assembled()?;
         scenario.validate().map_err(|error| self.refused(&error))?;
         Ok(scenario)
@@ -467,42 +488,47 @@ impl Run {
         })
     }
 
-    /// The scenario of a question that was read from a document and may be invalid.
+    /// The motion along the scan of a question that was read from a document and may be invalid.
     ///
     /// # Errors
     /// The parameters define no run.
     pub fn scenario(&self) -> Result<Scenario, Unusable> {
         let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
-        self.prepared().map_err(unusable)
+        self.checked().map_err(unusable)
     }
 
-    /// The scenario of a tip that is free to move across the scan, whose model has f(x,y); `None` if the tip is held
-    /// on its line.
+    /// The scenario of a resolved question.
     ///
     /// # Errors
-    /// As [`prepared`](Self::prepared); or an option is not available in two coordinates.
-    pub fn prepared_across(&self) -> Result<Option<PlanarScenario>, Failure> {
-        let Some(stiffness) = self.stiffness_across else {
-            let given = [
-                ("kick_across", self.kick_across),
-                ("width_y", self.width_y),
-                ("noise_spacing_across", self.noise_spacing_across),
-            ];
-            let why = "applies to a tip that moves across the scan: give {stiffness_across} too";
-            let stray = given.into_iter().find_map(|(name, value)| Some((name, value?)));
-            if let Some((name, value)) = stray {
-                return Err(Refused::number(name, value, why).into());
-            }
-            return match self.initial_surface_across {
-                None => Ok(None),
-                Some(_) => Err(Refused::whole("initial_surface_across", why).into()),
-            };
-        };
+    /// A parameter is out of its range, contradicts another, or is not available in two coordinates.
+    pub fn prepared(&self) -> Result<RunScenario, Failure> {
+        let along = self.checked()?;
+        if let Some(stiffness) = self.stiffness_across {
+            return Ok(RunScenario::Across(self.across(along, stiffness)?));
+        }
+        let given = [
+            ("kick_across", self.kick_across),
+            ("width_y", self.width_y),
+            ("noise_spacing_across", self.noise_spacing_across),
+        ];
+        let why = "applies to a tip that moves across the scan: give {stiffness_across} too";
+        let stray = given.into_iter().find_map(|(name, value)| Some((name, value?)));
+        if let Some((name, value)) = stray {
+            return Err(Refused::number(name, value, why).into());
+        }
+        match self.initial_surface_across {
+            None => Ok(RunScenario::Along(along)),
+            Some(_) => Err(Refused::whole("initial_surface_across", why).into()),
+        }
+    }
+
+    /// The scenario of a tip that is free to move across the scan, from the motion along it.
+    fn across(&self, along: Scenario, stiffness: f64) -> Result<PlanarScenario, Failure> {
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         let (alpha, r) = (self.indentation.alpha.unwrap_or(f64::NAN), self.velocity()?);
         let tip = TipFunction::of_footprint(footprint);
         let model = Model::under(self.law.into(), tip, alpha, r).map_err(Refused::from)?;
-        let along = Scenario { model, ..self.prepared()? };
+        let along = Scenario { model, ..along };
         if let Some(spacing) = self.noise_spacing_across.filter(|_| along.noise.is_none()) {
             let why = "is of noise: give {noise} too";
             return Err(Refused::number("noise_spacing_across", spacing, why).into());
@@ -516,7 +542,7 @@ impl Run {
             ..PlanarScenario::new(along, stiffness)
         };
         scenario.validate().map_err(|error| self.refused_across(error))?;
-        Ok(Some(scenario))
+        Ok(scenario)
     }
 
     /// The rejection of the parameter that caused an error of a run in two coordinates; or the failure.
@@ -675,23 +701,23 @@ impl Ask for Run {
         let question = question.started(&model).held()?;
         question.judge_distances(&question.assembled()?)?;
         question.prepared()?;
-        question.prepared_across()?;
         Ok(question)
     }
 
     /// The answer, with the dense history.
     fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
-        if let Some(scenario) = self.prepared_across()? {
-            let span = (scenario.along.start_time(), scenario.along.until);
-            let times = self.sampling.times(span, "the run", true)?;
-            let found = across::found(&scenario, &times, context);
-            let found = found.map_err(|error| self.refused_across(error))?;
-            return found.ok_or(Failure::Cancelled);
-        }
         let scenario = self.prepared()?;
-        let refused = |error: RunError| self.refused(&error);
-        let span = (scenario.start_time(), scenario.until);
+        let span = (scenario.along().start_time(), scenario.along().until);
         let times = self.sampling.times(span, "the run", true)?;
+        let scenario = match scenario {
+            RunScenario::Along(scenario) => scenario,
+            RunScenario::Across(scenario) => {
+                let found = across::found(&scenario, &times, context);
+                let found = found.map_err(|error| self.refused_across(error))?;
+                return found.ok_or(Failure::Cancelled);
+            }
+        };
+        let refused = |error: RunError| self.refused(&error);
         let initial = scenario.initial_surface().map_err(refused)?;
         let mut running = Watched::new(&scenario, &initial).map_err(refused)?;
         let (began, mut steps) = (context.seconds(), vec![]);

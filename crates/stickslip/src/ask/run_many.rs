@@ -93,7 +93,7 @@ fn begun(question: Run, context: &Context) -> Result<Result<Begun, Run>, Failure
     if question.stiffness_across.is_some() {
         return Ok(Err(question));
     }
-    let scenario = question.prepared()?;
+    let scenario = question.checked()?;
     let span = (scenario.start_time(), scenario.until);
     let times = question.sampling.times(span, "the run", true)?;
     Ok(Ok(Begun { question, scenario, times }))

@@ -19,8 +19,8 @@ pub(super) struct Closed {
     seconds: f64,
 }
 
-pub(super) fn run(asked: &Asked) -> Result<Closed, Failure> {
-    let Asked { question, scenario, time_limit, .. } = asked;
+pub(super) fn run(asked: &Asked, scenario: &Scenario) -> Result<Closed, Failure> {
+    let Asked { question, time_limit, .. } = asked;
     let span = (scenario.start_time(), scenario.until);
     let once = || {
         let pace = Pace::new("--until", span, *time_limit);

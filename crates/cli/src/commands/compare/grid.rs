@@ -137,8 +137,8 @@ pub(super) struct Motion {
 }
 
 /// Runs the grid from the scenario's initial condition, over the domain of `x`.
-pub(super) fn run(asked: &Asked, x: &[f64]) -> Result<Motion, Failure> {
-    let Asked { scenario, discretisation, grid_until, .. } = asked;
+pub(super) fn run(asked: &Asked, scenario: &Scenario, x: &[f64]) -> Result<Motion, Failure> {
+    let Asked { discretisation, grid_until, .. } = asked;
     let model = &scenario.model;
     let f = |x: f64| model.tip().value(x);
     let force = |t: f64| scenario.force.value(t);
@@ -246,7 +246,7 @@ pub(super) struct Watch {
 
 impl Watch {
     pub(super) fn new(asked: &Asked) -> Self {
-        let span = (asked.scenario.start_time(), asked.grid_until);
+        let span = (asked.span().0, asked.grid_until);
         let pace = Pace::new("--grid-until", span, asked.time_limit);
         let progress = Progress::new(asked.session, span.0, span.1).at_every_call();
         Self { progress, pace, samples: Samples::default(), failure: None }

@@ -22,7 +22,7 @@ pub(crate) fn order_of(session: &Session, arguments: &RunArguments) -> Result<Or
     if let Some((option, _)) = written.into_iter().find(|(_, given)| *given) {
         return Err(Failure::input(option, "is not available for several runs at once"));
     }
-    order::order(session, arguments, arguments.options.values(session)?)
+    Ok(order::order(session, arguments, arguments.options.values(session)?)?.0)
 }
 
 /// Runs of all these orders, side by side where possible, in the same order.

@@ -13,14 +13,14 @@ use crate::files::paths::resolved;
 use crate::session::Session;
 use serde_json::{Map, Value};
 use std::path::Path;
-use stickslip::{Ask, Order, Run, RunFormat, parameter};
+use stickslip::{Ask, Order, Run, RunFormat, RunScenario, parameter};
 
-/// The order of the arguments with these values of options, checked as a whole.
+/// The order of the arguments with these values of options, checked as a whole, and its scenario.
 pub(super) fn order(
     session: &Session,
     arguments: &RunArguments,
     values: Map<String, Value>,
-) -> Result<Order, Failure> {
+) -> Result<(Order, RunScenario), Failure> {
     let format = format(session, arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run, _>(options, &values, "a tip on its line, without --walker")?;
@@ -43,7 +43,7 @@ pub(super) fn order(
         .resolved(&context(session))
         .map_err(|failure| refusal(failure, &options.tip, &files))?;
     let scenario = question.prepared().map_err(|failure| refusal(failure, &options.tip, &files))?;
-    let span = (scenario.start_time(), scenario.until);
+    let span = (scenario.along().start_time(), scenario.along().until);
     warn_of_idle(session, disturbance, &question, span);
     let are_kept = format != RunFormat::Jsonl;
     let samples = question.sampling.times(span, "the run", are_kept)?;
@@ -59,7 +59,7 @@ pub(super) fn order(
         scales,
         checkpoint_every: arguments.checkpoint.is_some().then_some(every),
     };
-    judged(order, arguments)
+    Ok((judged(order, arguments)?, scenario))
 }
 
 /// Rejects options that exclude each other.

@@ -18,7 +18,7 @@ use crate::files::stream::{Stream, part_of};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use std::path::{Path, PathBuf};
-use stickslip::{CheckpointHead, Order, RunFormat};
+use stickslip::{CheckpointHead, Order, RunFormat, RunScenario};
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::Scenario;
 
@@ -34,16 +34,18 @@ pub(super) fn resume(
     let before = folder_of(checkpoint.path()).join(&head.order.output);
     redirect(&mut head.order, checkpoint.path(), arguments)?;
     let parameters = &head.order.parameters;
-    let across = parameters.prepared_across();
-    let across = across.map_err(|error| named(error.described(str::to_owned)))?;
+    let scenario = parameters.prepared();
+    let scenario = scenario.map_err(|error| named(error.described(str::to_owned)))?;
     let place = Place { checkpoint, before, arguments };
-    if let Some(scenario) = across {
-        let running = WatchedAcross::resumed(&scenario, &state);
-        let running = running.map_err(|error| named(error.to_string()))?;
-        let (integrated, target) = resumed(session, &head, place, &scenario.along, running)?;
-        return across::write(session, &head.order, &scenario, integrated, target);
-    }
-    let scenario = parameters.scenario().map_err(|error| named(error.to_string()))?;
+    let scenario = match scenario {
+        RunScenario::Along(scenario) => scenario,
+        RunScenario::Across(scenario) => {
+            let running = WatchedAcross::resumed(&scenario, &state);
+            let running = running.map_err(|error| named(error.to_string()))?;
+            let (integrated, target) = resumed(session, &head, place, &scenario.along, running)?;
+            return across::write(session, &head.order, &scenario, integrated, target);
+        }
+    };
     let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
     let running = Watched::resumed(&scenario, &surface, &state);
     let running = running.map_err(|error| named(error.to_string()))?;

@@ -1,26 +1,27 @@
 //! Verification of a run in two coordinates.
 
-use super::claims::{self, Judged, Summary};
+use super::claims::{self, Summary};
 use super::{begins_as, finish, is_of, job, repeated, samples, samples_alone};
 use crate::arguments::VerifyArguments;
 use crate::failure::Failure;
 use crate::session::Session;
-use stickslip::{RunDocument, VerificationDocument, sample_across};
+use stickslip::{RunDocument, RunScenario, VerificationDocument, sample_across};
 use stickslip_tip::planar::{PlanarScenario, Trajectory};
 use stickslip_verify::{Sample, TOLERANCES_ALLOWED, verify_across, verify_samples_across};
 
 pub(super) fn of_document(
     session: &Session,
     run: RunDocument,
+    whole: &RunScenario,
     arguments: &VerifyArguments,
 ) -> Result<(), Failure> {
     let damaged = |message: String| {
         let named = format!("RUN.json {}", arguments.run.display());
         Failure::input(named, format!("damaged: {message}"))
     };
-    let scenario = run.parameters.prepared_across();
-    let scenario = scenario.map_err(|failure| damaged(failure.described(str::to_owned)))?;
-    let scenario = scenario.ok_or_else(|| damaged("the tip is held on its line".into()))?;
+    let RunScenario::Across(scenario) = whole else {
+        return Err(damaged("the tip is held on its line".into()));
+    };
     let along = &scenario.along;
     let trajectory = run.history.is_some().then(|| run.trajectory_across()).transpose();
     let trajectory = trajectory.map_err(|error| damaged(error.to_string()))?;
@@ -34,11 +35,11 @@ pub(super) fn of_document(
     let sampled = sampled.map_err(damaged)?;
     let first = trajectory.as_ref().map(|of| (of.x0(of.start()), of.y0(of.start())));
     begins_as(along, first.map(|(x0, _)| x0), &sampled).map_err(damaged)?;
-    begins_across(&scenario, first.map(|(_, y0)| y0), &sampled).map_err(damaged)?;
+    begins_across(scenario, first.map(|(_, y0)| y0), &sampled).map_err(damaged)?;
     let job = job(session, &arguments.outlet)?;
     let verification = match &trajectory {
-        Some(trajectory) => of_history(session, &scenario, trajectory)?,
-        None => of_samples(session, &scenario, &sampled)?,
+        Some(trajectory) => of_history(session, scenario, trajectory)?,
+        None => of_samples(session, scenario, &sampled)?,
     };
     let (support, wider) = (along.support(), *along.model.wider());
     let summary = trajectory.as_ref().map(|trajectory| {
@@ -48,7 +49,7 @@ pub(super) fn of_document(
         (along, move |i: usize, t: f64| sample_across(&trajectory.steps()[i], law, t))
     });
     let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
-    let differences = claims::of_document(session, &run, Judged::Across(&scenario), summary)?;
+    let differences = claims::of_document(session, &run, whole, summary)?;
     finish(session, run, job, verification, differences)
 }
 

@@ -14,10 +14,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
     ClaimDocument, Indentation, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
-    RunFound, SampleLine, SteadyState, became, became_across, sample_across,
+    RunFound, RunScenario, SampleLine, SteadyState, became, became_across, sample_across,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
-use stickslip_tip::planar::PlanarScenario;
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
@@ -316,61 +315,43 @@ impl Claims {
     }
 }
 
-/// A run to be judged: of a tip that is held on its line, or that is free to move across the scan.
-#[derive(Clone, Copy)]
-pub(super) enum Judged<'a> {
-    Along(&'a Scenario),
-    Across(&'a PlanarScenario),
-}
-
-impl<'a> Judged<'a> {
-    /// The motion along the scan.
-    pub(super) fn along(self) -> &'a Scenario {
-        match self {
-            Self::Along(scenario) => scenario,
-            Self::Across(scenario) => &scenario.along,
+/// The result of a repetition of the run with its own options; `witness` is called with each step and the motion
+/// within it.
+///
+/// # Errors
+/// The run cannot be repeated, or was interrupted.
+fn again(
+    session: &Session,
+    scenario: &RunScenario,
+    until: f64,
+    mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
+) -> Result<RunEnd, Failure> {
+    let along = scenario.along();
+    let (support, wider) = (along.support(), *along.model.wider());
+    let law = (&support, &wider);
+    match scenario {
+        RunScenario::Along(scenario) => {
+            let surface = scenario.initial_surface().map_err(failed)?;
+            let mut running = Watched::new(scenario, &surface).map_err(failed)?;
+            proceed(session, scenario, until, || {
+                let step = running.step().map_err(failed)?;
+                let seen = step.inspect(|step| witness(step, &|t| SampleLine::of(step, law, t)));
+                Ok(seen.map(|step| step.end()))
+            })?;
+            let flag = cut(scenario, until, running.t());
+            Ok(stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0))?)
         }
-    }
-
-    /// The result of a repetition of the run with its own options; `witness` is called with each step and the motion
-    /// within it.
-    ///
-    /// # Errors
-    /// The run cannot be repeated, or was interrupted.
-    fn again(
-        self,
-        session: &Session,
-        until: f64,
-        mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
-    ) -> Result<RunEnd, Failure> {
-        let along = self.along();
-        let (support, wider) = (along.support(), *along.model.wider());
-        let law = (&support, &wider);
-        match self {
-            Self::Along(scenario) => {
-                let surface = scenario.initial_surface().map_err(failed)?;
-                let mut running = Watched::new(scenario, &surface).map_err(failed)?;
-                proceed(session, scenario, until, || {
-                    let step = running.step().map_err(failed)?;
-                    let seen =
-                        step.inspect(|step| witness(step, &|t| SampleLine::of(step, law, t)));
-                    Ok(seen.map(|step| step.end()))
-                })?;
-                let flag = cut(scenario, until, running.t());
-                Ok(stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0))?)
-            }
-            Self::Across(scenario) => {
-                let mut running = WatchedAcross::new(scenario).map_err(failed)?;
-                proceed(session, along, until, || {
-                    let step = running.step().map_err(failed)?;
-                    let seen =
-                        step.inspect(|step| witness(&step.along, &|t| sample_across(step, law, t)));
-                    Ok(seen.map(|step| step.end()))
-                })?;
-                let flag = cut(along, until, running.t());
-                let became = || became_across(scenario, &running, 0.0);
-                stop::where_asked_by(&flag, became).map_err(failed)
-            }
+        RunScenario::Across(scenario) => {
+            let mut running = WatchedAcross::new(scenario).map_err(failed)?;
+            proceed(session, along, until, || {
+                let step = running.step().map_err(failed)?;
+                let seen =
+                    step.inspect(|step| witness(&step.along, &|t| sample_across(step, law, t)));
+                Ok(seen.map(|step| step.end()))
+            })?;
+            let flag = cut(along, until, running.t());
+            let became = || became_across(scenario, &running, 0.0);
+            stop::where_asked_by(&flag, became).map_err(failed)
         }
     }
 }
@@ -415,14 +396,14 @@ pub(super) struct Summary<'a> {
 /// Checks a document.
 ///
 /// # Errors
-/// As [`Judged::again`].
+/// As [`again`].
 pub(super) fn of_document(
     session: &Session,
     run: &RunDocument,
-    judged: Judged<'_>,
+    whole: &RunScenario,
     history: Option<Summary<'_>>,
 ) -> Result<Vec<ClaimDocument>, Failure> {
-    let scenario = judged.along();
+    let scenario = whole.along();
     let mut claims = Claims::default();
     claims.of_parameters(&run.parameters.model_parameters(), scenario, run.steady_state.as_ref());
     claims.of_document(run, history.map(|history| history.along));
@@ -444,7 +425,7 @@ pub(super) fn of_document(
         None => scenario.until,
     };
     let mut due = samples.iter().peekable();
-    let computed = judged.again(session, until, |step, found| {
+    let computed = again(session, whole, until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
             columns.of_repetition(sample, &found(sample.t), step);
         }
@@ -460,21 +441,21 @@ pub(super) fn of_document(
 /// Checks a run written as lines.
 ///
 /// # Errors
-/// As [`Judged::again`]; or the lines cannot be read.
+/// As [`again`]; or the lines cannot be read.
 pub(super) fn of_lines(
     session: &Session,
-    judged: Judged<'_>,
+    whole: &RunScenario,
     (parameters, steady): (&ModelParameters, Option<&SteadyState>),
     samples: impl Iterator<Item = SampleLine>,
     (until, end): (f64, Option<&RunEnd>),
 ) -> Result<Vec<ClaimDocument>, Failure> {
-    let scenario = judged.along();
+    let scenario = whole.along();
     let mut claims = Claims::default();
     claims.of_parameters(parameters, scenario, steady);
     let mut columns = Columns::of(scenario);
     let mut due = samples.peekable();
     let until = end.map_or(until, |end| end.end.min(scenario.until));
-    let computed = judged.again(session, until, |step, found| {
+    let computed = again(session, whole, until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
             columns.of_repetition(&sample, &found(sample.t), step);
         }

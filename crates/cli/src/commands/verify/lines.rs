@@ -1,6 +1,5 @@
 //! Verification of a run written as lines: the file is read twice, and not kept in memory.
 
-use super::claims::Judged;
 use super::{claims, job, repeated, said_of};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
@@ -11,9 +10,9 @@ use std::fs::File;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip::{
-    EndingName, LinesDocument, RunHead, SampleLine, VerificationDocument, VerifyDocument,
+    EndingName, LinesDocument, RunHead, RunScenario, SampleLine, VerificationDocument,
+    VerifyDocument,
 };
-use stickslip_tip::planar::PlanarScenario;
 use stickslip_tip::{MemoryChoice, Running, Scenario};
 use stickslip_verify::{ComparedSamples, Sample, verify_samples, verify_samples_across};
 
@@ -30,8 +29,7 @@ pub(super) fn verify(
 ) -> Result<(), Failure> {
     let named = format!("RUN.jsonl {}", path.display());
     let (head, surveyed, extent) = survey(file).map_err(|flaw| refused(flaw, &named))?;
-    let judged = surveyed.judged();
-    let scenario = judged.along();
+    let scenario = surveyed.along();
     let until = until(scenario, &extent).map_err(|flaw| refused(flaw, &named))?;
     let job = job(session, outlet)?;
     let samples = Samples { file, number: extent.samples, flaw: RefCell::default() };
@@ -40,12 +38,12 @@ pub(super) fn verify(
             Some(_) => ControlFlow::Break(()),
             None => observe(part),
         };
-        match judged {
-            Judged::Along(scenario) => {
+        match &surveyed {
+            RunScenario::Along(scenario) => {
                 let memory = memory(scenario, &extent);
                 verify_samples(scenario, &memory, || samples.read(), until, observe)
             }
-            Judged::Across(scenario) => {
+            RunScenario::Across(scenario) => {
                 verify_samples_across(scenario, || samples.read(), until, observe)
             }
         }
@@ -58,8 +56,8 @@ pub(super) fn verify(
     let verification = VerificationDocument::from(&found);
     let model = head.parameters.model_parameters();
     let summary = (&model, head.steady_state.as_ref());
-    let differences =
-        claims::of_lines(session, judged, summary, samples.lines(), (until, extent.end.as_ref()))?;
+    let end = (until, extent.end.as_ref());
+    let differences = claims::of_lines(session, &surveyed, summary, samples.lines(), end)?;
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
     }
@@ -76,36 +74,14 @@ pub(super) fn verify(
     failure.map_or(Ok(()), Err)
 }
 
-/// The scenario of the lines.
-#[expect(clippy::large_enum_variant, reason = "there is one of it")]
-enum Surveyed {
-    Along(Scenario),
-    Across(PlanarScenario),
-}
-
-impl Surveyed {
-    fn judged(&self) -> Judged<'_> {
-        match self {
-            Self::Along(scenario) => Judged::Along(scenario),
-            Self::Across(scenario) => Judged::Across(scenario),
-        }
-    }
-}
-
 /// The definition and the extent of the run.
-fn survey(file: &File) -> Result<(RunHead, Surveyed, Extent), Flaw> {
+fn survey(file: &File) -> Result<(RunHead, RunScenario, Extent), Flaw> {
     let mut lines = Lines::of(file)?;
     let head = lines.head()?;
     let damaged = |message: String| Flaw::Damaged(format!("line 1: {message}"));
-    let across = head.parameters.prepared_across();
-    let surveyed = match across.map_err(|error| damaged(error.described(str::to_owned)))? {
-        Some(scenario) => Surveyed::Across(scenario),
-        None => {
-            let scenario = head.parameters.scenario();
-            Surveyed::Along(scenario.map_err(|error| damaged(error.to_string()))?)
-        }
-    };
-    let scenario = surveyed.judged().along();
+    let surveyed = head.parameters.prepared();
+    let surveyed = surveyed.map_err(|error| damaged(error.described(str::to_owned)))?;
+    let scenario = surveyed.along();
     let extent = lines.survey(&(scenario.start_time()..=scenario.until))?;
     Ok((head, surveyed, extent))
 }

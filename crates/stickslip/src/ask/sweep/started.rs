@@ -40,7 +40,7 @@ pub(super) fn scenario(
             run.until,
         )
     };
-    question.resolved(&Context::default())?.prepared()
+    question.resolved(&Context::default())?.checked()
 }
 
 /// Number of samples of l in the second half of a run.

@@ -59,5 +59,5 @@ pub use kernel::Kernel;
 pub use plan::{Plan, Taper};
 pub use rows::Rows;
 pub use spectra::Spectra;
-pub use sum::{direct_sum, sum};
+pub use sum::{Sum, direct_sum, sum};
 pub use window::Window;

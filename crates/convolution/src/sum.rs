@@ -24,34 +24,62 @@ pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[
     targets.iter().map(at).collect()
 }
 
-/// `S(x) = Σ_j w_j K(x − y_j)` at each target, by one lattice that contains them all.
-///
-/// Guarantee as in the [crate documentation](crate). Time is about 60 ns per source and per target, plus one
-/// transform with as many cells as sources and targets span. Sources beyond the reach of all targets, and targets
-/// beyond the reach of all sources, are excluded from that span.
+/// `S(x) = Σ_j w_j K(x − y_j)` at each target, by one lattice that contains them all: a [`Sum`] on their span.
 ///
 /// # Panics
 /// The numbers of weights and sources differ, or a position is not finite.
 pub fn sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -> Vec<f64> {
-    assert_eq!(sources.len(), weights.len(), "one weight per source");
-    let reach = kernel.reach.unwrap_or(f64::INFINITY);
-    let near_targets = Span::of(targets.iter()).widened(reach);
-    let held = || sources.iter().zip(weights).filter(|&(y, _)| near_targets.contains(*y));
-    let near_sources = Span::of(held().map(|(y, _)| y)).widened(reach);
-    let read = || targets.iter().filter(|&x| near_sources.contains(*x));
-    let all = Span::of(held().map(|(y, _)| y).chain(read()));
-    if all.is_empty() {
-        return vec![0.0; targets.len()];
+    let Span { low, high } = Span::of(targets.iter());
+    let sum = Sum::on((low, high), kernel, sources, weights);
+    targets.iter().map(|x| sum.value(*x)).collect()
+}
+
+/// `S(x) = Σ_j w_j K(x − y_j)` on an interval, by one lattice: the sum for targets that are not known in advance.
+///
+/// Guarantee as in the [crate documentation](crate). Time is about 60 ns per source and per value, plus one
+/// transform with as many cells as the interval spans. Sources beyond the reach of the interval, and its parts beyond
+/// the reach of all sources, are excluded from that span.
+pub struct Sum {
+    field: Field,
+    /// Beyond it the sum is 0.
+    near_sources: Span,
+}
+
+impl Sum {
+    /// The sum on the closed interval from `low` to `high`, empty if `low > high`.
+    ///
+    /// # Panics
+    /// The numbers of weights and sources differ, or a position is not finite.
+    pub fn on((low, high): (f64, f64), kernel: &Kernel, sources: &[f64], weights: &[f64]) -> Self {
+        assert_eq!(sources.len(), weights.len(), "one weight per source");
+        let reach = kernel.reach.unwrap_or(f64::INFINITY);
+        let near_targets = Span { low, high }.widened(reach);
+        let held = || sources.iter().zip(weights).filter(|&(y, _)| near_targets.contains(*y));
+        let of_sources = Span::of(held().map(|(y, _)| y));
+        let near_sources = of_sources.widened(reach);
+        let all = Span {
+            low: of_sources.low.min(low.max(near_sources.low)),
+            high: of_sources.high.max(high.min(near_sources.high)),
+        };
+        let mut field = Field::new();
+        if of_sources.is_empty() {
+            return Self { field, near_sources };
+        }
+        let mut convolver = Convolver::with_plan(kernel, Plan::new(kernel, all.high - all.low));
+        let mut density = Density::new(convolver.spacing());
+        held().for_each(|(&y, &w)| density.add(y, w));
+        let middle = all.low + (all.high - all.low) / 2.0;
+        convolver.convolve(&density, convolver.first_cell_about(middle), &mut field);
+        Self { field, near_sources }
     }
 
-    let mut convolver = Convolver::with_plan(kernel, Plan::new(kernel, all.high - all.low));
-    let mut density = Density::new(convolver.spacing());
-    held().for_each(|(&y, &w)| density.add(y, w));
-    let mut field = Field::new();
-    let middle = all.low + (all.high - all.low) / 2.0;
-    convolver.convolve(&density, convolver.first_cell_about(middle), &mut field);
-    let at = |&x: &f64| if near_sources.contains(x) { field.value(x) } else { 0.0 };
-    targets.iter().map(at).collect()
+    /// `S(x)` at a position in the interval.
+    ///
+    /// # Panics
+    /// The position is far outside of the interval.
+    pub fn value(&self, x: f64) -> f64 {
+        if self.near_sources.contains(x) { self.field.value(x) } else { 0.0 }
+    }
 }
 
 /// A closed interval, empty if `low > high`.

@@ -20,7 +20,22 @@ const PAIRS_PER_POINT: f64 = 16.0;
 /// Cells of the lattice with the same cost as one point.
 const CELLS_PER_POINT: f64 = 2.0;
 /// Largest number of cells of a lattice: a gigabyte with its transforms.
-const MOST_CELLS: f64 = 1e7;
+pub(crate) const MOST_CELLS: f64 = 1e7;
+
+/// Least and largest of these numbers.
+fn span(v: &[f64]) -> (f64, f64) {
+    v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
+}
+
+/// Number of cells of a lattice for these positions and an interval of x.
+pub(crate) fn cells(tip: &TipFunction, positions: &[f64], (c, d): (f64, f64)) -> f64 {
+    let (a, b) = span(positions);
+    let extent = match tip.reach() {
+        Some(reach) => (b.min(d + reach) - a.max(c - reach)).max(0.0) + 2.0 * reach,
+        None => 4.0 * (b.max(d) - a.min(c)),
+    };
+    extent * tip.band() * 2.0 / std::f64::consts::PI
+}
 
 impl Method {
     /// The cheaper method for these positions and points; the definition if no lattice over their extent fits in
@@ -28,15 +43,7 @@ impl Method {
     #[must_use]
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
         let (sources, targets) = (positions.len() as f64, x.len() as f64);
-        let span = |v: &[f64]| {
-            v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
-        };
-        let ((a, b), (c, d)) = (span(positions), span(x));
-        let extent = match tip.reach() {
-            Some(reach) => (b.min(d + reach) - a.max(c - reach)).max(0.0) + 2.0 * reach,
-            None => 4.0 * (b.max(d) - a.min(c)),
-        };
-        let cells = extent * tip.band() * 2.0 / std::f64::consts::PI;
+        let cells = cells(tip, positions, span(x));
         let by_fft = PAIRS_PER_POINT * (sources + targets + cells / CELLS_PER_POINT + 200.0);
         if sources * targets <= by_fft || cells > MOST_CELLS { Self::Direct } else { Self::Fft }
     }

@@ -1,8 +1,8 @@
 //! The ripple of a periodic motion far behind the tip.
 
-use crate::{Method, Surface, carved};
-use ndarray::Array1;
-use stickslip_convolution::{Kernel, direct_sum, sum};
+use crate::Surface;
+use crate::carved::{MOST_CELLS, cells};
+use stickslip_convolution::{Kernel, Sum, direct_sum};
 use stickslip_tip::Trajectory;
 use stickslip_tip::elementary::exp;
 
@@ -40,56 +40,49 @@ pub fn ripple_behind(
     if low < trajectory.x0(trajectory.start()) + reach {
         return None;
     }
-    let carved = Lasting::of(surface, trajectory);
-    let carved = |x: &[f64]| carved.heights(x);
     // Several points per width of the footprint, so that no pit falls between them.
     let per_width = wavelength * surface.model.tip().band();
     let points = POINTS.max(per_width.min(1e6) as usize);
-    let crest = extremum(&carved, (low, high), points, 1.0)?;
-    let trough = -extremum(&carved, (low, high), points, -1.0)?;
+    let (crest, trough) = extrema_of_lasting(surface, trajectory, (low, high), points)?;
     let ripple = Ripple { amplitude: 0.5 * (crest - trough), crest, trough };
     ripple.amplitude.is_finite().then_some(ripple)
 }
 
-/// The undecayed part of the surface: u∞, or U on a healing surface.
-struct Lasting<'a> {
-    surface: &'a Surface<'a>,
-    /// Positions, weights, and the exponent of a factor of the weights.
-    visits: (Vec<f64>, Vec<f64>, f64),
-    /// Rate of decay along x, 1/(rT).
-    fading: f64,
-}
-
-impl<'a> Lasting<'a> {
-    fn of(surface: &'a Surface, trajectory: &Trajectory) -> Self {
-        let Some(time) = trajectory.wider().healing_time else {
+/// Highest and lowest height in a range, of the undecayed part of the surface: u∞, or U where it heals.
+fn extrema_of_lasting(
+    surface: &Surface,
+    trajectory: &Trajectory,
+    range: (f64, f64),
+    points: usize,
+) -> Option<(f64, f64)> {
+    let tip = surface.model.tip();
+    // Positions, weights, and the exponent of a factor of the weights.
+    let ((positions, weights, exponent), fading) = match trajectory.wider().healing_time {
+        Some(time) => (trajectory.residence_unfaded(), 1.0 / (trajectory.r() * time)),
+        None => {
             let (positions, weights) = trajectory.residence(trajectory.end());
-            return Self { surface, visits: (positions, weights, 0.0), fading: 0.0 };
-        };
-        let fading = 1.0 / (trajectory.r() * time);
-        Self { surface, visits: trajectory.residence_unfaded(), fading }
-    }
-
-    fn heights(&self, x: &[f64]) -> Array1<f64> {
-        let (model, (positions, weights, exponent)) = (self.surface.model, &self.visits);
-        if self.fading <= 0.0 {
-            let sums = carved(model.tip(), positions, weights, x);
-            return sums.mapv_into(|sum| -model.alpha() * sum);
+            ((positions, weights, 0.0), 0.0)
         }
-        let value = |y: f64| model.tip().value(y) * exp(-self.fading * y);
-        let kernel = Kernel { value: &value, band: model.tip().band(), reach: model.tip().reach() };
-        let sums = match Method::cheaper(model.tip(), positions, x) {
-            Method::Direct => direct_sum(&kernel, positions, weights, x),
-            Method::Fft => sum(&kernel, positions, weights, x),
-        };
-        let factor = -model.alpha() * exp(*exponent);
-        sums.into_iter().map(|sum| factor * sum).collect()
+    };
+    let value = |y: f64| if fading > 0.0 { tip.value(y) * exp(-fading * y) } else { tip.value(y) };
+    let kernel = Kernel { value: &value, band: tip.band(), reach: tip.reach() };
+    let factor = -surface.model.alpha() * exp(exponent);
+    let extrema = |sum: &dyn Fn(f64) -> f64| {
+        let height = |x: f64| factor * sum(x);
+        Some((extremum(&height, range, points, 1.0)?, -extremum(&height, range, points, -1.0)?))
+    };
+    if cells(tip, &positions, range) > MOST_CELLS {
+        return extrema(&|x| direct_sum(&kernel, &positions, &weights, &[x])[0]);
     }
+    // The first refinement looks a point beyond either end.
+    let ((low, high), beyond) = (range, (range.1 - range.0) / (points - 1) as f64);
+    let sum = Sum::on((low - beyond, high + beyond), &kernel, &positions, &weights);
+    extrema(&|x| sum.value(x))
 }
 
-/// Largest value of `sign` · u∞ in the range, by repeated refinement of a grid of points.
+/// Largest value of `sign` times the height in the range, by repeated refinement of a grid of points.
 fn extremum(
-    carved: &impl Fn(&[f64]) -> Array1<f64>,
+    height: &impl Fn(f64) -> f64,
     (mut low, mut high): (f64, f64),
     mut points: usize,
     sign: f64,
@@ -97,12 +90,11 @@ fn extremum(
     let mut best = f64::NEG_INFINITY;
     for _ in 0..=REFINEMENTS {
         let spacing = (high - low) / (points - 1) as f64;
-        let x: Vec<f64> = (0..points).map(|i| low + spacing * i as f64).collect();
-        let u = carved(&x);
-        let (i, value) =
-            u.iter().map(|u| sign * u).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let at = |i: usize| low + spacing * i as f64;
+        let heights = (0..points).map(|i| (at(i), sign * height(at(i))));
+        let (x, value) = heights.max_by(|a, b| a.1.total_cmp(&b.1))?;
         best = best.max(value);
-        (low, high) = (x[i] - spacing, x[i] + spacing);
+        (low, high) = (x - spacing, x + spacing);
         points = POINTS_AROUND;
     }
     Some(best)

@@ -10,6 +10,10 @@ pub(super) fn examples(text: &str) -> String {
 }
 
 fn broken(line: &str) -> String {
+    // Every command makes the examples of the program when it starts, and few lines are long.
+    if line.len() + 2 <= WIDTH {
+        return line.into();
+    }
     let mut lines = vec![String::new()];
     // An option stays with its value.
     for part in line.split_inclusive(' ').fold(vec![], joined) {

@@ -50,9 +50,12 @@ pub(crate) fn to_end(length: f64, distance: f64) -> f64 {
 
 /// Number of pieces of at most this length.
 pub(crate) fn count(length: f64, piece: f64) -> usize {
+    let pieces = length / piece;
+    // Not by `ceil`, for which older processors have no instruction.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    let count = (length / piece).ceil() as usize;
-    count.clamp(1, MOST_PIECES)
+    let whole = pieces as usize;
+    let begun = usize::from((whole as f64) < pieces);
+    whole.saturating_add(begun).clamp(1, MOST_PIECES)
 }
 
 impl<M: Memory> Integrator<'_, M> {

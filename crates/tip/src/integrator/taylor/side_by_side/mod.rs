@@ -201,12 +201,11 @@ impl SideBySide {
             (numbers.length.0[lane], numbers.pieces.0[lane]) = (length, pieces as f64);
         }
         follow(numbers);
-        numbers.visits.clear();
         for (lane, place) in members.iter_mut().enumerate() {
             let Some(member) = place else { continue };
             let rule = member.advance(limits, numbers, lane);
             if let Some(rule) = rule {
-                numbers.visits.set(lane, rule, numbers.length.0[lane]);
+                numbers.visits.set(lane, rule);
             }
             let goes_on = rule.is_some() && member.t < member.begin.until;
             if let Some(Member { begin, collector, work, .. }) = place.take_if(|_| !goes_on) {
@@ -319,7 +318,7 @@ fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
 fn follow(numbers: &mut Numbers) {
     let Numbers { expansion, length, displacement, pieces, nodes, .. } = numbers;
     let mut power = *length;
-    for (scaled, coefficient) in displacement.iter_mut().zip(expansion.displacement()).skip(1) {
+    for (scaled, coefficient) in displacement[1..].iter_mut().zip(&expansion.displacement()[1..]) {
         *scaled = *coefficient * power;
         power *= *length;
     }
@@ -329,7 +328,11 @@ fn follow(numbers: &mut Numbers) {
         if i as f64 >= most {
             break;
         }
-        let at = RADAU.c.map(|c| part * (i as f64 + c));
+        // Not by `map` of arrays: see `Lanes::map`.
+        let mut at = [Lanes::ZERO; STAGES];
+        for (at, c) in at.iter_mut().zip(&RADAU.c) {
+            *at = part * (i as f64 + c);
+        }
         let mut values = [Lanes::ZERO; STAGES];
         for coefficient in displacement.iter().rev() {
             for (value, at) in values.iter_mut().zip(&at) {
@@ -343,6 +346,6 @@ fn follow(numbers: &mut Numbers) {
 /// Likewise.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn remember(numbers: &mut Numbers, exponentials: &Exponentials) {
-    let Numbers { past, displacement, visits, .. } = numbers;
-    past.remember(exponentials, displacement, visits);
+    let Numbers { past, displacement, visits, length, .. } = numbers;
+    past.remember(exponentials, displacement, (visits, *length));
 }

@@ -81,8 +81,9 @@ pub(super) struct Past {
     moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,
 }
 
-/// Visits of a step, of each motion its own rule: those that a rule has not have no weight.
+/// Visits of a step of length 1, of each motion its own rule: those that a rule has not have no weight.
 pub(super) struct Visits {
+    rules: [Option<&'static Rule>; LANES],
     count: usize,
     parts: Nodes,
     weights: Nodes,
@@ -95,20 +96,20 @@ type Nodes = [Lanes; MOST_NODES];
 impl Visits {
     pub(super) fn none() -> Self {
         let nothing = [Lanes::ZERO; MOST_NODES];
-        Self { count: 0, parts: nothing, weights: nothing }
+        Self { rules: [None; LANES], count: 0, parts: nothing, weights: nothing }
     }
 
-    pub(super) fn clear(&mut self) {
-        self.parts[..self.count].fill(Lanes::ZERO);
-        self.weights[..self.count].fill(Lanes::ZERO);
-        self.count = 0;
-    }
-
-    /// Those of a step of this length.
-    pub(super) fn set(&mut self, lane: usize, rule: &Rule, length: f64) {
-        self.count = self.count.max(rule.nodes.len());
-        for (i, (node, weight)) in rule.nodes.iter().zip(&rule.weights).enumerate() {
-            (self.parts[i].0[lane], self.weights[i].0[lane]) = (*node, weight * length);
+    /// The visits of a lane are those of this rule, as they mostly were in the last step.
+    pub(super) fn set(&mut self, lane: usize, rule: &'static Rule) {
+        if self.rules[lane].replace(rule).is_some_and(|before| std::ptr::eq(before, rule)) {
+            return;
+        }
+        self.count = self.rules.iter().flatten().map(|rule| rule.nodes.len()).max().unwrap_or(0);
+        let nothing = std::iter::repeat((&0.0, &0.0));
+        let of_rule = rule.nodes.iter().zip(&rule.weights).chain(nothing);
+        let places = self.parts.iter_mut().zip(&mut self.weights);
+        for ((part, weight), (node, of_node)) in places.zip(of_rule) {
+            (part.0[lane], weight.0[lane]) = (*node, *of_node);
         }
     }
 }
@@ -144,10 +145,15 @@ impl Past {
         }
     }
 
-    /// Carries the states over steps of these displacements, series in the part of the step: as far at a time as the
-    /// exponentials can be expanded.
+    /// Carries the states over steps of these lengths and displacements, series in the part of the step: as far at a time
+    /// as the exponentials can be expanded.
     #[inline(always)]
-    pub(super) fn remember(&mut self, of: &Exponentials, displacement: &[Lanes], visits: &Visits) {
+    pub(super) fn remember(
+        &mut self,
+        of: &Exponentials,
+        displacement: &[Lanes],
+        (visits, length): (&Visits, Lanes),
+    ) {
         let mut positions = [Lanes::ZERO; MOST_NODES];
         positions_at(displacement, &visits.parts, &mut positions, visits.count);
         let mut end = Lanes::ZERO;
@@ -160,7 +166,7 @@ impl Past {
                     stretch.next(of.longest(), lane, (&positions, visits.count), end.0[lane]);
                 more |= stretch.end.to_bits() != end.0[lane].to_bits();
             }
-            self.carry(of, (&positions, visits), &stretches);
+            self.carry(of, (&positions, visits, length), &stretches);
             if !more {
                 break;
             }
@@ -172,11 +178,14 @@ impl Past {
     fn carry(
         &mut self,
         of: &Exponentials,
-        (positions, visits): (&Nodes, &Visits),
+        (positions, visits, length): (&Nodes, &Visits, Lanes),
         stretches: &[Stretch; LANES],
     ) {
         let (mut middle, mut half) = (Lanes::ZERO, Lanes::ZERO);
-        let mut weights = visits.weights;
+        let mut weights = [Lanes::ZERO; MOST_NODES];
+        for (weight, of_node) in weights[..visits.count].iter_mut().zip(&visits.weights) {
+            *weight = *of_node * length;
+        }
         for (lane, Stretch { start, end, nodes }) in stretches.iter().enumerate() {
             (middle.0[lane], half.0[lane]) = (0.5 * (start + end), 0.5 * (end - start));
             let others = (0..nodes.0).chain(nodes.1..visits.count);
@@ -328,14 +337,14 @@ mod tests {
             let mut visits = Visits::none();
             for lane in 0..LANES {
                 let rule = rules.rule(ahead(lane) + bend(lane), 0.0).unwrap();
-                visits.set(lane, rule, 0.7);
+                visits.set(lane, rule);
                 for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                     let at = ahead(lane) * node + bend(lane) * node * node;
                     visited[lane].push((tips[lane] + at, 0.7 * weight));
                 }
                 tips[lane] += ahead(lane) + bend(lane);
             }
-            past.remember(&of, &displacement, &visits);
+            past.remember(&of, &displacement, (&visits, Lanes::all(0.7)));
         }
         let mut told = [Lanes::ZERO; 6];
         past.derivatives(&of, Lanes::all(2.0), &mut told);

@@ -26,8 +26,8 @@ pub struct Observer {
     /// Length of history kept behind the extrema, so that all contributions to the ripple behind the tip are
     /// available.
     reaches: f64,
-    /// Start time of the run and the latest step; `None` before the first step.
-    span: Option<(f64, Step)>,
+    /// Start time of the run; `None` before the first step.
+    start: Option<f64>,
     /// Start of the latest step that was not steady.
     unsteady: f64,
     extrema: Extrema,
@@ -49,7 +49,7 @@ impl Observer {
             steady_l: model.steady_l(),
             far: STEADY_WITHIN.max((STEADY_TOLERANCES * tolerance).min(most)),
             reaches: 2.0 * model.tip().reach().unwrap_or(0.0),
-            span: None,
+            start: None,
             unsteady: f64::NEG_INFINITY,
             extrema: Extrema::default(),
             risen: Thinned::default(),
@@ -59,8 +59,7 @@ impl Observer {
 
     /// Adds the next step.
     pub fn observe(&mut self, step: &Step) {
-        let start = self.span.map_or(step.t, |(start, _)| start);
-        self.span = Some((start, *step));
+        self.start.get_or_insert(step.t);
         let (l_at_start, middle) = (step.extension - self.r, step.t + 0.5 * step.h);
         if self.is_far(l_at_start) || self.is_far(step.l(self.r, middle)) {
             self.unsteady = step.t;
@@ -80,14 +79,13 @@ impl Observer {
     /// Removes steps that neither the extrema nor the ripple of their last period need.
     fn cut_tail(&mut self) {
         let start = |step: &Step| self.r * step.t - step.extension;
-        while let Some(earliest) = self.extrema.earliest_needed() {
+        if let Some(earliest) = self.extrema.earliest_needed() {
             // The first is not needed if the second begins far enough behind.
             let enough = start(&earliest.step) - self.reaches;
             let spare = |next: &Step| next.t <= earliest.step.t && start(next) <= enough;
-            if !self.tail.get(1).is_some_and(spare) {
-                break;
+            while self.tail.get(1).is_some_and(spare) {
+                self.tail.pop_front();
             }
-            self.tail.pop_front();
         }
         if self.tail.len() > LONGEST_TAIL {
             self.tail.pop_front();
@@ -97,7 +95,7 @@ impl Observer {
 
     /// Start time of the run.
     pub(crate) fn start(&self) -> Option<f64> {
-        self.span.map(|(start, _)| start)
+        self.start
     }
 
     /// Distance of l from l0 within which the motion counts as steady.
@@ -123,7 +121,7 @@ impl Observer {
     /// The latest step.
     #[must_use]
     pub fn last(&self) -> Option<Step> {
-        self.span.map(|(_, last)| last)
+        self.tail.back().copied()
     }
 
     /// The last steps; `None` before the first.
@@ -140,9 +138,9 @@ impl Observer {
     }
 
     pub(crate) fn save(&self, state: &mut State) {
-        state.flag(self.span.is_some());
-        if let Some((start, last)) = &self.span {
-            state.number(*start);
+        state.flag(self.start.is_some());
+        if let (Some(start), Some(last)) = (self.start, self.tail.back()) {
+            state.number(start);
             state.step(last);
         }
         state.number(self.unsteady);
@@ -152,13 +150,15 @@ impl Observer {
     }
 
     pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
-        self.span = if state.flag()? { Some((state.finite()?, state.step()?)) } else { None };
+        let span = if state.flag()? { Some((state.finite()?, state.step()?)) } else { None };
         self.unsteady = state.number()?;
         self.extrema.restore(state)?;
         self.risen.restore(state)?;
         self.tail = state.steps()?.into();
+        self.start = span.map(|(start, _)| start);
         // The last step is the end of the tail.
-        if self.tail.back() == self.last().as_ref() { Ok(()) } else { Err(Damaged::OutOfRange) }
+        let last = span.map(|(_, last)| last);
+        if self.tail.back() == last.as_ref() { Ok(()) } else { Err(Damaged::OutOfRange) }
     }
 }
 

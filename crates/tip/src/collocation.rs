@@ -24,6 +24,9 @@ pub struct Collocation {
     pub derivative: [Stages; STAGES],
     /// Derivative of that polynomial at τ = 0.
     pub derivative_at_start: Stages,
+    /// Both, by value at a node: what it adds to the derivatives at τ = 0 and at the nodes, at the last one twice so
+    /// that they fill vectors.
+    slopes: [[f64; STAGES + 2]; STAGES],
     /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): factor from the defect at the start of a step, times its
     /// length, to the largest error within the step.
     pub defect_to_error: f64,
@@ -70,6 +73,12 @@ impl Collocation {
                 };
             }
         }
+        let mut slopes = [[0.0; STAGES + 2]; STAGES];
+        for (j, column) in slopes.iter_mut().enumerate() {
+            column[0] = derivative_at_start[j];
+            (0..STAGES).for_each(|i| column[i + 1] = derivative[i][j]);
+            column[STAGES + 1] = column[STAGES];
+        }
         let node_product = |tau: f64| c.iter().map(|c| tau - c).product::<f64>();
         let largest = |error: &dyn Fn(f64) -> f64| {
             (0..=200).map(|i| error(f64::from(i) / 200.0).abs()).fold(0.0, f64::max)
@@ -83,6 +92,7 @@ impl Collocation {
             a,
             derivative,
             derivative_at_start,
+            slopes,
             defect_to_error,
             largest_node_product,
             scales,
@@ -126,6 +136,18 @@ impl Collocation {
     pub fn interpolation_bound(&self, difference: f64, h: f64) -> f64 {
         let h2 = h * h;
         self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
+    }
+
+    /// Derivatives at τ = 0 and at the nodes of the same polynomial, side by side; at the last node twice.
+    #[inline]
+    pub fn slopes(&self, values: &Stages) -> [f64; STAGES + 2] {
+        let mut sums = [0.0; STAGES + 2];
+        for (column, value) in self.slopes.iter().zip(values) {
+            for (sum, slope) in sums.iter_mut().zip(column) {
+                *sum += slope * value;
+            }
+        }
+        sums
     }
 
     /// Derivative of the polynomial at τ.

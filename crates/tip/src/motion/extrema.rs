@@ -1,6 +1,6 @@
 //! The latest maxima and minima of l(t).
 
-use crate::collocation::{RADAU, STAGES, apply};
+use crate::collocation::{RADAU, apply};
 use crate::roots::zero_between;
 use crate::state::{Damaged, Reader, State};
 use crate::{Step, Trajectory};
@@ -58,7 +58,7 @@ impl Extrema {
 
     /// The earliest extremum, if the largest number of them is kept.
     pub fn earliest_needed(&self) -> Option<&Turn> {
-        self.latest.front().filter(|_| self.latest.len() == MOST)
+        if self.latest.len() == MOST { self.latest.front() } else { None }
     }
 
     /// All extrema kept, latest first.
@@ -117,14 +117,22 @@ impl Turn {
 
 /// Finds sign changes of l' = r - x0' between collocation nodes of the step.
 fn turns(step: &Step, r: f64, mut found: impl FnMut(Turn)) {
-    let at_start: f64 =
-        (0..STAGES).map(|j| RADAU.derivative_at_start[j] * step.displacement[j]).sum();
-    let mut before = (0.0, r - at_start / step.h);
-    for (c, moving) in RADAU.c.iter().zip(apply(&RADAU.derivative, &step.displacement)) {
-        let after = (*c, r - moving / step.h);
-        if before.1 * after.1 < 0.0 {
-            found(Turn { step: *step, between: (before.0, *c), is_maximum: before.1 > 0.0 });
+    let (radau, advance) = (&*RADAU, r * step.h);
+    let slopes = radau.slopes(&step.displacement);
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let smaller = |a: f64, b: f64| if b < a { b } else { a };
+    let ends = |(low, high), slope: &f64| (smaller(low, *slope), larger(high, *slope));
+    let (slowest, fastest) = slopes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+    // Most steps have none.
+    if slowest > advance || fastest < advance {
+        return;
+    }
+    let mut start = 0.0;
+    for (c, slopes) in radau.c.iter().zip(slopes.windows(2)) {
+        let [before, after] = [slopes[0], slopes[1]].map(|slope| advance - slope);
+        if before * after < 0.0 {
+            found(Turn { step: *step, between: (start, *c), is_maximum: before > 0.0 });
         }
-        before = after;
+        start = *c;
     }
 }

@@ -7,14 +7,12 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
 use std::any::TypeId;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Key of a property in a JSON Schema; it marks the property as a parameter that a user may give: see [`option`].
-const OPTION: &str = "x-option";
-
-/// Schema attributes of a parameter: the symbol of its value, its group, and its rank on the help page. A field
-/// without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents but is no option.
+/// Schema attributes of a parameter, by the key `x-option`: the symbol of its value, its group, and its rank on the help
+/// page. A field without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents but is no option.
 #[cfg_attr(not(feature = "schema"), allow(dead_code, reason = "only schemas need it"))]
 pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
     json!({ "symbol": symbol, "group": group, "place": place })
@@ -77,15 +75,69 @@ pub trait Parameters: DeserializeOwned + 'static {
     const SCHEMA: &'static str;
 }
 
-/// The JSON Schema of a type; null if its file is damaged, which a test excludes.
-fn schema<Q: Parameters>() -> Value {
-    serde_json::from_str(Q::SCHEMA).unwrap_or_default()
+/// The parts of a JSON Schema that define parameters. Only these are read: every command reads one when it starts.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct Schema<'a> {
+    #[serde(borrow)]
+    required: Vec<&'a str>,
+    #[serde(borrow)]
+    properties: BTreeMap<&'a str, PropertySchema<'a>>,
+    #[serde(borrow, rename = "$defs")]
+    definitions: BTreeMap<&'a str, Enumeration<'a>>,
+    #[serde(borrow, rename = "oneOf")]
+    names: Vec<NameSchema<'a>>,
+}
+
+/// The schema of a property.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct PropertySchema<'a> {
+    #[serde(borrow)]
+    description: Cow<'a, str>,
+    #[serde(rename = "type")]
+    types: Value,
+    items: Value,
+    #[serde(rename = "maxItems")]
+    most_items: Value,
+    #[serde(rename = "anyOf")]
+    alternatives: Vec<Value>,
+    #[serde(rename = "$ref")]
+    reference: Option<&'a str>,
+    default: Value,
+    #[serde(rename = "x-option")]
+    option: Option<OptionSchema>,
+}
+
+/// What [`option`] says of a property.
+#[derive(Deserialize)]
+struct OptionSchema {
+    symbol: String,
+    group: String,
+    place: u64,
+}
+
+/// The schema of an enumeration, one constant by another; empty for other types.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct Enumeration<'a> {
+    #[serde(borrow, rename = "oneOf")]
+    names: Vec<NameSchema<'a>>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct NameSchema<'a> {
+    #[serde(rename = "const")]
+    name: Option<&'a str>,
+    #[serde(borrow)]
+    description: Cow<'a, str>,
 }
 
 /// The names that a type has, each with its meaning.
 #[must_use]
 pub fn names<T: Parameters>() -> Vec<(String, String)> {
-    names_of(&schema::<T>())
+    names_of(&Schema::of::<T>().names)
 }
 
 /// The parsed schema of a question, computed once per process.
@@ -108,35 +160,44 @@ fn described<Q: Parameters>() -> &'static Described {
     // There are as many as types of questions.
     known
         .entry(TypeId::of::<Q>())
-        .or_insert_with(|| Box::leak(Box::new(Described::of(&schema::<Q>()))))
+        .or_insert_with(|| Box::leak(Box::new(Described::of(&Schema::of::<Q>()))))
+}
+
+impl Schema<'_> {
+    /// The schema of a type; empty if its file is damaged, which a test excludes.
+    fn of<Q: Parameters>() -> Self {
+        serde_json::from_str(Q::SCHEMA).unwrap_or_default()
+    }
+
+    /// The names of the enumeration that a reference leads to; none for other types.
+    fn names_at(&self, reference: &str) -> Vec<(String, String)> {
+        let name = reference.trim_start_matches("#/$defs/");
+        self.definitions.get(name).map(|named| names_of(&named.names)).unwrap_or_default()
+    }
 }
 
 impl Described {
-    fn of(schema: &Value) -> Self {
-        let text = |value: &Value| value.as_str().unwrap_or_default().replace('\n', " ");
-        let required = schema["required"].as_array();
-        let required: Vec<&str> =
-            required.into_iter().flatten().filter_map(Value::as_str).collect();
+    fn of(schema: &Schema<'_>) -> Self {
         let (mut properties, mut options) = (BTreeMap::new(), vec![]);
-        for (name, property) in schema["properties"].as_object().into_iter().flatten() {
+        for (name, property) in &schema.properties {
             let described = Property {
-                description: text(&property["description"]),
+                description: property.description.replace('\n', " "),
                 kind: kind(name, property, schema),
-                is_required: required.contains(&name.as_str()),
+                is_required: schema.required.contains(name),
             };
-            if let Some(option) = property.get(OPTION) {
+            if let Some(option) = &property.option {
                 options.push(Parameter {
-                    name: name.clone(),
+                    name: (*name).into(),
                     description: described.description.clone(),
                     kind: described.kind.clone(),
-                    default: property.get("default").filter(|value| !value.is_null()).cloned(),
+                    default: Some(&property.default).filter(|value| !value.is_null()).cloned(),
                     is_required: described.is_required,
-                    symbol: text(&option["symbol"]),
-                    group: text(&option["group"]),
-                    place: option["place"].as_u64().unwrap_or(u64::MAX),
+                    symbol: option.symbol.clone(),
+                    group: option.group.clone(),
+                    place: option.place,
                 });
             }
-            properties.insert(name.clone(), described);
+            properties.insert((*name).into(), described);
         }
         options.sort_by_key(|parameter| parameter.place);
         Self { properties, options }
@@ -149,11 +210,11 @@ pub fn parameters<Q: Parameters>() -> &'static [Parameter] {
 }
 
 /// The kind of a property, from its type or from the definition that it refers to.
-fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
+fn kind(name: &str, property: &PropertySchema<'_>, schema: &Schema<'_>) -> Kind {
     if name == "tip" {
         return Kind::Tip;
     }
-    let types = match &property["type"] {
+    let types = match &property.types {
         Value::String(one) => vec![one.as_str()],
         Value::Array(several) => several.iter().filter_map(Value::as_str).collect(),
         _ => vec![],
@@ -170,30 +231,35 @@ fn kind(name: &str, property: &Value, schema: &Value) -> Kind {
     if types.contains(&"string") {
         return Kind::Text;
     }
-    if let (true, Some(path)) = (types.contains(&"array"), property["items"]["$ref"].as_str()) {
-        let names = schema.pointer(path.trim_start_matches('#')).map(names_of).unwrap_or_default();
-        return if names.is_empty() { Kind::Other } else { Kind::Names(names) };
-    }
     if types.contains(&"array") {
-        return match (&property["items"]["type"], &property["maxItems"]) {
-            (Value::String(of), Value::Null) if of == "number" => Kind::Numbers,
-            (Value::String(of), _) if of == "number" => Kind::Ends,
-            _ => Kind::Other,
-        };
+        return kind_of_list(property, schema);
     }
-    let alternatives = property["anyOf"].as_array().into_iter().flatten();
-    let reference = alternatives.chain([property]).find_map(|one| one["$ref"].as_str());
-    let names = reference.and_then(|path| schema.pointer(path.trim_start_matches('#')));
-    let names = names.map(names_of).unwrap_or_default();
+    let alternatives = property.alternatives.iter().filter_map(|one| one["$ref"].as_str());
+    let reference = alternatives.chain(property.reference).next();
+    let names = reference.map(|path| schema.names_at(path)).unwrap_or_default();
     if names.is_empty() { Kind::Other } else { Kind::Name(names) }
 }
 
+fn kind_of_list(
+    PropertySchema { items, most_items, .. }: &PropertySchema<'_>,
+    schema: &Schema<'_>,
+) -> Kind {
+    if let Some(path) = items["$ref"].as_str() {
+        let names = schema.names_at(path);
+        return if names.is_empty() { Kind::Other } else { Kind::Names(names) };
+    }
+    match (&items["type"], most_items) {
+        (Value::String(of), Value::Null) if of == "number" => Kind::Numbers,
+        (Value::String(of), _) if of == "number" => Kind::Ends,
+        _ => Kind::Other,
+    }
+}
+
 /// The names of an enumeration, each with its description; empty if one has no description.
-fn names_of(schema: &Value) -> Vec<(String, String)> {
-    let alternatives = schema["oneOf"].as_array().into_iter().flatten();
-    let named = alternatives.filter_map(|one| {
-        let meaning = one["description"].as_str().unwrap_or_default().replace('\n', " ");
-        Some((one["const"].as_str()?.to_owned(), meaning.trim_end_matches('.').to_owned()))
+fn names_of(names: &[NameSchema<'_>]) -> Vec<(String, String)> {
+    let named = names.iter().filter_map(|NameSchema { name, description }| {
+        let meaning = description.replace('\n', " ");
+        Some(((*name)?.to_owned(), meaning.trim_end_matches('.').to_owned()))
     });
     named.collect()
 }

@@ -71,7 +71,7 @@ fn the_option_at_fault_is_named() {
         ("stability --alpha 1e300 --r 1 --re-above -1", "--alpha 1e300"),
         (
             "units --damping 1e300kg/s --stiffness 1N/m --tip-width 1m --slope-force 1N --indentation-rate 1m/s --velocity 1m/s",
-            "--damping and --stiffness",
+            "--damping, --stiffness, ",
         ),
     ] {
         folder.refuses(line, &[option]);
@@ -134,5 +134,23 @@ fn absurd_numbers_end_in_a_whole_document_or_a_refusal() {
                 "{options}\n{said}"
             );
         }
+    }
+}
+
+/// Motions that overflow end with an error: no document contains a missing number in place of NaN.
+#[test]
+fn no_motion_contains_numbers_that_overflowed() {
+    let folder = Folder::new("extremes-overflow");
+    for line in [
+        "--r 1.359e-3 --alpha 1.319e-5 --inertia 1.527e-5 --noise 3.873e29 --tip gaussian --until 60",
+        "--r 1.266e-4 --alpha 2.037e-4 --inertia 1.055e27 --noise 5.035e88 --healing-time 33.62 \
+         --depth-limit 314.4 --until 25",
+    ] {
+        let line =
+            format!("run {line} --start flat --start-position 0 --memory modes --tolerance 1e-6");
+        let output = folder.stickslip(&format!("{line} -o run.json"));
+        assert_eq!(output.status.code(), Some(1), "{line}: {}", said(&output));
+        assert!(said(&output).contains("tolerance"), "{line}: {}", said(&output));
+        assert!(!folder.path("run.json").exists(), "{line}");
     }
 }

@@ -175,7 +175,7 @@ impl<M: Memory> Integrator<'_, M> {
         Made::Nothing
     }
 
-    /// A shorter length for a step that leaves the stretch, or retreats too far.
+    /// A shorter length for a step that leaves the stretch, retreats too far, or overflows.
     fn broken(&self, parts: &[f64], positions: &[f64], total: f64) -> Option<f64> {
         let displacement = self.taylor.chain.displacement().coefficients();
         let value = |part: f64| pieces::value(displacement, part * total);
@@ -185,9 +185,10 @@ impl<M: Memory> Integrator<'_, M> {
         let derivatives = &self.taylor.derivatives;
         let mut farthest = derivatives.farthest;
         for (part, position) in parts.iter().zip(positions) {
-            if *position > farthest {
-                farthest = *position;
-            } else if *position < farthest - derivatives.retreat {
+            farthest = farthest.max(*position);
+            // A comparison with NaN is false.
+            let is_held = *position >= farthest - derivatives.retreat;
+            if !(is_held && position.is_finite()) {
                 return Some(0.5 * part * total);
             }
         }

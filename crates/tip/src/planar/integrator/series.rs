@@ -226,8 +226,8 @@ impl Integrator<'_> {
         Ok(Made::Nothing)
     }
 
-    /// A part of a step of this length that leads out of the field, too far back for the exponentials, or too far
-    /// across for the layers.
+    /// A part of a step of this length that leads out of the field, too far back for the exponentials, too far across
+    /// for the layers, or to numbers that overflow.
     fn broken(
         &self,
         (parts, total): (&[f64], f64),
@@ -242,7 +242,8 @@ impl Integrator<'_> {
         for ((part, x), y) in parts.iter().zip(along).zip(across) {
             farthest = farthest.max(*x);
             let is_held = |part: &Part| part.frame.eta(self.y + y).abs() <= part.frame.radius();
-            if *x < self.lowest(farthest) || !self.parts.iter().all(is_held) {
+            let is_here = *x >= self.lowest(farthest) && x.is_finite() && y.is_finite();
+            if !(is_here && self.parts.iter().all(is_held)) {
                 return Some(0.7 * part);
             }
         }

@@ -115,13 +115,36 @@ fn forces_that_nothing_feels_are_warned_of() {
         assert!(words.iter().all(|word| said.contains(word)), "{line}\n{said}");
         assert_eq!(said.matches("has no effect").count(), 1, "{line}\n{said}");
     }
-    // Of these at least a tail is felt, or an echo.
+    // A part of these acts before the start at t = 15.7.
+    folder.write("cut.csv", "t,force\n10,0\n14,1\n18,1\n22,0\n");
+    folder.write("zeros.csv", "t,force\n10,0\n18,0\n19,1\n22,0\n");
+    for (line, remedy) in [
+        (&format!("{run} --pulse 1,12,0.5"), "a time of at least 17.33"),
+        (&format!("{compare} --pulse 1,17,0.5"), "a time of at least 17.33"),
+        (&format!("{run} --force-file cut.csv"), "later times"),
+        (
+            &"raster --alpha 0.3 --r 1 --pitch 1 --lines 2 --length 9 --pulse 1,1,1".into(),
+            "a time of at least 3.09",
+        ),
+        (
+            &"run --tip bessel --no-spring --alpha -3 --healing-time 1 --until 9 --pulse 1,1,0.5"
+                .into(),
+            "a time of at least 1.55",
+        ),
+    ] {
+        let said = warned(line);
+        let words = ["begins before the start at t = ", "left out", remedy];
+        assert!(words.iter().all(|word| said.contains(word)), "{line}\n{said}");
+    }
+    // Of these at least a tail is felt, or an echo, or all but a thousandth.
     for line in [
         &format!("{run} --pulse 1,44,0.5"),
-        &format!("{run} --pulse 1,12,0.5"),
+        &format!("{run} --pulse 1,17.5,0.5"),
+        &format!("{run} --force-file zeros.csv"),
         &format!("{response} --pulse 1,5,0.5"),
     ] {
-        assert!(!warned(line).contains("no effect"), "{line}");
+        let said = warned(line);
+        assert!(!said.contains("no effect") && !said.contains("left out"), "{line}\n{said}");
     }
 }
 

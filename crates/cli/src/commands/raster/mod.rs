@@ -94,7 +94,8 @@ pub(super) fn question<Q: Questions>(
     let question = question.resolved(&context(session)).map_err(refused)?;
     let plan = question.prepared().map_err(refused)?;
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
-    warn_of_idle_pulses(session, pulse, &pulses, (0.0, plan.duration(0)));
+    let span = (0.0, plan.duration(0));
+    warn_of_idle_pulses(session, pulse, &pulses, span);
     Ok((question, plan))
 }
 

@@ -60,8 +60,11 @@ pub(crate) fn files_read<'a>(
 /// Distance from the centre of a pulse, in widths, beyond which its force is round-off: exp(-9²/2) = 3e-18.
 const WIDTHS_FELT: f64 = 9.0;
 
-/// Warns of each force that ends before the motion begins, or begins after it has ended. It is not an error, because
-/// runs of several lengths may share their forces.
+/// The same distance before which lies a thousandth of the pulse.
+const WIDTHS_CUT: f64 = 3.09;
+
+/// Warns of each force that ends before the motion begins, begins after it has ended, or has begun already when the
+/// motion begins. It is not an error, because runs of several lengths may share their forces.
 pub(crate) fn warn_of_idle(
     session: &Session,
     arguments: &DisturbanceArguments,
@@ -70,11 +73,13 @@ pub(crate) fn warn_of_idle(
 ) {
     let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
     warn_of_idle_pulses(session, &arguments.pulse, &pulses, span);
-    let table = run.force.as_ref();
-    let ends = table.and_then(|table| Some((*table.t.first()?, *table.t.last()?)));
-    if let (Some(path), Some(ends)) = (&arguments.force_file, ends) {
-        warn(session, &format!("--force-file {}", path.display()), ends, ends, span);
-    }
+    let (Some(path), Some(table)) = (&arguments.force_file, &run.force) else { return };
+    let (Some(first), Some(last)) = (table.t.first(), table.t.last()) else { return };
+    let mut rows = table.t.iter().zip(&table.force);
+    let whole_from = rows.find(|(_, force)| force.abs() > 0.0).map_or(*last, |(t, _)| *t);
+    let ends = (*first, *last);
+    let acts = Acts { ends, core: ends, whole_from, least_time: None };
+    acts.warn(session, &format!("--force-file {}", path.display()), span);
 }
 
 /// The same for pulses alone, as typed and as parsed.
@@ -85,29 +90,56 @@ pub(crate) fn warn_of_idle_pulses(
     span: (f64, f64),
 ) {
     for (text, pulse) in texts.iter().zip(pulses) {
-        let half = WIDTHS_FELT * pulse.width;
-        let ends = (pulse.time - half, pulse.time + half);
-        warn(session, &format!("--pulse {text}"), ends, (pulse.time, pulse.time), span);
+        let Pulse { time, width, .. } = *pulse;
+        let half = WIDTHS_FELT * width;
+        let acts = Acts {
+            ends: (time - half, time + half),
+            core: (time, time),
+            whole_from: time - WIDTHS_CUT * width,
+            least_time: Some(span.0 + WIDTHS_CUT * width),
+        };
+        acts.warn(session, &format!("--pulse {text}"), span);
     }
 }
 
-/// Warns of a force that acts between the two `ends`, and names what a run needs to cover `core`.
-fn warn(
-    session: &Session,
-    option: &str,
+/// Times at which a force acts.
+struct Acts {
+    /// First and last time.
     ends: (f64, f64),
+    /// The part that a run needs to cover.
     core: (f64, f64),
-    (start, until): (f64, f64),
-) {
-    let advice = if ends.0 >= until {
-        let (until, after) = (Typed(until), Typed(core.0));
-        format!("it comes after the end at t = {until}: give an --until above {after}")
-    } else if ends.1 <= start {
-        format!("it is over before the start at t = {}: give a later time", Typed(start))
-    } else {
-        return;
-    };
-    session.remark(format_args!("stickslip: {option} has no effect: {advice}"));
+    /// A motion that begins later lacks a part of the force.
+    whole_from: f64,
+    /// The least time T of a pulse of which nothing is lacking.
+    least_time: Option<f64>,
+}
+
+impl Acts {
+    /// Warns if the force acts outside of this span, or in part.
+    fn warn(&self, session: &Session, option: &str, (start, until): (f64, f64)) {
+        let said = if self.ends.0 >= until {
+            let (until, after) = (Typed(until), Typed(self.core.0));
+            format!(
+                "has no effect: it comes after the end at t = {until}: give an --until above {after}"
+            )
+        } else if self.ends.1 <= start {
+            format!(
+                "has no effect: it is over before the start at t = {}: give a later time",
+                Typed(start)
+            )
+        } else if self.whole_from < start {
+            let later = self.least_time.map_or("later times".into(), |least| {
+                format!("a time of at least {}", Typed((100.0 * least).ceil() / 100.0))
+            });
+            format!(
+                "begins before the start at t = {}, and that part of it is left out: give {later}",
+                Typed(start)
+            )
+        } else {
+            return;
+        };
+        session.remark(format_args!("stickslip: {option} {said}"));
+    }
 }
 
 /// All values of `--pulse`.

@@ -170,6 +170,18 @@ fn onsets_give_alpha_per_load_and_r_per_velocity() {
     let fit = folder.prints_json("fit --onsets onsets.csv");
     holds(&fit, "alpha_per_load", 0.5);
     holds(&fit, "r_per_velocity", 2.0);
+    // The units of the columns label the picture and the parameters.
+    let onsets = String::from_utf8(folder.read("onsets.csv")).unwrap();
+    folder.write("onsets.csv", onsets.replace("v,N", "v (um/s),load (nN)"));
+    let fit = folder.prints_json("fit --onsets onsets.csv --plot fit.svg");
+    assert_eq!([&fit["data"][0]["x_unit"], &fit["data"][0]["y_unit"]], ["um/s", "nN"]);
+    let units = ["1/nN", "s/um"];
+    assert_eq!([0, 1].map(|i| fit["numbers"][i]["unit"].as_str().unwrap()), units);
+    let picture = String::from_utf8(folder.read("fit.svg")).unwrap();
+    for label in ["velocity (um/s)", "load at onset (nN)", "α/load (1/nN)", "r/velocity (s/um)"] {
+        assert!(picture.contains(label), "{label}");
+    }
+    assert!(!picture.contains("unit of the data"));
 }
 
 #[test]

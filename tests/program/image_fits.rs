@@ -52,7 +52,7 @@ fn an_image_gives_back_alpha_and_r() {
     }
     let table =
         String::from_utf8(folder.prints(&format!("{LINE} --width 30 --format csv"))).unwrap();
-    assert!(table.starts_with("distance,height,error,model\n"), "{table}");
+    assert!(table.starts_with("distance_nm,height_nm,error_nm,model_nm\n"), "{table}");
     // The same image as its own retrace: no shift, no difference, and the same numbers.
     folder
         .prints(&format!("{LINE} --width 30nm --pitch 30nm --retrace-image scan.gsf -o both.json"));
@@ -214,6 +214,29 @@ fn friction_forces_and_work_come_in_nanonewtons_and_femtojoules() {
         }
         assert_eq!(other["force_unit"], "nN");
     }
+    // Forces with different prefixes, in the unit of the first; 1 pN is 1e-3 nN.
+    let retrace = String::from_utf8(folder.read("retrace.csv")).unwrap();
+    let rows = retrace.lines().skip(1).map(|row| row.replace(',', "."));
+    let in_pn = rows.map(|row| {
+        let (x, force) = row.split_once(';').unwrap();
+        format!("{x};{}\n", 1e3 * force.parse::<f64>().unwrap())
+    });
+    folder.write("pn.csv", "x (um);force (pN)\n".to_owned() + &in_pn.collect::<String>());
+    folder.write("bare.csv", retrace.replace(" (nN)", ""));
+    let mixed = folder.prints_json("friction trace.csv pn.csv");
+    let millivolts = folder.prints_json("friction volts.csv --sensitivity 25pN/mV");
+    for (other, expected) in [
+        (mixed, &found),
+        (millivolts, &folder.prints_json("friction volts.csv --sensitivity 25nN/V")),
+    ] {
+        for name in ["kinetic", "static_peak", "work"] {
+            let [other, expected] = [&other, expected].map(|f| f[name]["value"].as_f64().unwrap());
+            assert!((other / expected - 1.0).abs() < 1e-12, "{name}: {other} {expected}");
+        }
+        assert_eq!(other["force_unit"], "nN");
+    }
+    let table = String::from_utf8(folder.prints("friction trace.csv pn.csv --format csv"));
+    assert!(table.unwrap().starts_with("x_nm,trace_nN,retrace_nN\n"));
     let bare = folder.prints_json("friction volts.csv");
     assert_eq!((&bare["force_unit"], &bare["work_unit"]), (&"V".into(), &Value::Null));
     assert!(bare["remarks"].to_string().contains("not in fJ"));
@@ -234,6 +257,14 @@ fn friction_forces_and_work_come_in_nanonewtons_and_femtojoules() {
         ("friction volts.csv --sensitivity 25nN", ["--sensitivity 25nN", "25nN/V"]),
         ("friction trace.csv retrace.csv --force-unit V", ["--force-unit V", "have nN"]),
         ("friction volts.csv bent.csv", ["volts.csv", "2 are needed"]),
+        (
+            "friction trace.csv bare.csv",
+            ["bare.csv", "`force` has no unit, and `force_nN` is in nN"],
+        ),
+        (
+            "friction bare.csv trace.csv",
+            ["trace.csv", "`force_nN` is in nN, and `force` has no unit"],
+        ),
     ] {
         folder.refuses(line, &words);
     }

@@ -264,6 +264,33 @@ fn a_surface_is_in_the_units_of_its_document() {
 }
 
 /// A measured tip brings its σ along, and a saved document is drawn in units.
+/// The values along the axes of sweeps, times σ = 20 nm, Γ/k and kσ²/a.
+#[test]
+fn axes_of_sweeps_are_in_units() {
+    let (folder, scales) = furnished("physical_axes");
+    let [length, time, height, _] = scales;
+    let units = "--units units.json";
+    let runs = folder.prints_json(&format!(
+        "sweep --r 1 --alpha 0.5:1:2 --depth-limit 3,5 --healing-time 10,20 {units}"
+    ));
+    let rasters = folder.prints_json(&format!(
+        "sweep raster --tip gaussian --r 1 --alpha 0.1:0.2:2 --pitch 0.5,1 --lines 2 --length 9 {units}"
+    ));
+    for (document, name, values, scale) in [
+        (&runs, "depth_limit_nm", [3.0, 5.0], height),
+        (&runs, "healing_time_s", [10.0, 20.0], time),
+        (&rasters, "pitch_nm", [0.5, 1.0], length),
+    ] {
+        let axis = document["physical"]["axes"][name].as_array().unwrap();
+        for (found, value) in axis.iter().zip(values) {
+            let found = found.as_f64().unwrap();
+            assert!((found / (value * scale) - 1.0).abs() < 1e-14, "{name}: {found}");
+        }
+        assert_eq!(axis.len(), 2, "{name}");
+    }
+    assert!(folder.prints_json("sweep --r 1 --alpha 0.5:1:2")["physical"]["axes"].is_null());
+}
+
 #[test]
 fn tips_tell_their_width_and_pictures_are_in_units() {
     let (folder, scales) = furnished("physical_pictures");

@@ -414,7 +414,8 @@ def grid(result, axes):
 
     shape = tuple(len(values) for values in axes.values())
     places = np.array([point["index"] for point in result.points])
-    data, there = {}, physical(result, "points")
+    # The numbers of a raster are those of its pattern.
+    data, there = {}, [{**point, **point.get("pattern", {})} for point in physical(result, "points")]
     for name, column in result.columns().items():
         if name in axes:
             continue
@@ -425,4 +426,5 @@ def grid(result, axes):
         empty = np.full(shape, "" if column.dtype.kind == "U" else np.nan, dtype=column.dtype)
         empty.reshape(-1)[places] = column
         data[name] = (tuple(axes), empty, {} if suffix is None else {"units": in_words(suffix)})
-    return xarray.Dataset(data, coords=axes, attrs=attributes(result))
+    coords = {name: (name, *values) for name, values in with_units(axes, physical(result, "axes")).items()}
+    return xarray.Dataset(data, coords=coords, attrs=attributes(result))

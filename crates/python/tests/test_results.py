@@ -192,7 +192,15 @@ def test_each_document_is_xarray_in_its_units_and_netcdf(tmp_path, scales):
     roots = stability.to_xarray()
     assert roots["re"].dims == ("point",) and roots["re"].attrs.get("units") == ("1/s" if scales else None)
     assert np.allclose(roots["im"], np.array([root.im for root in stability.roots]) / (0.016 if scales else 1), rtol=1e-14)
-    several = {"run": run.to_xarray(), "image": image, "lines": lines, "cycle": cycle, "swept": swept, "loads": loads}
+    limited = stickslip.sweep(r=0.8, alpha=(0.9, 1.3, 3), depth_limit=[3, 5], **scales).to_xarray()
+    lattice = {"tip": "gaussian", "r": 1, "pitch": [0.5, 1], "alpha": [0.46, 0.5], "lines": 128, "length": 80}
+    rasters = stickslip.sweep_raster(**lattice, **scales).to_xarray()
+    axes = [limited["depth_limit"], rasters["pitch"], rasters["wavelength"], rasters["q"], rasters["alpha"]]
+    assert [axis.attrs.get("units") for axis in axes] == (["nm", "nm", "nm", "1/nm", None] if scales else [None] * 5)
+    # kσ²/a = 16 nm and σ = 20 nm.
+    assert np.allclose(limited["depth_limit"], np.array([3, 5]) * (16 if scales else 1), rtol=1e-14)
+    assert np.allclose(rasters["pitch"], np.array([0.5, 1]) * (20 if scales else 1), rtol=1e-14)
+    several = {"limited": limited, "rasters": rasters, "run": run.to_xarray(), "image": image, "lines": lines, "cycle": cycle, "swept": swept, "loads": loads}
     for name, data in several.items():
         data.to_netcdf(tmp_path / f"{name}.nc")
     found = [several["run"]["x0"], image, lines["x0"], cycle["l"], swept["wavelength"], loads["wavelength"]]

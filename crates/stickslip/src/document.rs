@@ -30,6 +30,11 @@ pub trait Question:
     fn more_arrays(&self, _: &Self::Answer) -> Vec<(&'static str, Array<'static>)> {
         vec![]
     }
+
+    /// The unit of the numbers in a column or array of measured data, if it is known.
+    fn unit_of<'a>(&'a self, _: &'a Self::Answer, _column: &str) -> Option<&'a str> {
+        None
+    }
 }
 
 /// A question and its answer, as saved in a file. The fields of the answer are written next to those of the envelope.
@@ -120,6 +125,10 @@ impl<Q: Question<Answer: Tabular>> Tabular for Document<Q> {
 
     fn physical(&self) -> Option<&InUnits> {
         self.physical.as_ref()
+    }
+
+    fn unit_of(&self, column: &str) -> Option<&str> {
+        self.parameters.unit_of(&self.answer, column)
     }
 
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {

@@ -21,6 +21,8 @@ pub enum Unit {
     Mass,
     /// 1/s
     Rate,
+    /// V
+    Voltage,
 }
 
 impl std::fmt::Display for Unit {
@@ -40,6 +42,7 @@ impl Unit {
             Self::Time => &["s"],
             Self::Mass => &["kg"],
             Self::Rate => &["1/s", "/s", "rad/s"],
+            Self::Voltage => &["V"],
         }
     }
 
@@ -53,6 +56,7 @@ impl Unit {
             Self::Time => "5ms",
             Self::Mass => "20pg",
             Self::Rate => "50/s",
+            Self::Voltage => "50mV",
         }
     }
 
@@ -92,6 +96,7 @@ impl Unit {
             Self::Length => &["meter", "meters", "metre", "metres"],
             Self::Force => &["newton", "newtons"],
             Self::Time => &["second", "seconds", "sec"],
+            Self::Voltage => &["volt", "volts"],
             Self::Damping | Self::Stiffness | Self::Velocity | Self::Mass | Self::Rate => &[],
         };
         bases.iter().find_map(|base| match unit.strip_suffix(base)? {

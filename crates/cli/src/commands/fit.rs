@@ -8,7 +8,7 @@ use super::tip::in_unit;
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::files::heading::Heading;
-use crate::files::measured::{Common, read_measured};
+use crate::files::measured::{Common, ratio, read_measured};
 use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::{Value, json};
@@ -88,11 +88,20 @@ fn data(
     }
     if let Some(path) = &arguments.onsets {
         let (source, [velocity, load]) = files.series("--onsets", path)?;
-        found.push(Measured::Onsets { source, velocity, load });
+        let [velocity_unit, load_unit] = files.units_of_series();
+        found.push(Measured::Onsets { source, velocity, load, velocity_unit, load_unit });
     }
     if let Some(path) = &arguments.wavelengths {
         let (source, [velocity, load, wavelength]) = files.series("--wavelengths", path)?;
-        found.push(Measured::Wavelengths { source, velocity, load, wavelength });
+        let [velocity_unit, load_unit] = files.units_of_series();
+        found.push(Measured::Wavelengths {
+            source,
+            velocity,
+            load,
+            wavelength,
+            velocity_unit,
+            load_unit,
+        });
     }
     Ok((found, files.lengths.unit().map(str::to_owned)))
 }
@@ -159,7 +168,9 @@ impl<'a> Files<'a> {
             if gain.is_some() || is_known {
                 scale(column, self.forces.factor(&named, heading)?);
                 force_unit = self.forces.unit();
-            } else if heading.written_unit() != headings[1].written_unit() {
+            } else if let Some(factor) = common_factor(heading, &headings[1]) {
+                scale(column, factor);
+            } else {
                 let message = format!(
                     "`{}` and `{}` have different units",
                     headings[1].text(),
@@ -172,6 +183,11 @@ impl<'a> Files<'a> {
         let back = if columns.len() == 3 { columns.pop() } else { None };
         let [x, y] = taken("--friction", path, columns)?;
         Ok(Measured::Friction { source: named, x, y, back, gain, force_unit })
+    }
+
+    /// The units of velocities and loads, as far as they are known.
+    fn units_of_series(&self) -> [Option<String>; 2] {
+        [&self.velocities, &self.loads].map(|quantity| quantity.unit().map(str::to_owned))
     }
 
     /// The name of the data, and velocities and loads, with three columns wavelengths.
@@ -187,6 +203,14 @@ impl<'a> Files<'a> {
             scale(column, quantity.factor(&named, heading)?);
         }
         Ok((named, taken(option, path, columns)?))
+    }
+}
+
+/// The factor from the unit of a heading to that of another; `None` if they belong to different quantities.
+fn common_factor(heading: &Heading, other: &Heading) -> Option<f64> {
+    match (heading.written_unit(), other.written_unit()) {
+        (Some(unit), Some(other)) => ratio(unit, other),
+        (unit, other) => (unit == other).then_some(1.0),
     }
 }
 

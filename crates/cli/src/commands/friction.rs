@@ -5,7 +5,7 @@ use super::job::{Job, judge_places};
 use crate::arguments::FrictionArguments;
 use crate::failure::Failure;
 use crate::files::input::run_in;
-use crate::files::measured::{Common, read_measured};
+use crate::files::measured::{Common, ratio, read_measured};
 use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::Value;
@@ -39,7 +39,8 @@ fn question(session: &Session, arguments: &FrictionArguments) -> Result<Friction
     let mut data = Data::new(session, values.get("unit").and_then(Value::as_str))?;
     let [trace, retrace] = data.read(&arguments.trace, arguments.retrace.as_deref())?;
     let question: Friction = parameter::question(values)?;
-    let force_unit = match (&question.force_unit, data.force_unit) {
+    let written = data.force.and_then(|(_, unit)| unit);
+    let force_unit = match (&question.force_unit, written) {
         (Some(given), Some(written)) if *given != written => {
             let message = format!("the headings have {written}: leave it out, or correct them");
             return Err(Failure::input(format!("--force-unit {given}"), message));
@@ -51,12 +52,13 @@ fn question(session: &Session, arguments: &FrictionArguments) -> Result<Friction
     Ok(Friction { source: data.source, unit, force_unit, sensitivity, trace, retrace })
 }
 
-/// The tables; positions are converted to the unit of the first.
+/// The tables; positions and forces are converted to the units of the first.
 struct Data<'a> {
     session: &'a Session,
     source: String,
     lengths: Common,
-    force_unit: Option<String>,
+    /// The first forces: name of their column, and their unit.
+    force: Option<(String, Option<String>)>,
 }
 
 impl<'a> Data<'a> {
@@ -65,7 +67,7 @@ impl<'a> Data<'a> {
             Some(unit) => Common::given(Unit::Length, "--unit", unit)?,
             None => Common::of(Unit::Length),
         };
-        Ok(Self { session, source: String::new(), lengths, force_unit: None })
+        Ok(Self { session, source: String::new(), lengths, force: None })
     }
 
     /// Trace and retrace: of two files, of one with three columns, or of the last closed loop of a run.
@@ -99,7 +101,7 @@ impl<'a> Data<'a> {
         let forces = RunForces::of(&document).map_err(|error| refused(option, path, error))?;
         let named = format!("{option} {}", path.display());
         self.lengths.of_run(&named, forces.unit)?;
-        self.same_unit(&named, "the lateral force", Some(forces.force_unit.to_owned()))?;
+        self.force_factor(&named, "lateral force", Some(forces.force_unit))?;
         self.name(path);
         Ok(Some(forces))
     }
@@ -121,11 +123,11 @@ impl<'a> Data<'a> {
         let Sheet { headings, mut columns, .. } =
             read_measured(self.session, option, path, columns)?;
         let factor = self.lengths.factor(&named, &headings[0])?;
-        let forces = columns.split_off(1);
+        let mut forces = columns.split_off(1);
         let x = columns.remove(0).into_iter().map(|x| x * factor).collect();
-        for heading in &headings[1..] {
-            let unit = heading.written_unit().map(str::to_owned);
-            self.same_unit(&named, heading.text(), unit)?;
+        for (heading, forces) in headings[1..].iter().zip(&mut forces) {
+            let factor = self.force_factor(&named, heading.text(), heading.written_unit())?;
+            forces.iter_mut().for_each(|force| *force *= factor);
         }
         self.name(path);
         let count = forces.len();
@@ -135,20 +137,27 @@ impl<'a> Data<'a> {
         Ok((x, forces))
     }
 
-    /// All forces have the same unit.
-    fn same_unit(
+    /// The factor from the unit of these forces to that of the first.
+    fn force_factor(
         &mut self,
         named: &str,
         column: &str,
-        unit: Option<String>,
-    ) -> Result<(), Failure> {
-        if self.force_unit.is_some() && self.force_unit != unit {
-            let first = self.force_unit.as_deref().unwrap_or_default();
-            let message = format!("`{column}` is not in {first}, as the first forces are");
-            return Err(Failure::input(named, message));
-        }
-        self.force_unit = unit;
-        Ok(())
+        unit: Option<&str>,
+    ) -> Result<f64, Failure> {
+        let (first, known) =
+            self.force.get_or_insert_with(|| (column.to_owned(), unit.map(str::to_owned)));
+        let factor = match (unit, known.as_deref()) {
+            (Some(unit), Some(known)) => ratio(unit, known),
+            (unit, known) => (unit == known).then_some(1.0),
+        };
+        factor.ok_or_else(|| {
+            let of = |unit: Option<&str>| unit.map_or("has no unit".into(), |u| format!("is in {u}"));
+            let (unit, known) = (of(unit), of(known.as_deref()));
+            let message = format!(
+                "`{column}` {unit}, and `{first}` {known}: both need a unit of the same quantity, such as nN and pN"
+            );
+            Failure::input(named, message)
+        })
     }
 }
 
@@ -183,10 +192,10 @@ fn sensitivity(arguments: &FrictionArguments, unit: Option<&str>) -> Result<Opti
         .split_once('/')
         .and_then(|(force, per)| Some((Unit::Force.parse(force).ok()?, per.trim())));
     match (parts, unit) {
-        (Some((force, per)), Some(unit)) if per == unit => Ok(Some(force)),
-        (Some((_, per)), Some(unit)) => {
-            needs(&named, format!("the data are in {unit}, not in {per}"))
-        }
+        (Some((force, per)), Some(unit)) => match ratio(unit, per) {
+            Some(factor) => Ok(Some(force * factor)),
+            None => needs(&named, format!("the data are in {unit}, not in {per}")),
+        },
         (Some((force, _)), None) => Ok(Some(force)),
         (None, _) => {
             needs(&named, "must be a force over the unit of the data, such as 25nN/V".into())

@@ -87,6 +87,7 @@ fn example(of: Unit) -> &'static str {
         Unit::Damping => "kg/s",
         Unit::Mass => "kg",
         Unit::Rate => "1/s",
+        Unit::Voltage => "V or mV",
     }
 }
 
@@ -126,7 +127,8 @@ fn after_mark(text: &str) -> Option<(usize, String)> {
         let is_unit = is_known(unit) && (mark != " " || unit.chars().count() > 1);
         // Letters that no encoding has left as they were.
         let is_garbled = mark == "_" && unit.contains(['?', '\u{fffd}', 'Â', 'Î']);
-        (is_unit || is_garbled).then(|| (start, unit.to_owned()))
+        let is_voltage = mark == "_" && Unit::Voltage.one(unit).is_some();
+        (is_unit || is_garbled || is_voltage).then(|| (start, unit.to_owned()))
     })
 }
 
@@ -224,6 +226,7 @@ mod tests {
             assert!(Heading::of(heading).unit(Unit::Length).is_err(), "{heading}");
         }
         assert_eq!(Heading::of("x_nm").name(), "x");
+        assert_eq!(Heading::of("lateral_mV").written_unit(), Some("mV"));
         // A boundary of no character.
         assert!(!Heading::of("a_per_bµµµ_per_c_nm").name().is_empty());
         assert_eq!(Heading::of("t (s)").name(), "t");

@@ -143,6 +143,15 @@ impl Common {
     }
 }
 
+/// The factor from one unit of lengths, forces or voltages to another; `None` if they belong to different quantities.
+pub(crate) fn ratio(unit: &str, to: &str) -> Option<f64> {
+    if unit == to {
+        return Some(1.0);
+    }
+    let quantities = [Unit::Force, Unit::Length, Unit::Voltage];
+    quantities.iter().find_map(|of| Some(of.one(unit)? / of.one(to)?))
+}
+
 /// The value in SI units of a unit given by an option.
 pub(crate) fn one_of(of: Unit, option: &str, unit: &str) -> Result<f64, Failure> {
     of.one(unit).ok_or_else(|| {

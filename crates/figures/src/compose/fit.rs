@@ -17,16 +17,15 @@ impl Drawn for FitDocument {
         if self.data.is_empty() {
             return Err(FigureError::Nothing("there are no data".into()));
         }
+        let length = self.parameters.unit.as_deref();
         let words = self.numbers.iter().map(|n| {
-            let unit = self.parameters.unit.as_deref().filter(|_| n.name == "width");
-            let unit = unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+            let unit = unit_of(n, length).map(|unit| format!(" {unit}")).unwrap_or_default();
             format!("{} = {}{unit}", symbol(&n.name), with_error(&n.estimate))
         });
         let title = words.collect::<Vec<String>>().join(", ");
         let mut figure = FigureDocument::new("fit", &title, models(self));
         let count = self.numbers.len().max(1);
         figure.columns = count;
-        let length = self.parameters.unit.as_deref();
         for data in &self.data {
             for mut panel in panels(data, length) {
                 panel.span = count;
@@ -83,7 +82,8 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
         "onsets" => ("velocity", "load at onset"),
         _ => ("velocity", "wavelength"),
     };
-    let x = labelled(x, unit.filter(|_| !is_series));
+    // Documents of older versions have the unit of positions among the parameters alone.
+    let x = labelled(x, data.x_unit.as_deref().or(unit.filter(|_| !is_series)));
     let y = labelled(y, data.y_unit.as_deref());
     let mut above = PanelDocument::new(&data.source, (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
@@ -106,9 +106,14 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     [above, below]
 }
 
+/// The unit of a parameter; documents of older versions have that of lengths alone.
+fn unit_of<'a>(number: &'a NumberFitted, length: Option<&'a str>) -> Option<&'a str> {
+    number.unit.as_deref().or(length.filter(|_| number.name == "width"))
+}
+
 /// The signed root of the likelihood against the parameter.
 fn profile(number: &NumberFitted, unit: Option<&str>) -> PanelDocument {
-    let unit = unit.filter(|_| number.name == "width").map(|unit| format!(" ({unit})"));
+    let unit = unit_of(number, unit).map(|unit| format!(" ({unit})"));
     let label = format!("{}{}", symbol(&number.name), unit.unwrap_or_default());
     let mut panel = PanelDocument::new("", (&label, "root of likelihood"));
     let (x, y) = (&number.profile_values, &number.profile_roots);

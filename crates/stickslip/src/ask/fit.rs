@@ -181,6 +181,12 @@ pub enum Measured {
         velocity: Vec<f64>,
         /// Loads.
         load: Vec<f64>,
+        /// Unit of the velocities; by default unknown.
+        #[serde(default)]
+        velocity_unit: Option<String>,
+        /// Unit of the loads; by default unknown.
+        #[serde(default)]
+        load_unit: Option<String>,
     },
     /// Wavelengths of ripples.
     Wavelengths {
@@ -192,6 +198,12 @@ pub enum Measured {
         load: Vec<f64>,
         /// Wavelengths.
         wavelength: Vec<f64>,
+        /// Unit of the velocities; by default unknown.
+        #[serde(default)]
+        velocity_unit: Option<String>,
+        /// Unit of the loads; by default unknown.
+        #[serde(default)]
+        load_unit: Option<String>,
     },
 }
 
@@ -220,8 +232,10 @@ impl Measured {
                 };
                 (source, data)
             }
-            Self::Onsets { source, velocity, load } => (source, Data::Onsets { velocity, load }),
-            Self::Wavelengths { source, velocity, load, wavelength } => {
+            Self::Onsets { source, velocity, load, .. } => {
+                (source, Data::Onsets { velocity, load })
+            }
+            Self::Wavelengths { source, velocity, load, wavelength, .. } => {
                 (source, Data::Wavelengths { velocity, load, wavelength })
             }
         };
@@ -297,13 +311,36 @@ impl Fit {
         Ok(known)
     }
 
-    /// The unit of the ordinates of these data; that of loads is unknown.
-    fn ordinate_unit(&self, data: &Measured) -> Option<String> {
-        match data {
-            Measured::Ripple { height_unit: unit, .. }
-            | Measured::Friction { force_unit: unit, .. } => unit.clone(),
-            Measured::Onsets { .. } => None,
-            Measured::Wavelengths { .. } => self.unit.clone(),
+    /// The units of abscissas and ordinates of these data, as far as they are known.
+    fn units(&self, data: &Measured) -> [Option<String>; 2] {
+        let lengths = &self.unit;
+        let [x, y] = match data {
+            Measured::Ripple { height_unit, .. } => [lengths, height_unit],
+            Measured::Friction { force_unit, .. } => [lengths, force_unit],
+            Measured::Onsets { velocity_unit, load_unit, .. } => [velocity_unit, load_unit],
+            Measured::Wavelengths { velocity_unit, .. } => [velocity_unit, lengths],
+        };
+        [x.clone(), y.clone()]
+    }
+
+    /// The unit of a fitted parameter, if it has a known one.
+    fn unit_of(&self, name: &str) -> Option<String> {
+        let of_series = self.data.iter().find_map(|data| match data {
+            Measured::Onsets { velocity_unit, load_unit, .. }
+            | Measured::Wavelengths { velocity_unit, load_unit, .. } => {
+                Some((velocity_unit.as_deref(), load_unit.as_deref()))
+            }
+            _ => None,
+        });
+        let (velocity, load) = of_series.unwrap_or_default();
+        match name {
+            "width" => self.unit.clone(),
+            "alpha_per_load" => load.map(|unit| format!("1/{unit}")),
+            "r_per_velocity" => velocity.map(|unit| match unit.split_once('/') {
+                Some((length, time)) => format!("{time}/{length}"),
+                None => format!("1/{unit}"),
+            }),
+            _ => None,
         }
     }
 
@@ -392,7 +429,10 @@ impl Ask for Fit {
         let critical_alpha = r.and_then(|r| critical(&Wider::default(), &tip, r).ok());
         let mut answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
         for (fitted, measured) in answer.data.iter_mut().zip(&self.data) {
-            fitted.y_unit = self.ordinate_unit(measured);
+            [fitted.x_unit, fitted.y_unit] = self.units(measured);
+        }
+        for number in &mut answer.numbers {
+            number.unit = self.unit_of(&number.name);
         }
         let is_assumed = self.tip.is_none() && !self.is_free(FreeName::Beta);
         let assumed = is_assumed.then(|| ASSUMED.into());
@@ -431,6 +471,9 @@ pub struct NumberFitted {
     /// "alpha" and "r", dimensionless; "width", σ in the unit of lengths; "beta"; "depth_limit" in kσ²/a, "healing_time"
     /// in Γ/k, "inertia" in Γ²/k; "alpha_per_load" and "r_per_velocity" of a series.
     pub name: String,
+    /// Its unit, such as nm, or 1/nN for an α per load; null if it has none, or an unknown one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
     /// Estimate and interval.
     pub estimate: EstimateDocument,
     /// Values at which the parameter was held in the profile likelihood, ascending.
@@ -451,6 +494,9 @@ pub struct DataFitted {
     pub x: Vec<f64>,
     /// Heights, forces (trace of a loop, then retrace), loads at onset or wavelengths.
     pub y: Vec<f64>,
+    /// Unit of `x`, such as nm or um/s; null if it is unknown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_unit: Option<String>,
     /// Unit of `y`, such as nm or V; null if it is unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y_unit: Option<String>,
@@ -534,7 +580,8 @@ impl From<&FittedNumber> for NumberFitted {
         let mut estimate = EstimateDocument::from(number.estimate);
         // All are above 0: to exclude nothing below is to exclude nothing above 0.
         estimate.low = estimate.low.filter(|low| *low > 0.0);
-        Self { name: number.name.word().into(), estimate, profile_values, profile_roots }
+        let name = number.name.word().into();
+        Self { name, unit: None, estimate, profile_values, profile_roots }
     }
 }
 
@@ -562,6 +609,7 @@ impl DataFitted {
             source: source.into(),
             x,
             y,
+            x_unit: None,
             y_unit: None,
             model: part.model.clone(),
             residual: part.residual,

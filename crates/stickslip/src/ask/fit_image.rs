@@ -10,7 +10,8 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, ripples,
+    Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples,
+    ripples,
 };
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Wider};
@@ -228,6 +229,11 @@ const ASSUMED_PITCH: &str = "no pitch is given: the lines that made the ripples 
 impl Question for FitImage {
     const FORMAT: &'static str = "stickslip/fit-image";
     type Answer = FitImageFound;
+
+    fn unit_of<'a>(&'a self, _: &'a FitImageFound, column: &str) -> Option<&'a str> {
+        let is_length = ["distance", "x", "y"].contains(&column);
+        if is_length { &self.unit } else { &self.height_unit }.as_deref()
+    }
 }
 
 impl FitImage {

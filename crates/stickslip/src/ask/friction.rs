@@ -102,6 +102,11 @@ pub(crate) const K_SIGMA: &str = "kσ";
 impl Question for Friction {
     const FORMAT: &'static str = "stickslip/friction";
     type Answer = FrictionFound;
+
+    fn unit_of<'a>(&'a self, answer: &'a FrictionFound, column: &str) -> Option<&'a str> {
+        let unit = if column == "x" { &answer.length_unit } else { &answer.force_unit };
+        unit.as_deref().filter(|unit| ![SIGMA, K_SIGMA].contains(unit))
+    }
 }
 
 impl Friction {

@@ -165,6 +165,10 @@ pub struct MeasuredImage {
 impl Question for MeasuredTip {
     const FORMAT: &'static str = "stickslip/tip";
     type Answer = MeasuredTipFound;
+
+    fn unit_of<'a>(&'a self, _: &'a MeasuredTipFound, column: &str) -> Option<&'a str> {
+        if column == "x" { &self.unit } else { &self.height_unit }.as_deref()
+    }
 }
 
 impl MeasuredTip {

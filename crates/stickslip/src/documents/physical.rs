@@ -33,11 +33,11 @@ pub trait Physical: Serialize + Sized {
 pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
 
 /// The columns of a table; those with a dimension are converted to nm, s and nN and named accordingly, as far as the
-/// document contains the scales.
+/// document contains the scales. The names of measured columns contain their unit.
 pub fn columns<'a>(table: &'a dyn Tabular) -> Vec<InUnit<'a>> {
     let columns = table.columns();
     let Some(physical) = table.physical() else {
-        return columns.into_iter().map(|(name, column)| (name.into(), column)).collect();
+        return columns.into_iter().map(|(name, column)| (measured(table, name), column)).collect();
     };
     let scales = &physical.scales;
     let force = columns.iter().find(|(name, _)| *name == "lag").and_then(|(_, lag)| {
@@ -59,9 +59,18 @@ pub fn arrays<'a>(table: &'a dyn Tabular) -> impl Iterator<Item = (Cow<'static, 
     let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
     let in_unit = move |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {
         Some((factor, name)) => (name.into(), array.times(factor)),
-        None => (name.into(), array),
+        None => (measured(table, name), array),
     };
     table.each_array().map(in_unit)
+}
+
+/// The name of a column with the unit of its measured numbers, such as `x_nm`; a unit that is no word is left out.
+fn measured(table: &dyn Tabular, name: &'static str) -> Cow<'static, str> {
+    let is_word = |unit: &&str| unit.chars().all(|c| c.is_alphanumeric() || "/%°".contains(c));
+    match table.unit_of(name).filter(is_word) {
+        Some(unit) => format!("{name}_{}", unit.replace('/', "_per_")).into(),
+        None => name.into(),
+    }
 }
 
 fn scaled(name: &str, scales: &KnownScales) -> Option<(f64, String)> {

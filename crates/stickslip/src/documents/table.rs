@@ -93,6 +93,11 @@ pub trait Tabular {
         None
     }
 
+    /// The unit of the numbers in a column or array of measured data, if it is known.
+    fn unit_of(&self, _column: &str) -> Option<&str> {
+        None
+    }
+
     /// The arrays; by default the columns.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let columns = self.columns();

@@ -40,7 +40,7 @@ impl Product for MeasuredTipDocument {
             .row("residual", in_heights(self.residual, 3))
             .row("critical α", with_interval(&self.critical_alpha))
             .row("ω there", format!("{} k/Γ", with_interval(&self.critical_omega)))
-            .maybe("trapped for ever from α", trapping)
+            .maybe("trapped from α", trapping)
             .maybe("apex between the sides", apex)
             .maybe("critical α of the trace", trace)
             .maybe("critical α of the retrace", retrace)
@@ -52,11 +52,9 @@ impl Product for MeasuredTipDocument {
 
 impl Product for FitDocument {
     fn summary(&self) -> Summary {
-        let unit = |n: &NumberFitted| match &self.parameters.unit {
-            Some(unit) if n.name == "width" => format!(" {unit}"),
-            _ => String::new(),
+        let said = |n: &NumberFitted| {
+            format!("{}{}", with_interval(&n.estimate), after_number(n.unit.as_deref()))
         };
-        let said = |n: &NumberFitted| format!("{}{}", with_interval(&n.estimate), unit(n));
         let short = self.numbers.iter().map(|n| format!("{} = {}", n.name, said(n)));
         let mut summary = Summary::new(short.collect::<Vec<String>>().join(", "));
         for number in &self.numbers {

@@ -50,6 +50,27 @@ pub(super) fn of_parameters(
     named.into_iter().filter_map(one).collect()
 }
 
+/// The values along the axes of a grid, over several α, by names with units; `None` if none has a dimension.
+pub(super) fn of_axes(fields: &Map<String, Value>, scales: &KnownScales) -> Option<Value> {
+    ["alpha", "alpha_above"].iter().find_map(|name| fields.get(*name)?.as_array())?;
+    let more = fields.get("axes").and_then(Value::as_array);
+    let more = more
+        .into_iter()
+        .flatten()
+        .filter_map(|axis| Some((axis["name"].as_str()?, axis.get("values")?)));
+    let lists = fields.iter().filter(|(_, value)| value.is_array() && is_numbers(value));
+    let mut values = Map::new();
+    for (name, list) in lists.map(|(name, list)| (&**name, list)).chain(more) {
+        let name = name.replace('-', "_");
+        if let Some(dimension) = dimension("", &name)
+            && let Some(factor) = dimension.factor(scales)
+        {
+            values.insert(format!("{name}_{}", dimension.suffix()), times(list, factor));
+        }
+    }
+    (!values.is_empty()).then_some(Value::Object(values))
+}
+
 /// The numbers of a part with sub-parts; `None` if none has a dimension.
 fn below(name: &str, value: &Value, scales: &KnownScales) -> Option<Value> {
     match value {

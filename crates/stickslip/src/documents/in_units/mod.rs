@@ -35,7 +35,8 @@ pub struct InUnits {
     /// Scales of the conversion.
     pub scales: KnownScales,
     /// The numbers, such as `period_s`, or `samples` with its `x0_nm`; `support_velocity_nm_per_s` is v0 and
-    /// `indentation_rate_nm_per_s` N, from r and α. `lateral_force_nN` is k times the lag.
+    /// `indentation_rate_nm_per_s` N, from r and α. `lateral_force_nN` is k times the lag. `axes` has the values along the
+    /// axes of a sweep, such as `pitch_nm`.
     #[serde(flatten)]
     pub values: Map<String, Value>,
 }
@@ -48,6 +49,7 @@ impl InUnits {
         let parameters = document["parameters"].as_object().unwrap_or(&none);
         let mut values = mirror::of_parameters(parameters, scales);
         values.extend(mirror::mirror("", fields, scales));
+        values.extend(mirror::of_axes(parameters, scales).map(|axes| ("axes".into(), axes)));
         Self { scales: *scales, values }
     }
 }

@@ -269,3 +269,24 @@ fn friction_forces_and_work_come_in_nanonewtons_and_femtojoules() {
         folder.refuses(line, &words);
     }
 }
+
+/// The measured example with rows and columns exchanged: its lines have offsets, and its columns have none.
+#[test]
+fn a_transposed_image_is_reported() {
+    let folder = Folder::new("image_transposed");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/measured/area.gsf");
+    let mut image = std::fs::read(example).unwrap();
+    folder.write("area.gsf", image.clone());
+    let first = image.len() - 4 * 96 * 96;
+    let pixels = image.split_off(first);
+    for i in 0..96 * 96 {
+        let from = 4 * (96 * (i % 96) + i / 96);
+        image.extend_from_slice(&pixels[from..from + 4]);
+    }
+    folder.write("exchanged.gsf", image);
+    for (name, is_transposed) in [("area.gsf", false), ("exchanged.gsf", true)] {
+        let line = format!("fit --image {name} --tip gaussian --width 30nm --pitch 30nm");
+        let said = said(&folder.stickslip(&format!("{line} -o fit.json")));
+        assert_eq!(said.contains("seems to be transposed"), is_transposed, "{name}: {said}");
+    }
+}

@@ -41,6 +41,6 @@ pub use judge::{Verdict, judge};
 pub use profile::{MOST_ROWS, Profile, ProfileError};
 pub use ripples::{
     Lag, Lateral, LateralFound, Retrace, RippleError, RippleProfile, RippleRequest, Ripples,
-    ripples,
+    has_lines_along_y, ripples,
 };
 pub use tip::{Candidate, Fitted, MeasuredTip, Request, Sides, TipError, sides, tip};

@@ -5,6 +5,7 @@
 //! harmonics tell how far α is above that. The gain of the heights and the phase of the wave are fitted along.
 
 mod across;
+mod direction;
 mod explained;
 mod lateral;
 mod pair;
@@ -15,6 +16,7 @@ mod wave;
 
 use crate::image::{Image, ImageError};
 use crate::interval::Estimate;
+pub use direction::has_lines_along_y;
 use explained::{Known, Problem};
 use lateral::Seen;
 pub use lateral::{Lag, Lateral, LateralFound};

@@ -4,7 +4,9 @@
 use crate::noise::normal;
 use chacha20::ChaCha8Rng;
 use rand::SeedableRng;
-use stickslip_measurement::{Image, RippleError, RippleRequest, Ripples, ripples};
+use stickslip_measurement::{
+    Image, RippleError, RippleRequest, Ripples, has_lines_along_y, ripples,
+};
 use stickslip_raster::{Path, Plan, Scanned, Scanning};
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
@@ -117,7 +119,36 @@ fn alpha_and_r_follow_from_an_image_of_ripples() {
         assert!((found.r.value / made.r - 1.0).abs() < 0.05, "{all}");
         assert!((found.height_gain * SIGMA * SIGMA / GAIN - 1.0).abs() < 0.05, "{all}");
         assert_eq!([!found.forward, !found.upward], mirrored, "{all}");
+        // As measured, and levelled line by line; of plain ripples nothing is known.
+        let levelled: Vec<Vec<f64>> = image.rows().iter().map(|row| without_mean(row)).collect();
+        let levelled = Image::new(image.x().to_vec(), image.y().to_vec(), levelled).unwrap();
+        for image in [&image, &levelled] {
+            assert!(!has_lines_along_y(image) && has_lines_along_y(&transposed(image)), "{pixels}");
+        }
     }
+    let plain = plain(&mut made);
+    assert!(!has_lines_along_y(&plain) && !has_lines_along_y(&transposed(&plain)));
+}
+
+fn without_mean(row: &[f64]) -> Vec<f64> {
+    let mean = row.iter().sum::<f64>() / row.len() as f64;
+    row.iter().map(|z| z - mean).collect()
+}
+
+fn transposed(image: &Image) -> Image {
+    let columns = (0..image.x().len()).map(|i| image.rows().iter().map(|row| row[i]).collect());
+    Image::new(image.y().to_vec(), image.x().to_vec(), columns.collect()).unwrap()
+}
+
+/// The ripples without noise, tilt and offsets.
+fn plain(made: &mut Made) -> Image {
+    let at = made.window.map(|[first, last]| {
+        (0..96).map(|k| first + (last - first) * f64::from(k) / 96.0).collect::<Vec<f64>>()
+    });
+    let heights = made.scanned.heights(&at[0], &at[1]);
+    let rows = heights.outer_iter().map(|row| row.to_vec()).collect();
+    let [x, y] = at;
+    Image::new(x, y, rows).unwrap()
 }
 
 #[test]

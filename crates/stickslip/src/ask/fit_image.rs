@@ -11,7 +11,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
     Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples,
-    ripples,
+    has_lines_along_y, ripples,
 };
 use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Footprint, Wider};
@@ -222,6 +222,8 @@ const MOST: usize = 128;
 /// Largest deviation of positions from even spacing, in spacings.
 const UNEVEN: f64 = 1e-3;
 /// Warnings about assumptions.
+const TRANSPOSED: &str = "heights step from column to column, as between scan lines, and not from row to row: the image seems to be \
+                          transposed; its rows must be the scan lines";
 const ASSUMED_TIP: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
 const ASSUMED_PITCH: &str = "no pitch is given: the lines that made the ripples are assumed to be as far apart as the rows of the image; \
                              --pitch sets it";
@@ -391,10 +393,12 @@ impl Ask for FitImage {
 
     fn answer(&self, _: &Context) -> Result<(FitImageFound, Vec<String>), Failure> {
         let (image, request) = (self.heights()?, self.request()?);
+        let is_transposed = has_lines_along_y(&image);
         let refused = |error| match error {
             RippleError::Retrace(_) => Refused::whole("retrace_image", error),
             RippleError::Lateral(_) => Refused::whole("lateral_image", error),
             RippleError::Request(_) => Refused::whole("tip", error),
+            _ if is_transposed => Refused::whole("image", format!("{error}; {TRANSPOSED}")),
             _ => Refused::whole("image", error),
         };
         let found = ripples(&image, &request).map_err(refused)?;
@@ -409,6 +413,7 @@ impl Ask for FitImage {
         let answer = FitImageFound::of(&found, critical.map(|at| at.alpha), &levelled);
         let answer = self.with_unit_of_stiffness(answer);
         let assumed = [
+            is_transposed.then(|| TRANSPOSED.into()),
             self.tip.is_none().then(|| ASSUMED_TIP.into()),
             self.pitch.is_none().then(|| ASSUMED_PITCH.into()),
         ];

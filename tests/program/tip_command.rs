@@ -47,6 +47,8 @@ fn both_sides_of_a_pit_are_footprints_of_their_own() {
     assert!(said(&plain).contains("--both-sides"), "{}", said(&plain));
     let even = folder.stickslip("tip even.csv --resamples 20 -o even.json");
     assert!(!said(&even).contains("--both-sides"), "{}", said(&even));
+    let table = String::from_utf8(folder.prints("tip even.csv --resamples 5 --format csv"));
+    assert!(table.unwrap().starts_with("x_nm,f_nm,fit_nm,residual_nm\n"));
     let both = folder.stickslip("tip pit.csv --both-sides --resamples 20 -o tip.json");
     assert!(both.status.success() && !said(&both).contains("--both-sides"), "{}", said(&both));
     let (plain, tip) = (folder.json("plain.json"), folder.json("tip.json"));
@@ -89,6 +91,9 @@ fn a_raster_has_either_side_on_its_way() {
     let folder = Folder::new("tip_sides_raster");
     folder.write("pit.csv", lopsided(40.0));
     folder.prints("tip pit.csv --both-sides --resamples 0 -o tip.json");
+    // Without resampled profiles there are no intervals to warn of.
+    let remarks = folder.json("tip.json")["remarks"].to_string();
+    assert!(remarks.contains("residual") && !remarks.contains("inf"), "{remarks}");
     let lines = "--tip-file tip.json --width-y 1 --r 1 --pitch 0.7";
     for path in ["one-way", "zigzag", "one-way --retrace"] {
         let line = format!(
@@ -118,20 +123,20 @@ fn a_raster_has_either_side_on_its_way() {
     folder.prints("surface raster.json --x 1,5,9 --y 0,0.7,1.4 -o surface.json");
     folder.prints("run --tip-file tip.json --r 1 --alpha 1.8 --kick 0.1 --until 60 -o run.json");
     folder.prints("verify run.json");
-    let two = ["--tip", "equal sides"];
+    let two = ["--tip-file tip.json:", "equal sides"];
     folder.refuses(
         &format!("raster {lines} --alpha 0.5 --lines 2 --length 9 --stiffness-across 1"),
         &two,
     );
-    folder.refuses(&format!("stability {lines} --stiffness-across 1"), &["--tip", "equal sides"]);
+    folder.refuses(&format!("stability {lines} --stiffness-across 1"), &two);
     folder.refuses(
         &format!("stability {lines} --path zigzag --depth-limit 5"),
-        &["--tip", "depth limit"],
+        &["--tip-file tip.json:", "depth limit"],
     );
     folder.write("ripple.csv", "x,u\n0,0\n1,1\n2,0\n3,1\n4,0\n5,1\n6,0\n7,1\n8,0\n");
     folder.refuses(
         "fit --ripple ripple.csv --tip-file tip.json",
-        &["--tip", "sides.trace.footprint"],
+        &["--tip-file tip.json:", "sides.trace.footprint"],
     );
 }
 

@@ -67,6 +67,8 @@ fn what_is_not_of_walkers_is_refused_by_name() {
             "--walker --alpha=-3 --until 5 --stiffness-across 1",
             "--stiffness-across 1: has no meaning with --walker",
         ),
+        ("--walker --alpha=-3 --until 5 --beta 0", "--beta: is not available with --walker"),
+        ("--walker --alpha=-3 --until 5 --tip gaussian", " --tip: is not available"),
         (
             "--walker --alpha=-3 --until 5 --depth-limit 1",
             "--depth-limit 1: has no meaning with --walker",

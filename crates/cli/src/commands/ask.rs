@@ -58,17 +58,23 @@ pub(crate) fn option(parameter: &str) -> String {
 /// option of a footprint.
 pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[Named]) -> Failure {
     let documents::Failure::Refused(refused) = &failure else { return failure.into() };
-    if let (Some(beta), None, "tip") = (tip.beta, &tip.tip_file, &*refused.parameter) {
-        return Failure::input(format!("--beta {}", Typed(beta)), refused.reason(option));
-    }
-    let named = match &*refused.parameter {
-        "tip" => "--tip-file".into(),
-        parameter => option(parameter),
+    let option = |parameter: &str| match parameter {
+        "tip" if tip.tip_file.is_some() => "--tip-file".into(),
+        "tip" if tip.beta.is_some() => "--beta".into(),
+        _ => option(parameter),
     };
-    match files.iter().find_map(|(option, path)| path.filter(|_| *option == named)) {
-        Some(path) => Failure::input(format!("{named} {}", path.display()), refused.reason(option)),
-        None => failure.into(),
-    }
+    let named = option(&refused.parameter);
+    let file = match &*named {
+        "--tip-file" => tip.tip_file.as_deref(),
+        _ => files.iter().find_map(|(option, path)| path.filter(|_| *option == named)),
+    };
+    let beta = tip.beta.filter(|_| named == "--beta" && refused.value.is_none());
+    let named = match (file, beta) {
+        (Some(path), _) => format!("{named} {}", path.display()),
+        (None, Some(beta)) => format!("{named} {}", Typed(beta)),
+        (None, None) => refused.named(option),
+    };
+    Failure::input(named, refused.reason(option))
 }
 
 impl<Q: Questions> Options<Q> {
@@ -156,12 +162,14 @@ pub(crate) fn answered<Q: Ask>(
     session: &Session,
     question: Q,
     place: &AnswerArguments,
-    tip_file: Option<&Path>,
+    tip: &TipArguments,
 ) -> Result<Document<Q>, Failure> {
     let context = context(session);
-    let question = question.resolved(&context)?;
+    let refused = |failure| refusal(failure, tip, &[]);
+    let question = question.resolved(&context).map_err(refused)?;
+    let tip_file = tip.tip_file.as_deref();
     let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
-    Ok(question.answered(&context)?.in_units(scales.as_ref()))
+    Ok(question.answered(&context).map_err(refused)?.in_units(scales.as_ref()))
 }
 
 /// Answers a question, writes and draws the answer, and prints a summary.
@@ -172,16 +180,18 @@ pub(crate) fn answer<Q: Ask>(
     session: &Session,
     question: Q,
     place: &AnswerArguments,
-    tip_file: Option<&Path>,
+    tip: &TipArguments,
 ) -> Result<(), Failure>
 where
     Document<Q>: Product + Drawn,
 {
     let context = context(session);
-    let question = question.resolved(&context)?;
+    let refused = |failure| refusal(failure, tip, &[]);
+    let question = question.resolved(&context).map_err(refused)?;
+    let tip_file = tip.tip_file.as_deref();
     let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
     let job = Job::open(session, Q::FORMAT, &place.outlet, place.plot.as_deref())?;
-    job.finish(question.answered(&context)?.in_units(scales.as_ref()))
+    job.finish(question.answered(&context).map_err(refused)?.in_units(scales.as_ref()))
 }
 
 /// Answers the question with these values of options; `chosen_by` is the option that selects this question.
@@ -200,7 +210,7 @@ where
 {
     refuse_strangers::<Q, K>(options, &values, chosen_by)?;
     let question: Q = parameter::question(values)?;
-    answer(session, question, place, options.tip.tip_file.as_deref())
+    answer(session, question, place, &options.tip)
 }
 
 /// Rejects options that do not belong to `Q`; `chosen_by` is the option that selects this question.

@@ -71,7 +71,7 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
     let question: Boundary = parameter::question(values)?;
     let job = Job::open(session, BoundaryDocument::FORMAT, &answer.outlet, answer.plot.as_deref())?;
     let plot_onset = Figure::asked("--plot-onset", plot_onset.as_deref())?;
-    let document = answered(session, question, answer, options.tip.tip_file.as_deref())?;
+    let document = answered(session, question, answer, &options.tip)?;
     if let Some(figure) = plot_onset {
         let onset = stickslip_figures::onset_of(&document, &View::default())
             .map_err(|error| undrawn(&error))?;

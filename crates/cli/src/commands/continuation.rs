@@ -1,6 +1,6 @@
 //! `stickslip continue`.
 
-use super::ask::context_cancelled_by;
+use super::ask::{context_cancelled_by, refusal};
 use super::cycle::{read_cycle, values};
 use super::in_units::scales;
 use super::job::{Job, judge_places};
@@ -25,14 +25,15 @@ pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result
     }
     let interrupt = Interrupt::listen(session)?;
     let context = context_cancelled_by(session, Arc::clone(interrupt.flag()));
-    let question = question.resolved(&context)?;
+    let refused = |failure| refusal(failure, &options.tip, &[]);
+    let question = question.resolved(&context).map_err(refused)?;
     let scales = scales(session, &place.in_units, tip_file.1, question.support_velocity())?;
     let job = Job::open(session, ContinueDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let found = question.answered(&context);
     let signal = interrupt.signal();
     let document = match (found, signal) {
         (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
-        (found, _) => found?,
+        (found, _) => found.map_err(refused)?,
     };
     // What is complete can be computed again: from here on a first signal ends the program at once.
     let _keeps = signal.map(|_| interrupt);

@@ -22,7 +22,7 @@ pub(crate) fn cycle(session: &Session, arguments: &CycleArguments) -> Result<(),
     let question: Cycle = parameter::question(values)?;
     let start = start.as_ref().map(|(path, document)| again(path, document)).transpose()?;
     let question = Cycle { start: start.and_then(|again| again.start), ..question };
-    answer(session, question, place, tip_file.1)
+    answer(session, question, place, &options.tip)
 }
 
 /// An initial cycle, and its file.

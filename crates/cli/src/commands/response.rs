@@ -20,6 +20,7 @@ pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Resu
     }
     let question: Response = parameter::question(values)?;
     // A pulse before the samples is felt in them.
-    warn_of_idle_pulses(session, pulse, &pulses, (f64::NEG_INFINITY, question.until));
-    answer(session, question, place, options.tip.tip_file.as_deref())
+    let span = (f64::NEG_INFINITY, question.until);
+    warn_of_idle_pulses(session, pulse, &pulses, span);
+    answer(session, question, place, &options.tip)
 }

@@ -3,6 +3,7 @@
 pub(crate) mod divided;
 pub(crate) mod merge;
 
+use super::ask::refusal;
 use super::finished::{Finished, Part, Parts};
 use super::job::{Job, judge_places};
 use super::progress::Progress;
@@ -56,7 +57,9 @@ pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(),
     values.insert("width".into(), json!(arguments.width.as_ref().map(Range::values)));
     values.insert("beta".into(), json!(arguments.beta.as_ref().map(Range::values)));
     let question = parameter::question::<Sweep>(values)?;
-    let grid = Sweep { shard: work.shard.map(Into::into), ..question }.grid()?;
+    let grid = Sweep { shard: work.shard.map(Into::into), ..question }.grid();
+    let footprint = TipArguments { tip_file: tip_file.clone(), ..TipArguments::default() };
+    let grid = grid.map_err(|failure| refusal(failure, &footprint, &[]))?;
     if plot.is_some() {
         // Before hours of work.
         judge_sweep(&grid).map_err(|error| Failure::input("--plot", error))?;
@@ -71,7 +74,9 @@ fn raster(session: &Session, arguments: &RasterSweepArguments) -> Result<(), Fai
     place.judge(&options.files())?;
     let question = parameter::question::<RasterSweep>(options.values(session)?)?;
     let question = RasterSweep { shard: work.shard.map(Into::into), ..question };
-    let grid = question.resolved(&Context::default())?;
+    let grid = question
+        .resolved(&Context::default())
+        .map_err(|failure| refusal(failure, &options.tip, &[]))?;
     place.answer(grid, options.tip.tip_file.as_deref())
 }
 

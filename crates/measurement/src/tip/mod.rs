@@ -310,7 +310,8 @@ impl MeasuredTip {
             ));
         }
         let relative = self.critical_alpha.relative();
-        if relative > WIDE {
+        // Without resampled profiles there is no interval.
+        if relative > WIDE && relative.is_finite() {
             remarks.push(format!(
                 "the profile determines the critical alpha only to ±{:.0} %: more rows, or less noise, would help",
                 100.0 * relative

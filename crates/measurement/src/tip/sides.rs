@@ -129,11 +129,11 @@ impl Sides {
         let mut remarks = vec![];
         if apart > 3.0 * noise {
             remarks.push(format!(
-                "the halves have different heights at the apex, {:.3e} and {:.3e}: give the centre, or look at the profile",
+                "the halves have different heights at the apex, {:.3e} and {:.3e}: give the centre, or check the profile",
                 forward.apex, backward.apex
             ));
         }
-        let named = [("forward", forward), ("backward", backward)];
+        let named = [("trace", forward), ("retrace", backward)];
         remarks.extend(named.into_iter().flat_map(|(name, half)| {
             half.remarks().into_iter().map(move |remark| format!("{name}: {remark}"))
         }));

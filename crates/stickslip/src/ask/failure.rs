@@ -55,7 +55,11 @@ impl Refused {
             return each.collect::<Vec<String>>().join(" ");
         }
         let values = values.iter().map(|value| format!(" {value}"));
-        names.join(" and ") + &values.collect::<String>()
+        let listed = match names.as_slice() {
+            [before @ .., last] if before.len() > 1 => format!("{} and {last}", before.join(", ")),
+            names => names.join(" and "),
+        };
+        listed + &values.collect::<String>()
     }
 
     /// The reason, with names of parameters written by `name`.

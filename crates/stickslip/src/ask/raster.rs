@@ -205,7 +205,7 @@ impl Raster {
             }
             (_, Some(pitch)) => pitch,
             (_, None) => {
-                return Err(Refused::whole("pitch", "give the distance of the lines, {pitch}"));
+                return Err(Refused::whole("pitch", "is needed: the distance of the lines"));
             }
         };
         Ok(Area::Rectangle { pitch, lines: self.lines, length: self.length })

@@ -124,9 +124,7 @@ impl RasterStability {
             (PathName::Repeat, None) => 1e6,
             (_, Some(pitch)) => pitch,
             (_, None) => {
-                return Err(
-                    Refused::whole("pitch", "give the distance of the lines, {pitch}").into()
-                );
+                return Err(Refused::whole("pitch", "is needed: the distance of the lines").into());
             }
         };
         let left = left(self.length, &law, self.r)?;

@@ -50,9 +50,12 @@ pub(super) fn run(
 
 /// Rejects options that are not available for a walker.
 fn judge(arguments: &RunArguments, format: RunFormat) -> Result<(), Failure> {
-    let disturbance = &arguments.disturbance;
+    let (disturbance, tip) = (&arguments.disturbance, &arguments.options.tip);
     let unavailable = [
-        ("--tip, --beta, --width and --tip-file", arguments.options.tip.is_given()),
+        ("--tip", tip.tip.is_some()),
+        ("--beta", tip.beta.is_some()),
+        ("--width", tip.width.is_some()),
+        ("--tip-file", tip.tip_file.is_some()),
         ("--noise", disturbance.noise.is_some()),
         ("--initial-surface", disturbance.initial_surface.is_some()),
         ("--force-file", disturbance.force_file.is_some()),

@@ -107,7 +107,7 @@ fn every_memory_goes_on_to_the_last_bit() {
     }
 }
 
-/// What a run keeps, in words of its state, is bounded: on slips, on a tip that creeps for ever, and on one
+/// What a run keeps, in words of its state, is bounded: on slips, on a tip that creeps indefinitely, and on one
 /// that does nothing at all. (crates/tip/tests/tip/fft_bounded.rs has the same of the density of `fft`.)
 #[test]
 fn what_a_run_keeps_does_not_grow() {

@@ -50,7 +50,7 @@ pub(crate) enum Failure {
         message: String,
     },
     /// Stopped by a signal, after writing the partial result. Status 128 + signal.
-    #[error("interrupted: the result contains what was computed so far")]
+    #[error("interrupted: the result contains the part computed so far")]
     Interrupted(u8),
     /// Stopped by a signal before there was a result. Status 128 + signal.
     #[error("interrupted: nothing was written")]

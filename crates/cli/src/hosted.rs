@@ -74,7 +74,7 @@ pub fn runs(
         let session = Session::of(own);
         let (cli, line) = parse(&session, words.iter().map(String::as_str))?;
         let Command::Run(arguments) = &cli.command else {
-            return Err(Refusal::Input("several commands at once are runs".into()));
+            return Err(Refusal::Input("only runs can be computed together".into()));
         };
         many::order_of(&session, arguments).map_err(|failure| line.restored(failure).into())
     };

@@ -76,7 +76,7 @@ fn after_a_while(signal: u8) -> Option<Failure> {
     let failure = farewell.as_ref().map(|tell| tell(signal));
     if failure.is_none() {
         say(format_args!(
-            "stickslip: interrupted: saving what was computed so far; a second signal ends the program at once"
+            "stickslip: interrupted: saving the part computed so far; a second signal ends the program immediately"
         ));
     }
     failure

@@ -42,8 +42,12 @@ impl Tried {
 impl Ended {
     pub(super) fn told(ended: Option<Self>) -> &'static str {
         match ended {
-            Some(Self::Repeating) => "in stick-slip that no cycle near it closes",
-            Some(Self::Stuck) => "stuck: trapped for ever, or for longer than they last",
+            Some(Self::Repeating) => {
+                "in a periodic motion, but Newton's method found no cycle near it"
+            }
+            Some(Self::Stuck) => {
+                "with the tip sticking: trapped, or the next slip comes after their end"
+            }
             Some(Self::Unsettled) | None => "without having settled",
         }
     }

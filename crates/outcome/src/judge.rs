@@ -149,7 +149,7 @@ impl End<'_> {
     /// Classifies a tip that hardly moves: trapped, or the time until it slips.
     fn stuck(&self) -> Option<Outcome> {
         let Scenario { model, tolerance, .. } = self.scenario;
-        // Under a depth limit, or where the surface heals, no tip is held for ever.
+        // Under a depth limit, or where the surface heals, no tip is trapped.
         if !model.wider().traps() {
             return None;
         }

@@ -83,10 +83,9 @@ impl fmt::Display for Remark {
                 out,
                 "onset is subcritical: a larger disturbance than this may lead to an oscillation"
             ),
-            Self::TrappedToo => write!(
-                out,
-                "the tip may also be trapped here for ever: the start decides which is reached"
-            ),
+            Self::TrappedToo => {
+                write!(out, "the tip may also be trapped here: the start decides which is reached")
+            }
             Self::SlipsAfter { time } => {
                 write!(out, "the tip is stuck, and slips again after about {time:.2e}")
             }

@@ -46,8 +46,8 @@ impl Brief for Command {
         let more = match (count, few.len() < all.len()) {
             (0, false) => String::new(),
             (0, true) => "More examples: --help".into(),
-            (1, _) => "One more option, and all there is to say of each: --help".into(),
-            _ => format!("{count} more options, and all there is to say of each: --help"),
+            (1, _) => "One more option, with full descriptions: --help".into(),
+            _ => format!("{count} more options, with full descriptions: --help"),
         };
         let shortened = |argument: Arg| {
             let is_rare = is_rare(&argument);

@@ -37,8 +37,8 @@ pub(crate) struct DisturbanceArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) initial_surface: Option<PathBuf>,
 
-    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable. A pulse before the start or after the end
-    /// causes a warning.
+    /// External force A exp(-(t-T)²/(2 W²)) on the tip, in kσ; repeatable. A pulse that begins before the start,
+    /// or comes after the end, causes a warning.
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 

@@ -45,5 +45,5 @@ const EXAMPLES: &str = "Examples:
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --stiffness-across 0.5
   Another pass over the same line:
     stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv
-  A tip that walks by itself, over waves of its own that fade: its speed, and whether it keeps it:
+  A tip that walks without a spring, over a healing surface: its speed, and whether it is stable:
     stickslip stability --no-spring --tip bessel --alpha=-3 --healing-time 1";

@@ -117,9 +117,9 @@ const EXAMPLES: &str = "Examples:
     stickslip sweep --r 1 --alpha 1.07:2:100 -o amplitude.json --plot amplitude.svg
   A phase diagram, and where steady motion ends in it:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json --plot map.png
-  With a depth limit no tip is held for ever:
+  With a depth limit no tip is trapped:
     stickslip sweep --beta 0 --r 1 --alpha 2:12:51 --depth-limit 5 -o limited.json --plot limited.svg
-  A hundred runs from noise of their own, and what they have in common:
+  A hundred runs, each from its own noise, and their statistics:
     stickslip sweep --alpha 1.2 --r 1 --noise 1e-3 --seed 1:100:100 --until 200 -o ensemble.json
   A phase diagram on four machines:
     stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 -o part-1.json

@@ -157,7 +157,7 @@ impl Given {
         ];
         match unused.iter().find(|(_, is_unused, _)| *is_unused) {
             Some((option, _, needs)) => {
-                Err(Failure::input(*option, format!("gives no scale by itself: it needs {needs}")))
+                Err(Failure::input(*option, format!("gives no scale alone: it needs {needs}")))
             }
             None => Ok(scales),
         }

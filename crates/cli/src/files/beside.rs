@@ -85,10 +85,7 @@ pub(crate) fn has_other_names(_: &File) -> io::Result<bool> {
 }
 
 fn foreign(path: &Path) -> io::Error {
-    let message = format!(
-        "{} is in the way, which this program did not make: give that another name",
-        path.display()
-    );
+    let message = format!("{} exists and was not written by stickslip: rename it", path.display());
     io::Error::new(ErrorKind::AlreadyExists, message)
 }
 

@@ -33,8 +33,8 @@ pub(super) fn in_model_units(
         let factor = Dimension::of_unit(multiple).and_then(|of| of.factor(scales?));
         let factor = factor.ok_or_else(|| {
             format!(
-                "the heading `{}` has a unit, and what {multiple} is in it is not known: give --units, or --sigma \
-                 and what goes with it; or the column in {multiple}, without a unit in its heading",
+                "the heading `{}` has a unit, but {multiple} is not known in it: give --units, or --sigma and \
+                 the other scales; or the column in {multiple}, without a unit in its heading",
                 heading.text()
             )
         })?;

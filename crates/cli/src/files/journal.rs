@@ -75,7 +75,7 @@ fn verified(mut file: &File, mark: Mark) -> io::Result<Hasher> {
     if (Mark { bytes, crc32: hasher.clone().finalize() }) == mark {
         return Ok(hasher);
     }
-    let message = "it does not begin with what was there at the checkpoint";
+    let message = "its beginning differs from that at the checkpoint";
     Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 

@@ -240,7 +240,8 @@ impl<R: BufRead> Lines<R> {
         if reached && (early..=until + slack).contains(&end.end) {
             return Ok(());
         }
-        let message = format!("it says that the run ended at t = {}, which it did not", end.end);
+        let message =
+            format!("its last line gives the end t = {}, which its samples do not reach", end.end);
         Err(self.damaged(message))
     }
 }

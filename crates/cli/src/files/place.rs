@@ -75,7 +75,7 @@ pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
     }
     let advice = "choose a place that exists and can be written to";
     let said = match error.kind() {
-        ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be made there".into(),
+        ErrorKind::NotFound if folder_of(path).is_dir() => "no file can be created there".into(),
         ErrorKind::NotFound => "there is no such folder".into(),
         ErrorKind::NotConnected => {
             let message = "nobody reads from this pipe: start its reader first";

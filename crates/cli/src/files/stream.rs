@@ -146,9 +146,9 @@ impl Stream {
 
     fn failed(&self, error: io::Error) -> Failure {
         match &self.sink {
-            Sink::Stdout(_) if error.kind() == io::ErrorKind::BrokenPipe => Failure::Run(
-                "standard output was closed before the end: what follows is lost".into(),
-            ),
+            Sink::Stdout(_) if error.kind() == io::ErrorKind::BrokenPipe => {
+                Failure::Run("standard output was closed before the end: the rest is lost".into())
+            }
             Sink::Stdout(_) => Failure::Write { target: "standard output".into(), error },
             Sink::Special(path, _) => Failure::Write { target: path.display().to_string(), error },
             Sink::Part(part) => Failure::Write { target: part.part.display().to_string(), error },

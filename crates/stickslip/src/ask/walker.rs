@@ -264,10 +264,7 @@ impl Walker {
 
     fn judge(&self) -> Result<(), Refused> {
         if !self.walker {
-            return Err(Refused::whole(
-                "walker",
-                "is what this question is about: true, or left out",
-            ));
+            return Err(Refused::whole("walker", "must be true, or left out"));
         }
         if self.start == Some(StartName::Paper) {
             return Err(Refused::whole("start", "a walker starts steady or flat"));

@@ -60,7 +60,7 @@ impl MemoryReport {
     /// Reason for the choice of `auto`.
     fn crossover(&self) -> Option<String> {
         let many = format!(
-            "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps were to be looked through"
+            "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps had to be searched"
         );
         Some(match &self.sum {
             Sum::Direct => {

@@ -279,7 +279,7 @@ impl Scenario {
         let endless = *self.model.tip() == TipFunction::Cosine && wider.healing_time.is_none();
         if self.start == Start::Steady && endless {
             return Err(RunError::NoSteadyStart(
-                "the tip cosine goes on for ever, and so does what it left in steady motion: start on a flat surface, or let the surface heal",
+                "the footprint cosine does not decay, so that the groove of steady motion diverges: start on a flat surface, or let the surface heal",
             ));
         }
         Ok(())

@@ -41,10 +41,9 @@ impl<R: Motion> Integration<R> {
         let step = stop::where_asked_by(self.interrupt.flag(), || self.running.step());
         step.map_err(|error| match self.record.keep_part() {
             None => Failure::Run(error.to_string()),
-            Some(part) => Failure::Run(format!(
-                "{error}; what was written until then is in {}",
-                part.display()
-            )),
+            Some(part) => {
+                Failure::Run(format!("{error}; the part written so far is in {}", part.display()))
+            }
         })
     }
 

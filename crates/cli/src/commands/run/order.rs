@@ -77,7 +77,7 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     }
     if order.scales.is_some() {
         return Err(Failure::input(
-            "--units, --sigma and what goes with it",
+            "--units, --sigma and the other scales",
             "apply to tables and documents, and .jsonl is written during the run: write it to a .json, .csv or .npz",
         ));
     }

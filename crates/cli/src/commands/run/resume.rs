@@ -126,7 +126,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
     order.plot = match (given, order.plot.take()) {
         (_, Some(held)) => Some(place("--plot", given, &held)?),
         (Some(path), None) => {
-            let message = "the run was started without a picture, and may lack what one needs";
+            let message = "the run was started without a picture, and may lack the data for one";
             return Err(Failure::input(format!("--plot {}", path.display()), message));
         }
         (None, None) => None,

@@ -57,7 +57,7 @@ impl Product for ContinueDocument {
                 summary.row(name(special.kind), format!("{place}, branch {}", special.branch));
         }
         summary
-            .maybe("trapped for ever at", self.trapping.map(|value| digits(value, 7)))
+            .maybe("trapping threshold", self.trapping.map(|value| digits(value, 7)))
             .remarks(&self.remarks)
             .next(again("-o branches.json --plot branches.svg"))
     }

@@ -47,10 +47,7 @@ impl Product for StabilityDocument {
                 critical.map(|at| format!("{} σ", digits(at.wavelength, CRITICAL))),
             )
             .maybe("onset", self.onset.as_ref().map(|onset| criticality(onset.criticality).into()))
-            .maybe(
-                "trapped for ever from",
-                self.trapping.alpha.map(|a| format!("α = {}", digits(a, 7))),
-            );
+            .maybe("trapped from", self.trapping.alpha.map(|a| format!("α = {}", digits(a, 7))));
         let summary = match snaking {
             Some(snaking) => across(summary, snaking),
             None => summary,

@@ -178,7 +178,13 @@ fn onsets_give_alpha_per_load_and_r_per_velocity() {
     let units = ["1/nN", "s/um"];
     assert_eq!([0, 1].map(|i| fit["numbers"][i]["unit"].as_str().unwrap()), units);
     let picture = String::from_utf8(folder.read("fit.svg")).unwrap();
-    for label in ["velocity (um/s)", "load at onset (nN)", "α/load (1/nN)", "r/velocity (s/um)"] {
+    for label in [
+        "velocity (um/s)",
+        "load at onset (nN)",
+        "α/load (1/nN)",
+        "r/velocity (s/um)",
+        "data − model (nN)",
+    ] {
         assert!(picture.contains(label), "{label}");
     }
     assert!(!picture.contains("unit of the data"));

@@ -49,6 +49,8 @@ fn both_sides_of_a_pit_are_footprints_of_their_own() {
     assert!(!said(&even).contains("--both-sides"), "{}", said(&even));
     let table = String::from_utf8(folder.prints("tip even.csv --resamples 5 --format csv"));
     assert!(table.unwrap().starts_with("x_nm,f_nm,fit_nm,residual_nm\n"));
+    folder.prints("tip even.csv --resamples 5 -o short.json --plot tip.svg");
+    assert!(String::from_utf8(folder.read("tip.svg")).unwrap().contains("data − fit (nm)"));
     let both = folder.stickslip("tip pit.csv --both-sides --resamples 20 -o tip.json");
     assert!(both.status.success() && !said(&both).contains("--both-sides"), "{}", said(&both));
     let (plain, tip) = (folder.json("plain.json"), folder.json("tip.json"));

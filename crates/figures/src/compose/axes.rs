@@ -51,6 +51,12 @@ pub(super) fn labelled(name: &str, unit: Option<&str>) -> String {
     format!("{name} ({})", unit.unwrap_or("unit of the data"))
 }
 
+/// The label of measured numbers minus those of a curve, with their unit, if it is known.
+pub(super) fn residual(of: &str, unit: Option<&str>) -> String {
+    let unit = unit.map(|unit| format!(" ({unit})")).unwrap_or_default();
+    format!("data − {of}{unit}")
+}
+
 /// The lowest and the highest height away from the ends of the lines.
 pub(super) fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
     let (low, high) = (map.x.first()?, map.x.last()?);

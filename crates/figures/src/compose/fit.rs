@@ -1,6 +1,6 @@
 //! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
-use super::axes::labelled;
+use super::axes::{labelled, residual};
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
@@ -101,7 +101,8 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
         CurveDocument::new(style, if i == 0 { "model" } else { "" }, &x, &model)
     }));
     let left: Vec<f64> = data.y.iter().zip(&data.model).map(|(y, model)| y - model).collect();
-    let mut below = PanelDocument::new("", (&x, "data − model"));
+    let difference = residual("model", data.y_unit.as_deref());
+    let mut below = PanelDocument::new("", (&x, &difference));
     below.curves = vec![CurveDocument::new(StyleName::Points, "", &data.x, &left)];
     [above, below]
 }

@@ -1,6 +1,6 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
-use super::axes::labelled;
+use super::axes::{labelled, residual};
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
@@ -45,7 +45,8 @@ impl Drawn for MeasuredTipDocument {
             CurveDocument::new(StyleName::Dashed, "ground", &along, &ground),
             CurveDocument::new(StyleName::Line, "fit", &along, &fit),
         ];
-        let mut rest = PanelDocument::new("", (&x_label, "data − fit"));
+        let difference = residual("fit", self.parameters.height_unit.as_deref());
+        let mut rest = PanelDocument::new("", (&x_label, &difference));
         let mut noise = CurveDocument::new(
             StyleName::Band,
             "noise from row to row",
@@ -73,14 +74,36 @@ fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
     tip.ground(x) + tip.apex * f
 }
 
+/// Relative half width of an interval below which it is that of round-off.
+const ROUND_OFF: f64 = 1e-12;
+
 /// A value with its error, such as "1.88 ± 0.02".
 pub(super) fn with_error(estimate: &EstimateDocument) -> String {
     let (Some(low), Some(high)) = (estimate.low, estimate.high) else {
         return short(estimate.value);
     };
     let half = 0.5 * (high - low);
-    if half <= 0.0 {
+    // Data without noise have intervals of round-off.
+    if half <= ROUND_OFF * estimate.value.abs() {
         return short(estimate.value);
     }
     plus_minus(estimate.value, half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_of_round_off_is_no_error() {
+        let said = |half: f64| {
+            let value = 5.0025;
+            with_error(&EstimateDocument {
+                value,
+                low: Some(value - half),
+                high: Some(value + half),
+            })
+        };
+        assert_eq!([said(0.02), said(1e-15), said(0.0)], ["5.003 ± 0.020", "5.0025", "5.0025"]);
+    }
 }

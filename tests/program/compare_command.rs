@@ -181,3 +181,19 @@ fn an_interrupted_comparison_writes_nothing() {
         assert!(folder.names().is_empty(), "{:?}", folder.names());
     }
 }
+
+/// The samples of one run are those of the grid; rasters have them where they are requested.
+#[test]
+fn samples_that_are_not_taken_are_warned_of() {
+    let folder = Folder::new("compare_samples");
+    for (line, warns) in [
+        ("--until 17 --sample-every 0.5", true),
+        ("--until 17 --sample-at 16.5", true),
+        ("--until 17", false),
+        ("--pitch 0.5 --lines 2 --length 5 --sample-every 0.5", false),
+    ] {
+        let line = format!("compare --tip gaussian --alpha 0.5 --r 1 {line} -o out.json");
+        let said = said(&folder.stickslip(&line));
+        assert_eq!(said.contains("has no effect on one run"), warns, "{line}: {said}");
+    }
+}

@@ -77,9 +77,9 @@ fn it_is_written_drawn_and_taken_up_again() {
     for (line, words) in [
         (GRID.replace("0.5:1:2", "0:1:2"), ["--pitch 0", "above 0"]),
         (format!("{GRID} --path repeat"), ["--path repeat", "pitch"]),
-        (GRID.replace("--lines 50", "--lines 0"), ["--pitch", "between 1"]),
+        (GRID.replace("--lines 50", "--lines 0"), ["--lines 0", "between 1"]),
         (GRID.replace("0.3:0.9:3", "0.3:0.9:200000"), ["--alpha", "at most"]),
-        (format!("{GRID} --no-spring"), ["--pitch", "spring"]),
+        (format!("{GRID} --no-spring"), ["--no-spring:", "no support"]),
     ] {
         folder.refuses(&line, &words);
     }

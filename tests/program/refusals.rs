@@ -333,3 +333,45 @@ fn no_file_is_written_over_another_of_the_same_command() {
         folder.prints(&format!("{run} --format json -o /dev/null --verify"));
     }
 }
+
+/// The option at fault is named, not the one that was read first; what has no effect is refused.
+#[test]
+fn refusals_name_the_option_at_fault() {
+    let folder = Folder::new("at_fault");
+    folder.write("ripple.csv", "x_nm,z_nm\n0,0\n1,1\n2,0\n3,1\n4,0\n5,1\n6,0\n7,1\n8,0\n");
+    folder.write("pit.csv", (0..40).map(|i| format!("{i},{}\n", i % 3)).collect::<String>());
+    let rasters = "sweep raster --tip gaussian --r 1";
+    for (line, words) in [
+        ("stability --r 1 --depth-limit -1", ["--depth-limit -1:", "above 0, from 1e-100"]),
+        ("stability --r 1 --inertia 1e300", ["--inertia 1e300:", "to 1e100"]),
+        ("boundary --load 1nN --load-range 1nN:2nN --r-range 1:2:3", ["--alpha:", "load --load;"]),
+        (
+            &format!("{rasters} --pitch 0.5 --alpha 0.3 --lines 4 --length -1"),
+            ["--length -1:", "above 0"],
+        ),
+        (
+            &format!("{rasters} --pitch 0.5 --alpha 0.3 --lines 0 --length 9"),
+            ["--lines 0:", "1 and"],
+        ),
+        (
+            &format!("{rasters} --pitch 0.5 --alpha 0.3 --lines 4 --length 9 --tolerance 1"),
+            ["--tolerance 1:", "1e-13"],
+        ),
+        (
+            &format!("{rasters} --pitch 0.5 --alpha 0.3 --lines 4 --length 9 --healing-time 0"),
+            ["--healing-time 0:", "above 0"],
+        ),
+        (
+            &format!("{rasters} --pitch 0 --alpha 0.3 --lines 4 --length 9"),
+            ["--pitch 0:", "above 0"],
+        ),
+        ("tip pit.csv --centre nan", ["--centre NaN:", "finite"]),
+        ("fit --ripple ripple.csv --width inf", ["--width inf:", "finite"]),
+        ("fit --ripple ripple.csv --height-gain 0", ["--height-gain 0:", "above 0"]),
+        ("fit --ripple ripple.csv --force-gain 1", ["--force-gain:", "without --friction"]),
+        ("fit --ripple ripple.csv --pitch 30nm", ["--pitch:", "without --image"]),
+        ("fit --ripple ripple.csv --lateral-image a.gsf", ["--lateral-image:", "without --image"]),
+    ] {
+        folder.refuses(line, &words);
+    }
+}

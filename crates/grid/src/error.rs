@@ -70,7 +70,7 @@ pub enum GridError {
         x0: f64,
     },
     /// No step is small enough: the motion is not finite, or too stiff for an explicit method.
-    #[error("the step size fell to {step:e} at t = {time}: loosen the tolerance")]
+    #[error("the step size fell to {step:.1e} at t = {time}: loosen the tolerance")]
     StepTooSmall {
         /// Time t.
         time: f64,

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum RasterError {
     /// An invalid pitch.
     #[error(
-        "the pitch must be a finite number above 0, and at least {least:.1e} for a footprint that reaches {reach:.3} across, not {pitch:?}"
+        "the pitch must be a finite number above 0, and at least {least:.1e} for a footprint that reaches {reach:.3e} across, not {pitch:?}"
     )]
     Pitch {
         /// The value as given.

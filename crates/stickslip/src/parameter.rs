@@ -286,7 +286,12 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
         if values.get("no_spring") == Some(&Value::Bool(true)) {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
-        let meaning = property.description.trim_end_matches('.');
+        let meaning = property.description.trim_end_matches('.').to_owned();
+        // Other parameters in it are named in the style of the interface.
+        let named = |text: String, name: &String| {
+            text.replace(&format!("`{name}`"), &format!("{{{name}}}"))
+        };
+        let meaning = properties.keys().fold(meaning, named);
         return Err(Refused::whole(name.clone(), format!("is needed: {meaning}")));
     }
     serde_json::from_value(Value::Object(values.clone())).map_err(|error| {

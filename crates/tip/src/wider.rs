@@ -28,16 +28,23 @@ pub struct Wider {
 /// A parameter of the extended model is out of range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum WiderError {
-    /// b must be finite and > 0.
+    /// b must be from 1e-100 to 1e100.
     #[error(
-        "the depth limit b (61) must be a finite number above 0, not {0:?}; leave it out for none"
+        "the depth limit b (61) must be above 0, from {min:e} to {max:e}, not {0:?}; leave it out for none",
+        min = RANGE.0, max = RANGE.1
     )]
     DepthLimit(f64),
-    /// T must be finite and > 0.
-    #[error("the healing time must be a finite number above 0, not {0:?}; leave it out for none")]
+    /// T must be from 1e-100 to 1e100.
+    #[error(
+        "the healing time must be above 0, from {min:e} to {max:e}, not {0:?}; leave it out for none",
+        min = RANGE.0, max = RANGE.1
+    )]
     HealingTime(f64),
-    /// M must be finite and > 0.
-    #[error("the inertia must be a finite number above 0, not {0:?}; leave it out for none")]
+    /// M must be from 1e-100 to 1e100.
+    #[error(
+        "the inertia must be above 0, from {min:e} to {max:e}, not {0:?}; leave it out for none",
+        min = RANGE.0, max = RANGE.1
+    )]
     Inertia(f64),
 }
 

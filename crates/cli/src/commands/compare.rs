@@ -7,7 +7,7 @@ mod pace;
 mod plane;
 mod raster;
 
-use super::ask::{context, refusal, refuse_strangers};
+use super::ask::{context, option, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
 use super::run::disturbance::{disturbed, files_read, warn_of_idle};
 use crate::arguments::CompareArguments;
@@ -82,6 +82,14 @@ impl<'a> Asked<'a> {
         scales: Option<&KnownScales>,
     ) -> Result<Self, Failure> {
         let (question, whole) = run_of(session, arguments, values, scales)?;
+        for name in ["sample_every", "sample_at"] {
+            if arguments.options.has(name) {
+                session.remark(format_args!(
+                    "stickslip: {} has no effect on one run: its samples are at the steps of the grid",
+                    option(name)
+                ));
+            }
+        }
         let scenario = whole.along();
         let span = (scenario.start_time(), scenario.until);
         warn_of_idle(session, &arguments.disturbance, &question, span);

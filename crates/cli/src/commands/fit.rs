@@ -6,7 +6,7 @@ use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
 use super::tip::in_unit;
 use crate::arguments::FitArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, ratio, read_measured};
 use crate::files::sheet::Sheet;
@@ -18,6 +18,7 @@ use stickslip_units::Unit;
 
 pub(crate) fn fit(session: &Session, arguments: &FitArguments) -> Result<(), Failure> {
     let FitArguments { options, outlet, plot, .. } = arguments;
+    judge(arguments)?;
     if let Some(path) = &arguments.image {
         return fit_image(session, arguments, path);
     }
@@ -36,6 +37,32 @@ pub(crate) fn fit(session: &Session, arguments: &FitArguments) -> Result<(), Fai
         other => refusal(other, &options.tip, &[]),
     };
     job.finish(question.ask(&context(session)).map_err(refused)?)
+}
+
+/// Rejects gains out of range, and options of data that are not given.
+fn judge(arguments: &FitArguments) -> Result<(), Failure> {
+    let FitArguments { height_gain, force_gain, .. } = arguments;
+    let (has_image, has_lateral) = (arguments.image.is_some(), arguments.lateral_image.is_some());
+    let has_forces = has_lateral || !arguments.friction.is_empty();
+    for (option, gain) in [("--height-gain", height_gain), ("--force-gain", force_gain)] {
+        if let Some(gain) = gain.filter(|gain| !(gain.is_finite() && *gain > 0.0)) {
+            let named = format!("{option} {}", Typed(gain));
+            return Err(Failure::input(named, "must be a finite number above 0"));
+        }
+    }
+    let idle = [
+        ("--retrace-image", arguments.retrace_image.is_some(), has_image, "--image"),
+        ("--lateral-image", has_lateral, has_image, "--image"),
+        ("--pitch", arguments.pitch.is_some(), has_image, "--image"),
+        ("--height-gain", height_gain.is_some(), !arguments.ripple.is_empty(), "--ripple"),
+        ("--force-gain", force_gain.is_some(), has_forces, "--friction or --lateral-image"),
+    ];
+    match idle.into_iter().find(|(_, is_given, has_data, _)| *is_given && !has_data) {
+        None => Ok(()),
+        Some((option, .., data)) => {
+            Err(Failure::input(option, format!("has no effect without {data}: leave it out")))
+        }
+    }
 }
 
 /// The question of the options, with the data of the files.

@@ -3,7 +3,7 @@
 use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
 use crate::arguments::{Length, MeasuredTipArguments};
-use crate::failure::Failure;
+use crate::failure::{Failure, Typed};
 use crate::files::gsf::read_gsf;
 use crate::files::heading::Heading;
 use crate::files::measured::{one_of, read_measured};
@@ -138,6 +138,9 @@ pub(super) fn metres(unit: &str) -> Result<f64, Failure> {
 /// A length in the unit of the data.
 pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Result<f64, Failure> {
     match (length, unit) {
+        (Length::Bare(number), _) if !number.is_finite() => {
+            Err(Failure::input(format!("{option} {}", Typed(number)), "must be a finite number"))
+        }
         (Length::Bare(number), _) => Ok(number),
         (Length::Metres(length), Some(unit)) => Ok(Dimension::rounded(length / metres(unit)?)),
         (Length::Metres(_), None) => {

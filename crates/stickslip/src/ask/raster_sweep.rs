@@ -13,7 +13,7 @@ use stickslip_raster::{
     Free, Line, LineRegime, Path, Plan, RasterError, Scanning, line_regime, pattern,
 };
 use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Model, Wider};
+use stickslip_tip::{Model, RunError, Wider};
 
 const MOST_POINTS: usize = 100_000;
 
@@ -158,13 +158,10 @@ impl RasterSweep {
 
     fn plan(&self, index: usize) -> Result<Plan, Refused> {
         let (pitch, alpha) = self.place(index);
-        let named = |error: String| Refused {
-            parameter: "pitch and alpha and r".into(),
-            value: Some([pitch, alpha, self.r].map(|v| Typed(v).to_string()).join(" and ")),
-            why: error,
-        };
-        let model = Model::under(self.law.into(), self.tip.0.clone(), alpha, self.r);
-        let model = model.map_err(|error| named(error.to_string()))?;
+        if self.law.no_spring {
+            return Err(Refused::whole("no_spring", RasterError::NoSpring));
+        }
+        let model = Model::under(self.law.into(), self.tip.0.clone(), alpha, self.r)?;
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         let mut plan =
             Plan::new(footprint, model, Path::from(self.path), pitch, self.lines, self.length);
@@ -174,7 +171,19 @@ impl RasterSweep {
             (RasterError::Free { .. }, Some(stiffness)) => {
                 Refused::number("stiffness_across", stiffness, error)
             }
-            _ => named(error.to_string()),
+            (RasterError::Pitch { pitch, .. }, _) => Refused::number("pitch", *pitch, &error),
+            (RasterError::Length { length, .. }, _) => Refused::number("length", *length, &error),
+            (RasterError::Lines(lines) | RasterError::Memory { lines, .. }, _) => {
+                Refused::number("lines", *lines as f64, &error)
+            }
+            (RasterError::Line { error: tolerance @ RunError::Tolerance(_), .. }, _) => {
+                Refused::number("tolerance", self.tolerance, tolerance)
+            }
+            _ => Refused {
+                parameter: "pitch and alpha and r".into(),
+                value: Some([pitch, alpha, self.r].map(|v| Typed(v).to_string()).join(" and ")),
+                why: error.to_string(),
+            },
         })?;
         Ok(plan)
     }

@@ -121,6 +121,7 @@ impl Stability {
                 let r = self.velocity()?;
                 match theory::critical(law, tip, r) {
                     Err(error @ StabilityError::R(_)) => Err(Refused::number("r", r, error)),
+                    Err(StabilityError::Wider(error)) => Err(error.into()),
                     found => Ok(found),
                 }
             }

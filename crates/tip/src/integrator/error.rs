@@ -7,7 +7,7 @@ use thiserror::Error;
 pub enum IntegrationError {
     /// The step length fell to the round-off of t.
     #[error(
-        "at t = {t}: the tolerance {tolerance:e} cannot be met, the step length fell to {h:e}; allow a larger tolerance, or give smoother forces and surfaces"
+        "at t = {t}: the tolerance {tolerance:e} cannot be met, the step length fell to {h:.1e}; allow a larger tolerance, or give smoother forces and surfaces"
     )]
     StepTooSmall {
         /// Time reached.

@@ -328,7 +328,7 @@ mod tests {
             z.iter().map(|z| if *z < -12.0 { f64::INFINITY } else { *z }).collect();
         let one = Supply::Columns(vec![("x".into(), x.clone())]);
         for (supply, why) in [
-            (columns(&x, &nothing), "no row of all has all its values"),
+            (columns(&x, &nothing), "no row has all its values"),
             (columns(&x, &infinite), "a number is infinite"),
             (columns(&x, &z[1..]), "different numbers of rows"),
             (columns(&[], &[]), "there is no row of numbers in it"),

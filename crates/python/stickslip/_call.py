@@ -80,8 +80,8 @@ def in_words_of_python(path, said):
     if said.startswith(MISSING):
         names = [named(path, line.strip()) for line in said.removeprefix(MISSING).splitlines() if line.strip()]
         return f"missing: {', '.join(names)}"
-    # An image from an array has no file.
-    said = re.sub(r"(<[a-z_]+>)\.gsf", r"\1", said)
+    # Data from memory have no file: they are named by their argument.
+    said = re.sub(r"(?:--[a-z-]+[ =])?<([a-z_]+(?:\[\d+\])?)>(?:\.gsf)?", r"\1", said)
     known = {option.name for option in options(path).values()}
 
     def one(found):

@@ -1,5 +1,6 @@
 """From keyword arguments to the words of a command line. The program describes its options itself."""
 
+import difflib
 import inspect
 import json
 import os
@@ -14,6 +15,9 @@ Option = namedtuple("Option", "name is_positional value delimiter is_repeatable 
 
 # Names of arguments that may be images.
 IMAGES = {"measured", "image", "retrace_image", "lateral_image"}
+
+# Those that are nothing else.
+ONLY_IMAGES = IMAGES - {"measured"}
 
 # Optional positional arguments.
 OPTIONAL = {"retrace"}
@@ -72,7 +76,9 @@ class Asked:
                 continue
             option = known.get(name)
             if option is None:
-                raise TypeError(f"{' '.join(path)}() has no option {name!r}: there are {', '.join(known)}")
+                near = difflib.get_close_matches(name, known, n=1)
+                meant = f"did you mean {near[0]}? " if near else ""
+                raise TypeError(f"{' '.join(path)}() has no option {name!r}: {meant}There are {', '.join(known)}")
             if option.is_positional:
                 parts = value if option.is_repeatable else [value]
                 behind += [self._file(f"{name}[{i}]" if option.is_repeatable else name, part) for i, part in enumerate(parts)]
@@ -110,6 +116,8 @@ class Asked:
             return os.fspath(value)
         if _scans.is_dataset(value) and name != "area":
             value = _scans.heights(name, value)
+        if name in ONLY_IMAGES and not _scans.is_array(value):
+            raise TypeError(f"{name} is a .gsf file or an image with positions, such as xarray.DataArray(z, dims=(\"y\", \"x\"), coords={{\"y\": y_nm, \"x\": x_nm}}): {type(value).__name__} is none")
         is_image = _scans.is_array(value) and value.ndim > 1 and name in IMAGES
         # The program recognises an image by its extension.
         place = f"<{name}>.gsf" if is_image else f"<{name}>"

@@ -65,7 +65,7 @@ def test_what_is_unusable_is_refused_by_the_names_that_python_has():
         (dict(r=1, alpha=1), "until: is needed"),
         (dict(alpha=1, until=20), "r: is needed"),
         (dict(r=1, alpha=1, until=20, tip_file="nowhere.csv"), "tip_file=nowhere.csv: cannot be read"),
-        (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "tip_file=<tip>: "),
+        (dict(r=1, alpha=1, until=20, tip=([0, 1], [1, 0])), "tip: the table"),
         (dict(r=1, alpha=1, until=20, memory="none"), "invalid value 'none' for 'memory'"),
         (dict(r=float("nan"), alpha=1, until=20), "r=NaN: "),
         (dict(r=1, alpha=1, until=20, depth_limit=-1), "depth_limit=-1: "),
@@ -77,12 +77,12 @@ def test_what_is_unusable_is_refused_by_the_names_that_python_has():
         assert "--" not in str(refused.value), given
     with pytest.raises(ValueError, match="missing: run"):
         stickslip.surface()
-    with pytest.raises(ValueError, match="pitch: give the distance"):
+    with pytest.raises(ValueError, match="pitch: is needed"):
         stickslip.raster(alpha=1, r=1)
 
 
 def test_what_is_no_option_or_no_value_is_a_type_error():
-    with pytest.raises(TypeError, match="run.. has no option 'alfa': there are .*alpha"):
+    with pytest.raises(TypeError, match="run.. has no option 'alfa': did you mean alpha. There are .*alpha"):
         stickslip.run(alfa=1, r=1, until=20)
     with pytest.raises(TypeError, match="no_spring is True or False"):
         stickslip.run(alpha=1, no_spring=1, until=20)
@@ -90,6 +90,8 @@ def test_what_is_no_option_or_no_value_is_a_type_error():
         stickslip.run(alpha=1, r=True, until=20)
     with pytest.raises(TypeError, match="tip is a file, columns"):
         stickslip.run(tip=3, alpha=1, r=1, until=20)
+    with pytest.raises(TypeError, match="image is a .gsf file or an image with positions.*ndarray is none"):
+        stickslip.fit(image=np.ones((32, 32)), width=30)
     with pytest.raises(ValueError, match=r"columns have \[3, 2\] rows"):
         stickslip.run(tip=([0, 1, 2], [1, 0]), alpha=1, r=1, until=20)
 

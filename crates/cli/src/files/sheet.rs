@@ -96,7 +96,7 @@ impl Sheet {
     }
 }
 
-const NO_WHOLE_ROW: &str = "no row of all has all its values";
+const NO_WHOLE_ROW: &str = "no row has all its values";
 
 /// The error for a table with another number of columns.
 fn needed(count: usize, admissible: &[usize]) -> String {

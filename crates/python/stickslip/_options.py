@@ -97,7 +97,7 @@ class Asked:
 
     def _option(self, option, name, value):
         if isinstance(value, bool):
-            raise TypeError(f"{name} has a value, {option.value}: {value!r} is none")
+            raise TypeError(f"{name} takes a value, {option.value}, not {value!r}")
         if is_file(option):
             # A list has several files if the option may be repeated; columns are a tuple.
             several = option.is_repeatable and isinstance(value, list)
@@ -117,7 +117,8 @@ class Asked:
         if _scans.is_dataset(value) and name != "area":
             value = _scans.heights(name, value)
         if name in ONLY_IMAGES and not _scans.is_array(value):
-            raise TypeError(f"{name} is a .gsf file or an image with positions, such as xarray.DataArray(z, dims=(\"y\", \"x\"), coords={{\"y\": y_nm, \"x\": x_nm}}): {type(value).__name__} is none")
+            example = 'xarray.DataArray(z, dims=("y", "x"), coords={"y": y_nm, "x": x_nm})'
+            raise TypeError(f"{name} must be a .gsf file or an image with positions, such as {example}, not {type(value).__name__}")
         is_image = _scans.is_array(value) and value.ndim > 1 and name in IMAGES
         # The program recognises an image by its extension.
         place = f"<{name}>.gsf" if is_image else f"<{name}>"
@@ -234,7 +235,7 @@ def named_columns(name, value):
     if isinstance(value, (tuple, list)):
         return [("", column) for column in value]
     raise TypeError(
-        f"{name} is a file, columns such as (x, f), a table, a dict, or a result: {type(value).__name__} is none"
+        f"{name} must be a file, columns such as (x, f), a table, a dict or a result, not {type(value).__name__}"
     )
 
 

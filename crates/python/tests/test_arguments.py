@@ -86,11 +86,11 @@ def test_what_is_no_option_or_no_value_is_a_type_error():
         stickslip.run(alfa=1, r=1, until=20)
     with pytest.raises(TypeError, match="no_spring is True or False"):
         stickslip.run(alpha=1, no_spring=1, until=20)
-    with pytest.raises(TypeError, match="r has a value"):
+    with pytest.raises(TypeError, match="r takes a value"):
         stickslip.run(alpha=1, r=True, until=20)
-    with pytest.raises(TypeError, match="tip is a file, columns"):
+    with pytest.raises(TypeError, match="tip must be a file, columns"):
         stickslip.run(tip=3, alpha=1, r=1, until=20)
-    with pytest.raises(TypeError, match="image is a .gsf file or an image with positions.*ndarray is none"):
+    with pytest.raises(TypeError, match="image must be a .gsf file or an image with positions.*not ndarray"):
         stickslip.fit(image=np.ones((32, 32)), width=30)
     with pytest.raises(ValueError, match=r"columns have \[3, 2\] rows"):
         stickslip.run(tip=([0, 1, 2], [1, 0]), alpha=1, r=1, until=20)

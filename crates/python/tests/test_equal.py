@@ -130,7 +130,7 @@ def test_columns_of_a_fit_are_a_tuple_and_several_data_a_list():
     # Only a heading names the unit of the heights.
     assert alone[2]["data"][0].pop("y_unit") == "nm"
     assert alone[0] == alone[1] == alone[2] and len(alone[0]["data"]) == 1
-    with pytest.raises(TypeError, match=r"ripple\[0\] is a file, columns such as \(x, f\)"):
+    with pytest.raises(TypeError, match=r"ripple\[0\] must be a file, columns such as \(x, f\)"):
         stickslip.fit(ripple=list(columns), **asked)
 
 

@@ -7,9 +7,9 @@ mod pace;
 mod plane;
 mod raster;
 
-use super::ask::{context, option, refusal, refuse_strangers};
+use super::ask::{option, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
-use super::run::disturbance::{disturbed, files_read, warn_of_idle};
+use super::run::disturbance::{disturbed, files_read};
 use crate::arguments::CompareArguments;
 use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
@@ -18,8 +18,8 @@ use crate::session::Session;
 use grid::{Discretisation, Motion};
 use serde_json::{Map, Value};
 use stickslip::{
-    Ask, ClosedDocument, CompareDocument, CompareFound, CompareParameters, DifferenceDocument,
-    Document, GridName, KnownScales, Physical, Run, RunScenario, parameter,
+    ClosedDocument, CompareDocument, CompareFound, CompareParameters, DifferenceDocument, Document,
+    GridName, KnownScales, Physical, Run, RunScenario, parameter,
 };
 use stickslip_tip::Scenario;
 
@@ -91,8 +91,6 @@ impl<'a> Asked<'a> {
             }
         }
         let scenario = whole.along();
-        let span = (scenario.start_time(), scenario.until);
-        warn_of_idle(session, &arguments.disturbance, &question, span);
         let second_order = match whole {
             RunScenario::Along(_) => grid::SECOND_ORDER,
             RunScenario::Across(_) if arguments.grid == GridName::Uniform => {
@@ -164,11 +162,10 @@ fn run_of(
         "a run: --lines N or --area FILE make it a raster",
     )?;
     let run: Run = parameter::question(values)?;
-    let run = disturbed(session, run, disturbance, support_path.as_deref(), scales)?;
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);
-    let run = run.resolved(&context(session)).map_err(refused)?;
-    let scenario = run.prepared().map_err(refused)?;
+    let disturbance = (disturbance, support_path.as_deref());
+    let (run, scenario) = disturbed(session, run, disturbance, scales, refused)?;
     match &scenario {
         RunScenario::Along(scenario) => {
             scenario.initial_surface().map_err(|error| refused(run.refused(&error)))?;

@@ -1,19 +1,38 @@
 //! Disturbances of a run, read from files and checked.
 
 use crate::arguments::DisturbanceArguments;
+use crate::commands::ask::context;
 use crate::failure::{Failure, Typed};
 use crate::files::columns::{read_columns, read_profile};
 use crate::files::distinct::Named;
 use crate::session::Session;
 use std::path::Path;
-use stickslip::{ForceTable, KnownScales, NoiseParameters, Profile, Run, SupportPathParameters};
+use stickslip::{
+    Ask, ForceTable, KnownScales, NoiseParameters, Profile, Run, RunScenario, SupportPathParameters,
+};
 use stickslip_tip::Pulse;
 
-/// A run with the noise, surface, forces and path from options and files.
+/// A run with the noise, surface, forces and path from options and files, resolved, and its scenario. Warns of forces
+/// that do not act in it.
 ///
 /// # Errors
-/// A file cannot be read, or a pulse is invalid.
+/// A file cannot be read, a pulse is invalid; or, as `refused` says it, the parameters define no run.
 pub(crate) fn disturbed(
+    session: &Session,
+    run: Run,
+    (arguments, support_path): (&DisturbanceArguments, Option<&Path>),
+    scales: Option<&KnownScales>,
+    refused: impl Fn(stickslip::Failure) -> Failure,
+) -> Result<(Run, RunScenario), Failure> {
+    let run = with_files(session, run, arguments, support_path, scales)?;
+    let run = run.resolved(&context(session)).map_err(&refused)?;
+    let scenario = run.prepared().map_err(refused)?;
+    let along = scenario.along();
+    warn_of_idle(session, arguments, &run, (along.start_time(), along.until));
+    Ok((run, scenario))
+}
+
+fn with_files(
     session: &Session,
     mut run: Run,
     arguments: &DisturbanceArguments,
@@ -65,12 +84,7 @@ const WIDTHS_CUT: f64 = 3.09;
 
 /// Warns of each force that ends before the motion begins, begins after it has ended, or has begun already when the
 /// motion begins. It is not an error, because runs of several lengths may share their forces.
-pub(crate) fn warn_of_idle(
-    session: &Session,
-    arguments: &DisturbanceArguments,
-    run: &Run,
-    span: (f64, f64),
-) {
+fn warn_of_idle(session: &Session, arguments: &DisturbanceArguments, run: &Run, span: (f64, f64)) {
     let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
     warn_of_idle_pulses(session, &arguments.pulse, &pulses, span);
     let (Some(path), Some(table)) = (&arguments.force_file, &run.force) else { return };

@@ -1,9 +1,9 @@
 //! From the command line to an order: the run and its outputs.
 
 use super::checkpoint;
-use super::disturbance::{disturbed, files_read, warn_of_idle};
+use super::disturbance::{disturbed, files_read};
 use crate::arguments::{Format, HistoryName, RunArguments};
-use crate::commands::ask::{context, refusal, refuse_strangers};
+use crate::commands::ask::{refusal, refuse_strangers};
 use crate::commands::in_units::scales;
 use crate::commands::job;
 use crate::failure::Failure;
@@ -13,7 +13,7 @@ use crate::files::paths::resolved;
 use crate::session::Session;
 use serde_json::{Map, Value};
 use std::path::Path;
-use stickslip::{Ask, Order, Run, RunFormat, RunScenario, parameter};
+use stickslip::{Order, Run, RunFormat, RunScenario, parameter};
 
 /// The order of the arguments with these values of options, checked as a whole, and its scenario.
 pub(super) fn order(
@@ -29,8 +29,6 @@ pub(super) fn order(
         scales(session, &arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
     let files = files(arguments);
     let question: Run = parameter::question(values)?;
-    let question =
-        disturbed(session, question, disturbance, support_path.as_deref(), scales.as_ref())?;
     let question = match &arguments.initial_surface_across {
         None => question,
         Some(path) => {
@@ -39,12 +37,10 @@ pub(super) fn order(
             Run { initial_surface_across: Some(table), ..question }
         }
     };
-    let question = question
-        .resolved(&context(session))
-        .map_err(|failure| refusal(failure, &options.tip, &files))?;
-    let scenario = question.prepared().map_err(|failure| refusal(failure, &options.tip, &files))?;
+    let disturbance = (disturbance, support_path.as_deref());
+    let refused = |failure| refusal(failure, &options.tip, &files);
+    let (question, scenario) = disturbed(session, question, disturbance, scales.as_ref(), refused)?;
     let span = (scenario.along().start_time(), scenario.along().until);
-    warn_of_idle(session, disturbance, &question, span);
     let are_kept = format != RunFormat::Jsonl;
     let samples = question.sampling.times(span, "the run", are_kept)?;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;

@@ -115,6 +115,11 @@ fn forces_that_nothing_feels_are_warned_of() {
         assert!(words.iter().all(|word| said.contains(word)), "{line}\n{said}");
         assert_eq!(said.matches("has no effect").count(), 1, "{line}\n{said}");
     }
+    // Quantities are named as they were typed.
+    let scales = "--sigma 30nm --stiffness 0.2N/m --damping 1mNs/m";
+    let said = warned(&format!("{run} --pulse 1nN,30ms,5ms {scales}"));
+    assert!(said.contains("--pulse 1nN,30ms,5ms has no effect"), "{said}");
+    assert!(said.contains("(1nN,30ms,5ms"), "{said}");
     // A part of these acts before the start at t = 15.7.
     folder.write("cut.csv", "t,force\n10,0\n14,1\n18,1\n22,0\n");
     folder.write("zeros.csv", "t,force\n10,0\n18,0\n19,1\n22,0\n");
@@ -332,6 +337,14 @@ fn no_file_is_written_over_another_of_the_same_command() {
     if cfg!(unix) {
         folder.prints(&format!("{run} --format json -o /dev/null --verify"));
     }
+}
+
+/// An option that a command does not have, and that resembles none of its own, is named alone.
+#[test]
+fn no_usage_of_another_option_is_shown() {
+    let folder = Folder::new("no_usage");
+    let said = said(&folder.stickslip("surface run.json --tip-file f.csv"));
+    assert!(said.contains("--tip-file") && !said.contains("--sigma"), "{said}");
 }
 
 /// The option at fault is named, not the one that was read first; what has no effect is refused.

@@ -50,6 +50,7 @@ pub fn call<'a>(
 ) -> Result<Option<Made>, Refusal> {
     let session = Session::of(host);
     let (cli, line) = parse(&session, words)?;
+    let session = session.with_quantities(line.quantities());
     match stop::where_asked_by(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own words for what it did not find.
@@ -76,6 +77,7 @@ pub fn runs(
         let Command::Run(arguments) = &cli.command else {
             return Err(Refusal::Input("only runs can be computed together".into()));
         };
+        let session = session.with_quantities(line.quantities());
         many::order_of(&session, arguments).map_err(|failure| line.restored(failure).into())
     };
     let orders = commands.iter().enumerate();

@@ -54,7 +54,7 @@ pub fn main() -> ExitCode {
             return answered(&error);
         }
     };
-    let session = Session::of_terminal(cli.quiet);
+    let session = Session::of_terminal(cli.quiet).with_quantities(line.quantities());
     if let Err(error) = interrupt::end_at_once() {
         say(format_args!("stickslip: cannot listen for signals: {error}"));
         return ExitCode::FAILURE;
@@ -87,6 +87,8 @@ fn drop_far_suggestion(error: &mut clap::Error) {
     let (typed, similar) = (text(ContextKind::InvalidArg), text(ContextKind::SuggestedArg));
     if strsim::jaro_winkler(typed, similar) < commands::fields::ALIKE {
         error.remove(ContextKind::SuggestedArg);
+        // It is that of the suggestion.
+        error.remove(ContextKind::Usage);
     }
 }
 

@@ -17,6 +17,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(crate) struct Session {
     host: Option<Arc<Host>>,
     is_quiet: bool,
+    /// Options with a number, with the quantity typed in its place, and both with the unit.
+    typed: Arc<[[String; 3]]>,
 }
 
 /// State shared by a host and its current command.
@@ -53,12 +55,17 @@ pub struct Pace {
 impl Session {
     /// The session of a terminal; a quiet one prints errors alone.
     pub(crate) fn of_terminal(is_quiet: bool) -> Self {
-        Self { host: None, is_quiet }
+        Self { is_quiet, ..Self::default() }
     }
 
     /// The session of a call by a host.
     pub(crate) fn of(host: &Arc<Host>) -> Self {
-        Self { host: Some(Arc::clone(host)), is_quiet: false }
+        Self { host: Some(Arc::clone(host)), ..Self::default() }
+    }
+
+    /// The session of a command line with these quantities, which remarks name as they were typed.
+    pub(crate) fn with_quantities(self, typed: &[[String; 3]]) -> Self {
+        Self { typed: typed.into(), ..self }
     }
 
     /// The host, if there is one.
@@ -98,8 +105,16 @@ impl Session {
 
     /// Prints a line that is not an error: a result or a warning.
     pub(crate) fn remark(&self, line: impl Display) {
-        if !self.is_quiet {
-            self.say(line);
+        if self.is_quiet {
+            return;
+        }
+        let line = line.to_string();
+        let number_in = |[number, ..]: &&[String; 3]| line.contains(&format!("{number} "));
+        match self.typed.iter().find(number_in) {
+            Some([number, typed, meant]) => {
+                self.say(format_args!("{} ({meant})", line.replace(&**number, typed)));
+            }
+            None => self.say(line),
         }
     }
 

@@ -22,6 +22,11 @@ pub(crate) struct Translated {
 }
 
 impl Translated {
+    /// The options with a quantity, as [`typed`](Self::typed).
+    pub(crate) fn quantities(&self) -> &[[String; 3]] {
+        &self.typed
+    }
+
     /// The failure with a refused quantity as it was typed.
     pub(crate) fn restored(&self, failure: Failure) -> Failure {
         match failure {
@@ -114,10 +119,14 @@ pub(crate) fn translated(
     for quantity in &quantities {
         let [number, shown] = quantity.number(scales.as_ref(), has_scales)?;
         let Quantity { option, value, place, is_joined, .. } = quantity;
+        let meant = format!("{value} is {shown} {}", quantity.units.join(", "));
+        // Messages have the shortest digits, or the word as it is passed on.
+        for found in [&shown, &number] {
+            let typed = format!("{option} {value}");
+            translated.typed.push([format!("{option} {found}"), typed, meant.clone()]);
+        }
         translated.words[*place] =
             if *is_joined { format!("{option}={number}").into() } else { number.into() };
-        let meant = format!("{value} is {shown} {}", quantity.units.join(", "));
-        translated.typed.push([format!("{option} {shown}"), format!("{option} {value}"), meant]);
     }
     Ok(translated)
 }

@@ -20,7 +20,7 @@ pub(crate) struct FrictionArguments {
     #[arg(value_name = "TRACE.csv")]
     pub(crate) trace: PathBuf,
 
-    /// Positions and lateral forces of the retrace, or the run of the retrace.
+    /// Positions and lateral forces of the retrace, converted to the units of the trace; or the run of the retrace.
     #[arg(value_name = "RETRACE.csv")]
     pub(crate) retrace: Option<PathBuf>,
 
@@ -31,7 +31,7 @@ pub(crate) struct FrictionArguments {
     #[arg(long, value_name = "k", help_heading = "Physical units", allow_hyphen_values = true)]
     pub(crate) stiffness: Option<String>,
 
-    /// Force of one unit of the data, such as 25nN/V, for data that are neither forces nor deflections.
+    /// Force of one unit of the data, such as 25nN/V or 25pN/mV, for data that are neither forces nor deflections.
     #[arg(
         long,
         value_name = "F/UNIT",

@@ -38,11 +38,14 @@ pub(crate) fn parse_measured(table: &Table, columns: &[usize]) -> Result<Sheet, 
         return Err("there is no row of numbers in it".into());
     }
     let name = |i: usize| sheet.headings.get(i).map(|heading| heading.name().to_lowercase());
-    // t,x,u is a surface. Behind a position, `lateral` is a force and `displacement` that of a lever.
+    // t,x,u is a surface. Behind a position, `lateral` is a force and `displacement` that of a lever; so is a voltage.
     let is_position = |name: &str| POSITIONS.contains(&name);
+    let has_position = |name: &str| name.split(|c: char| !c.is_alphanumeric()).any(is_position);
+    let is_length = |i: usize| sheet.headings[i].unit(Unit::Length).is_ok();
     if let Some((first, second)) = name(0).zip(name(1))
         && is_position(&second)
-        && !is_position(&first)
+        && is_length(1)
+        && !has_position(&first)
         && first != "t"
     {
         let [first, second] = [0, 1].map(|i| sheet.headings[i].text());
@@ -189,7 +192,13 @@ mod tests {
             .headings,
             vec![Heading::default(); 3]
         );
-        for heading in ["x_nm,lateral (V)", "distance_nm,displacement_nm"] {
+        for heading in [
+            "x_nm,lateral (V)",
+            "distance_nm,displacement_nm",
+            "Scan distance [nm],Lateral [mV]",
+            "Scan distance [nm],Lateral",
+            "Support (nm),Lateral (nN)",
+        ] {
             let text = format!("{heading}\n0,1.5\n2,3\n");
             assert!(parse_measured(&(*text).into(), &[2]).is_ok(), "{heading}");
         }

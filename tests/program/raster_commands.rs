@@ -383,7 +383,7 @@ fn thresholds_of_a_raster_are_those_of_the_library() {
 fn what_no_raster_can_be_made_of_is_refused_with_advice() {
     let folder = Folder::new("raster_refused");
     for (line, words) in [
-        ("raster --alpha 1 --r 1 --lines 3 --length 10", ["--pitch", "give the distance"]),
+        ("raster --alpha 1 --r 1 --lines 3 --length 10", ["--pitch", "is needed: the distance"]),
         ("raster --alpha 1 --r 1 --pitch 0 --lines 3 --length 10", ["--pitch 0", "above 0"]),
         ("raster --alpha 1 --r 1 --pitch 1 --lines 0 --length 10", ["--lines 0", "between 1"]),
         ("raster --alpha 1 --r 1 --pitch 1 --lines 3 --length -10", ["--length -10", "above 0"]),

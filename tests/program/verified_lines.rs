@@ -202,7 +202,10 @@ fn lines_that_no_run_writes_are_refused_with_their_number() {
         (with(40, end), &["line 42 is damaged", "after the end"]),
         (lines.concat() + &lines[40], &["line 123 is damaged", "after the end"]),
         (lines.concat() + "\n", &["line 123 is damaged", "after the end"]),
-        (replaced(121, "\"end\":76.0", "\"end\":75.0"), &["line 122 is damaged", "it did not"]),
+        (
+            replaced(121, "\"end\":76.0", "\"end\":75.0"),
+            &["line 122 is damaged", "not that of its samples"],
+        ),
         (lines[0].clone() + &lines[1] + end, &["no samples after the start"]),
     ] {
         folder.write("damaged.jsonl", text);

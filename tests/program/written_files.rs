@@ -114,7 +114,7 @@ fn files_of_a_user_are_not_taken_for_ours() {
         for notes in ["my notes", "two lines\nof notes\n", "{\"software\":{\"name\":\"other\"}}\n"]
         {
             folder.write(name, notes);
-            folder.refuses(&line, &[name, "did not make"]);
+            folder.refuses(&line, &[name, "was not written by"]);
             assert_eq!(folder.read(name), notes.as_bytes());
         }
         folder.write(name, "");
@@ -145,7 +145,7 @@ fn planted_links_are_not_followed() {
         folder.write("precious", precious);
         for target in ["precious", "absent"] {
             symlink(folder.path(target), folder.path(name)).unwrap();
-            folder.refuses(line, &[name, "did not make"]);
+            folder.refuses(line, &[name, "was not written by"]);
             assert_eq!(folder.read("precious"), precious.as_bytes());
             assert!(!folder.path("absent").exists());
             fs::remove_file(folder.path(name)).unwrap();

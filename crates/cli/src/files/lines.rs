@@ -240,8 +240,10 @@ impl<R: BufRead> Lines<R> {
         if reached && (early..=until + slack).contains(&end.end) {
             return Ok(());
         }
-        let message =
-            format!("its last line gives the end t = {}, which its samples do not reach", end.end);
+        let message = format!(
+            "it gives the end of the run as t = {}, which is not that of its samples",
+            end.end
+        );
         Err(self.damaged(message))
     }
 }

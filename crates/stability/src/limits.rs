@@ -19,11 +19,12 @@ const LEAST: f64 = 1e-6;
 /// `wider`.
 ///
 /// On the axis Λ = iΩ, N = 0 is linear in 1/b, so that each Ω gives the A at which 1/b is real, and 1/b. b_c is
-/// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A.
+/// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A. As
+/// A → 0 and b → 0 with B = ±A/b fixed, N → q(1 + Bφ), so that 1/b has no bound if 1 + Bφ = 0 on the axis for some B.
 ///
 /// # Errors
 /// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] if steady motion is stable at
-/// every b.
+/// every b; [`StabilityError::NoLimit`] if it is unstable at some α for every b.
 pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
     least_on(&Scan::new(wider, tip), wider, r)
 }
@@ -45,6 +46,11 @@ pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, Stabil
     let law = scan.law_under(&limited, r);
     if Law::has_corner(&limited, tip, &law.steady) {
         return Err(StabilityError::Corner);
+    }
+    if unstable_at_any_limit(scan, &law) {
+        return Err(StabilityError::NoLimit(
+            "steady motion is unstable at some alpha under every depth limit",
+        ));
     }
     let at = |(q, kept): (f64, Option<&Transforms>)| {
         (q, kept.map_or_else(|| inverse_limit(&law, q), |t| inverse_limit_with(&law, q, t)))
@@ -70,6 +76,19 @@ pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, Stabil
         }
     }
     if largest > 0.0 { Ok(largest.recip()) } else { Err(StabilityError::NoCrossing { r }) }
+}
+
+/// Whether φ(s + iΩ) is real at some Ω > 0, of the sign opposite to φ(s), so that 1 + Bφ = 0 for some B.
+fn unstable_at_any_limit(scan: &Scan, law: &Law) -> bool {
+    let height = |t: &Transforms| t.height.0 / t.unit.0 * law.inverse_limit;
+    let at = |q: f64| height(&law.footprint.at(Complex64::new(law.fading, q)));
+    let heights: Vec<(f64, Complex64)> =
+        scan.samples().map(|(q, kept)| (q, kept.map_or_else(|| at(q), height))).collect();
+    heights.windows(2).any(|pair| {
+        let [(below, first), (above, second)] = [pair[0], pair[1]];
+        let is_crossed = first.im * second.im < 0.0 && first.re.min(second.re) < 0.0;
+        is_crossed && at(halved_between(|q| at(q).im, below, above)).re < 0.0
+    })
 }
 
 /// The largest 1/b with A > 0 at which iΩ is a root; -∞ where there is none. `law` has 1/b = ±1.

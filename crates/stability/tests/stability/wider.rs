@@ -141,6 +141,26 @@ fn the_least_depth_limit_parts_stable_from_unstable() {
     }
 }
 
+/// With β > 1 the tip stands on a heap that it raises. For b → 0 and α → 0 at a fixed α/b the height alone is unstable.
+/// Judged by the number of growing roots at a thousandth to a millionth of the height.
+#[test]
+fn a_tip_on_its_own_heap_is_unstable_under_every_depth_limit() {
+    for (beta, base) in [(1.2, Wider::default()), (1.2, healing(30.0)), (1.5, heavy(0.5))] {
+        let tip = triple(beta);
+        for r in [0.5, 2.0] {
+            let found = least_depth_limit(&base, &tip, r);
+            assert!(matches!(found, Err(StabilityError::NoLimit(_))), "{beta} {r} {found:?}");
+            for b in [1e-3, 1e-6] {
+                let wider = Wider { depth_limit: Some(b), ..base };
+                let alpha = critical(&wider, &tip, r).unwrap().alpha;
+                let growing =
+                    |part: f64| unstable_count(&model(wider, &tip, part * alpha, r)).unwrap();
+                assert_eq!([growing(0.99), growing(1.01)], [0, 2], "{beta} {r} {b} {alpha}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_memory_length_parts_stable_from_unstable_at_every_r_and_mass() {
     for tip in [triple(0.0), triple(1.0)] {

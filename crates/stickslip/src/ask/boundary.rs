@@ -291,8 +291,8 @@ pub struct LimitColumns {
     /// All values of r requested, including those without a critical α.
     pub r: Vec<f64>,
     /// b_c of each r, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
-    /// the inertia of `parameters`. Null if steady motion is stable at every b, or if the height under the steady tip
-    /// is 0, the kink of |u|.
+    /// the inertia of `parameters`. Null if steady motion is stable at every b, if it is unstable at some α for every
+    /// b, or if the height under the steady tip is 0, the kink of |u|.
     pub least_depth_limit: Vec<Option<f64>>,
     /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null if
     /// this tip has none.

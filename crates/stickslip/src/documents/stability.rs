@@ -95,8 +95,8 @@ pub struct CriticalDocument {
 #[serde(deny_unknown_fields)]
 pub struct LimitsDocument {
     /// b_c(r), in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and the
-    /// inertia of `parameters`. Null if steady motion is stable at every b, or if the height under the steady tip is
-    /// 0, the kink of |u|.
+    /// inertia of `parameters`. Null if steady motion is stable at every b, if it is unstable at some α for every b, or
+    /// if the height under the steady tip is 0, the kink of |u|.
     pub least_depth_limit: Option<f64>,
     /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit. Null
     /// if this tip has none.

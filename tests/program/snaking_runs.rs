@@ -39,6 +39,38 @@ fn a_line_snakes_above_its_threshold_and_not_below() {
     assert!(still["samples"]["y0"].as_array().unwrap().iter().all(|y| number(y).abs() < 1e-300));
 }
 
+/// Motions that ring while they settle: a maximum may hardly change in a period though the amplitude is far from its limit.
+/// Judged by runs of twenty times the length.
+#[test]
+fn the_limit_of_a_snaking_line_lies_within_its_errors() {
+    let folder = Folder::new("snaking_errors");
+    let cases = [
+        ("--r 1.685 --stiffness-across 0.312 --inertia 0.057 --alpha 2.7399", 150),
+        (
+            "--r 0.931 --stiffness-across 0.265 --inertia 0.243 --healing-time 25.71 --alpha 0.8995",
+            400,
+        ),
+        ("--r 1.203 --stiffness-across 0.271 --alpha 1.2779", 150),
+        ("--r 0.719 --stiffness-across 0.482 --alpha 0.6963", 700),
+    ];
+    for (case, until) in cases {
+        let [short, long] = [1, 20].map(|times| {
+            let line =
+                format!("run {case} --kick-across 0.3 --history none --until {}", times * until);
+            folder.prints_json(&line)
+        });
+        assert_eq!([&short["regime"], &long["regime"]], ["snaking"; 2], "{case}");
+        for name in ["period", "amplitude_y0", "amplitude_x0"] {
+            let difference =
+                (number(&short["snaking"][name]) - number(&long["snaking"][name])).abs();
+            let error = |run: &Value| number(&run["snaking"][format!("{name}_error")]);
+            let part = difference / (error(&short) + error(&long));
+            println!("{name}: {difference:e}, {part} of the error");
+            assert!(part < 1.0, "{case}, {name}: {difference:e}, {part}");
+        }
+    }
+}
+
 #[test]
 fn samples_and_history_have_both_coordinates_and_documents_are_asked_again() {
     let folder = Folder::new("across_documents");

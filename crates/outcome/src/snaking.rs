@@ -5,14 +5,15 @@ use stickslip_tip::planar::{PlanarScenario, Step, Trajectory};
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{STAGES, Support};
 
-/// A motion is periodic if its largest deviation changes by at most this fraction of its amplitude from period to
-/// period.
+/// A motion is periodic if the changes that remain add up to at most this fraction of its amplitude, and of its period.
 const REPEATS: f64 = 1e-3;
 /// Evaluations of the velocity within a step: between two of them it changes sign at most once.
 const LOOKS: u32 = 8;
 /// Number of bisections for the time of a turning point: to the last bit of a step.
 const BISECTIONS: u32 = 50;
-/// Slowest decay per period that the extrapolation of a change assumes.
+/// Changes below this many tolerances are errors of steps, whose decay
+const ERRORS: f64 = 10.0;
+/// is taken to be this factor per period.
 const SLOWEST: f64 = 0.98;
 
 /// The periodic motion across the scan at the end of a run. The limiting motion lies within the errors if the changes
@@ -29,39 +30,107 @@ pub struct Snaking {
     pub amplitude_error: f64,
     /// Half the peak-to-peak value of R - x0 over the last period, in σ.
     pub amplitude_along: f64,
+    /// Error of the amplitude of R - x0, in σ.
+    pub amplitude_along_error: f64,
     /// Change of the largest y0 from the last period but one to the last, divided by the amplitude.
     pub drift: f64,
 }
 
-/// A turning point of y0.
+/// A turning point of y0 or of R - x0, and its value.
 #[derive(Debug, Clone, Copy)]
 struct Turn {
     t: f64,
-    y: f64,
+    value: f64,
+    is_high: bool,
 }
 
-/// Collects the turning points of y0 and its largest deviations during a run; the size is bounded for runs of any
-/// length.
+/// A period of y0, from one maximum to the next.
+#[derive(Debug, Clone, Copy)]
+struct Cycle {
+    period: f64,
+    /// y0 at the maximum at its end, and at the minimum within.
+    highest: f64,
+    lowest: f64,
+    /// Half the peak-to-peak value of R - x0.
+    along: f64,
+}
+
+/// Number of periods kept, and that below which an oscillation is not judged.
+const CYCLES: usize = 13;
+const FEWEST_CYCLES: usize = 4;
+
+/// The latest periods of y0.
+#[derive(Debug, Clone, Default)]
+struct Cycles {
+    /// The last at the end.
+    all: VecDeque<Cycle>,
+    /// The time of the last maximum of y0.
+    maximum: Option<f64>,
+    /// Since then: the last minimum of y0, and the range of R - x0 at its turning points.
+    lowest: Option<f64>,
+    lags: Option<(f64, f64)>,
+}
+
+impl Cycles {
+    /// Adds a turning point of R - x0.
+    fn add_lag(&mut self, Turn { value: lag, .. }: Turn) {
+        let (low, high) = self.lags.unwrap_or((lag, lag));
+        self.lags = Some((low.min(lag), high.max(lag)));
+    }
+
+    /// Adds a turning point of y0; a maximum ends a period.
+    fn add(&mut self, Turn { t, value, is_high }: Turn) {
+        if !is_high {
+            self.lowest = Some(value);
+            return;
+        }
+        let along = self.lags.take().map_or(0.0, |(low, high)| 0.5 * (high - low));
+        let (before, lowest) = (self.maximum.replace(t), self.lowest.take());
+        if let (Some(before), Some(lowest)) = (before, lowest) {
+            self.all.push_back(Cycle { period: t - before, highest: value, lowest, along });
+        }
+        if self.all.len() > CYCLES {
+            self.all.pop_front();
+        }
+    }
+
+    /// The sizes of the changes of a number from period to period, the last at the end.
+    fn changes(&self, number: fn(&Cycle) -> f64) -> Vec<f64> {
+        let later = self.all.iter().skip(1);
+        self.all.iter().zip(later).map(|(a, b)| (number(b) - number(a)).abs()).collect()
+    }
+
+    fn save(&self, state: &mut State) {
+        let numbers = |c: &Cycle| [c.period, c.highest, c.lowest, c.along];
+        state.numbers(self.all.iter().flat_map(numbers).collect::<Vec<_>>().into_iter());
+        state.numbers(self.maximum.into_iter());
+        state.numbers(self.lowest.into_iter());
+        state.pairs(self.lags.iter());
+    }
+
+    fn restored(state: &mut Reader) -> Result<Self, Damaged> {
+        let cycle = |numbers: &[f64; 4]| {
+            let [period, highest, lowest, along] = *numbers;
+            Cycle { period, highest, lowest, along }
+        };
+        let all: VecDeque<Cycle> = state.numbers()?.as_chunks().0.iter().map(cycle).collect();
+        let (maximum, lowest) = (state.numbers()?.pop(), state.numbers()?.pop());
+        let restored = Self { all, maximum, lowest, lags: state.pairs()?.pop() };
+        if restored.all.len() <= CYCLES { Ok(restored) } else { Err(Damaged::OutOfRange) }
+    }
+}
+
+/// Collects the turning points of y0 and of R - x0, and the largest deviations, during a run; the size is bounded for
+/// runs of any length.
 #[derive(Debug, Clone)]
 pub struct SnakingObserver {
     support: Support,
     /// Start time of the run and end of the last step; `None` before the first step.
     span: Option<(f64, f64)>,
-    /// The last maxima, and the number of all.
-    highest: VecDeque<Turn>,
-    maxima: u64,
-    lowest: Option<Turn>,
-    /// Steps since the last maximum but one.
-    tail: VecDeque<Step>,
+    last: Option<Step>,
+    cycles: Cycles,
     deviations: Largest,
 }
-
-/// Number of maxima that figures and errors need.
-const MAXIMA: usize = 3;
-/// Number of maxima below which an oscillation is not judged.
-const FEWEST_MAXIMA: u64 = 5;
-/// Largest number of steps kept.
-const LONGEST_TAIL: usize = 1 << 15;
 
 impl SnakingObserver {
     /// An observer before the first step.
@@ -71,73 +140,62 @@ impl SnakingObserver {
     }
 
     fn of(support: Support) -> Self {
-        Self {
-            support,
-            span: None,
-            highest: VecDeque::new(),
-            maxima: 0,
-            lowest: None,
-            tail: VecDeque::new(),
-            deviations: Largest::default(),
-        }
+        let (cycles, deviations) = (Cycles::default(), Largest::default());
+        Self { support, span: None, last: None, cycles, deviations }
     }
 
     /// Adds the next step.
     pub fn observe(&mut self, step: &Step) {
         let start = self.span.map_or(step.along.t, |(start, _)| start);
         self.span = Some((start, step.end()));
+        self.last = Some(*step);
         self.deviations.add((step.along.t - start, step.end() - start), step.y_at_end().abs());
-        for (turn, is_high) in turns(step) {
-            if is_high {
-                self.highest.push_back(turn);
-                self.maxima += 1;
-            } else {
-                self.lowest = Some(turn);
+        let (support, cycles) = (&self.support, &mut self.cycles);
+        let (along, across) = (step.velocity_along(), step.velocity_across());
+        let stretch = |t: f64| support.velocity(t) - along(t);
+        let mut lags = turns(step, stretch, |t| step.along.lag(support, t)).peekable();
+        for turn in turns(step, across, |t| step.y0(t)) {
+            while let Some(lag) = lags.next_if(|lag| lag.t <= turn.t) {
+                cycles.add_lag(lag);
             }
+            cycles.add(turn);
         }
-        while self.highest.len() > MAXIMA {
-            self.highest.pop_front();
-        }
-        self.tail.push_back(*step);
-        let needed = self.highest.iter().rev().nth(1).or(self.highest.back());
-        let needed = needed.map_or(step.along.t, |turn| turn.t);
-        while self.tail.len() > LONGEST_TAIL
-            || self.tail.front().is_some_and(|first| first.end() <= needed)
-        {
-            self.tail.pop_front();
-        }
+        lags.for_each(|lag| cycles.add_lag(lag));
     }
 
     /// The periodic motion of y0 at the end of a run with this tolerance; `None` if the amplitude of y0 is not above
     /// the tolerance, y0 has oscillated less than five times, or the motion is not periodic.
     #[must_use]
     pub fn snaking(&self, tolerance: f64) -> Option<Snaking> {
-        let [a, b, c] = *self.highest.iter().collect::<Vec<_>>().first_chunk::<MAXIMA>()?;
-        let low = self.lowest?;
-        if self.maxima < FEWEST_MAXIMA {
-            return None;
-        }
-        let amplitude = 0.5 * (c.y - low.y);
+        let cycles = &self.cycles;
+        let last = *cycles.all.back().filter(|_| cycles.all.len() >= FEWEST_CYCLES)?;
+        let amplitude = 0.5 * (last.highest - last.lowest);
         if amplitude <= 10.0 * tolerance {
             return None;
         }
-        let drift = (c.y - b.y).abs() / amplitude;
-        let periods = [b.t - a.t, c.t - b.t];
-        if drift > REPEATS || (periods[1] - periods[0]).abs() > REPEATS * periods[1] {
-            return None;
-        }
+        let period = cycles.changes(|cycle| cycle.period);
+        let highest = cycles.changes(|cycle| cycle.highest);
+        let lowest = cycles.changes(|cycle| cycle.lowest);
+        let along = cycles.changes(|cycle| cycle.along);
+        let of_time = last.period / amplitude;
+        let all = |i: usize| {
+            [period[i] / of_time, highest[i], lowest[i], along[i]].into_iter().fold(0.0, f64::max)
+        };
+        let fading = fading(&(0..period.len()).map(all).collect::<Vec<_>>(), ERRORS * tolerance)?;
+        let left = |changes: &[f64]| left(changes, fading);
         // Round-off of positions moves a turning point by that over the curvature there.
-        let of_time = 10.0 * tolerance * periods[1] / amplitude;
-        Some(Snaking {
-            period: periods[1],
-            period_error: left(
-                [periods[1] - periods[0], (b.y - a.y) * periods[1] / amplitude],
-                [c.y - b.y, b.y - a.y],
-            ) + of_time,
+        let period_error = left(&period) + 10.0 * tolerance * of_time;
+        let amplitude_error = 0.5 * (left(&highest) + left(&lowest)) + 4.0 * tolerance;
+        let is_periodic =
+            amplitude_error <= REPEATS * amplitude && period_error <= REPEATS * last.period;
+        is_periodic.then_some(Snaking {
+            period: last.period,
+            period_error,
             amplitude,
-            amplitude_error: left([c.y - b.y, 0.0], [c.y - b.y, b.y - a.y]) + 4.0 * tolerance,
-            amplitude_along: self.swing_along(b.t, c.t),
-            drift,
+            amplitude_error,
+            amplitude_along: last.along,
+            amplitude_along_error: left(&along) + 4.0 * tolerance,
+            drift: highest.last()? / amplitude,
         })
     }
 
@@ -150,58 +208,38 @@ impl SnakingObserver {
     /// The last step.
     #[must_use]
     pub fn last(&self) -> Option<&Step> {
-        self.tail.back()
-    }
-
-    /// Half the peak-to-peak value of R - x0 between two times.
-    fn swing_along(&self, from: f64, to: f64) -> f64 {
-        const SAMPLES: u32 = 2000;
-        let lag = |i: u32| {
-            let t = from + (to - from) * f64::from(i) / f64::from(SAMPLES);
-            let after = self.tail.partition_point(|step| step.along.t <= t);
-            self.tail[after.max(1) - 1].along.lag(&self.support, t)
-        };
-        let (low, high) = (0..=SAMPLES)
-            .map(lag)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), l| (low.min(l), high.max(l)));
-        0.5 * (high - low)
+        self.last.as_ref()
     }
 
     /// Writes all data except the scenario.
     pub(crate) fn save(&self, state: &mut State) {
-        let turns = |turns: &mut dyn Iterator<Item = &Turn>| {
-            turns.map(|turn| (turn.t, turn.y)).collect::<Vec<_>>()
-        };
         state.pairs(self.span.iter());
-        state.pairs(turns(&mut self.highest.iter()).iter());
-        state.count(self.maxima);
-        state.pairs(turns(&mut self.lowest.iter()).iter());
-        state.count(self.tail.len() as u64);
-        for step in &self.tail {
+        state.count(u64::from(self.last.is_some()));
+        if let Some(step) = &self.last {
             state.step(&step.along);
             state.number(step.y);
             step.across.iter().for_each(|across| state.number(*across));
         }
+        self.cycles.save(state);
         state.number(self.deviations.width);
         state.numbers(self.deviations.bins.iter().copied());
     }
 
     pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
-        let turn = |(t, y): (f64, f64)| Turn { t, y };
         self.span = state.pairs()?.pop();
-        self.highest = state.pairs()?.into_iter().map(turn).collect();
-        self.maxima = state.count()?.min(u64::MAX / 2);
-        self.lowest = state.pairs()?.pop().map(turn);
-        let step = |state: &mut Reader| {
-            let (along, y, mut across) = (state.step()?, state.finite()?, [0.0; STAGES]);
-            for across in &mut across {
-                *across = state.finite()?;
+        self.last = match state.length(1)? {
+            0 => None,
+            _ => {
+                let (along, y, mut across) = (state.step()?, state.finite()?, [0.0; STAGES]);
+                for across in &mut across {
+                    *across = state.finite()?;
+                }
+                Some(Step { along, y, across })
             }
-            Ok(Step { along, y, across })
         };
-        self.tail = (0..state.length(1)?).map(|_| step(state)).collect::<Result<_, _>>()?;
+        self.cycles = Cycles::restored(state)?;
         self.deviations = Largest { width: state.finite()?, bins: state.numbers()? };
-        let ends = self.tail.back().map(|step| step.end().to_bits());
+        let ends = self.last.map(|step| step.end().to_bits());
         let is_sound =
             self.deviations.is_sound() && ends == self.span.map(|(_, end)| end.to_bits());
         if is_sound { Ok(()) } else { Err(Damaged::OutOfRange) }
@@ -260,40 +298,81 @@ impl Largest {
     }
 }
 
-/// Sum of a geometric series that begins with the larger of these sizes and decays as two changes did, the last of
-/// which comes first.
-fn left(sizes: [f64; 2], [last, before]: [f64; 2]) -> f64 {
-    let fading = (last / before).abs();
-    let fading = if fading.is_finite() { fading.min(SLOWEST) } else { SLOWEST };
-    let size = sizes.into_iter().fold(0.0, |most: f64, size| most.max(size.abs()));
-    size / (1.0 - fading)
+/// The factor by which changes decay per period, from the largest of their earlier half to that of their later one:
+/// a single change of a motion that rings may pass 0. `None` if they do not decay and are not below `errors`. The last
+/// change is at the end.
+fn fading(changes: &[f64], errors: f64) -> Option<f64> {
+    let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+    let (earlier, later) = changes.split_at(changes.len() / 2);
+    let fading = (largest(later) / largest(earlier)).powf(2.0 / changes.len() as f64);
+    let fading = if largest(later) <= errors { fading.min(SLOWEST) } else { fading };
+    Some(fading).filter(|fading| *fading < 1.0)
 }
 
-/// Turning points of y0 within a step, and whether each is a maximum.
-fn turns(step: &Step) -> impl Iterator<Item = (Turn, bool)> {
-    let velocity = step.velocity_across();
-    let time = |i: u32| step.along.t + step.along.h * f64::from(i) / f64::from(LOOKS);
-    let mut from = (time(0), velocity(time(0)));
+/// Twice the sum of all later changes, for the largest geometric series of this factor that touches the later half of
+/// these.
+fn left(changes: &[f64], fading: f64) -> f64 {
+    let later = changes[changes.len() / 2..].iter().rev();
+    let faded = later.scan(1.0, |factor, change| {
+        let size = *factor * change;
+        *factor *= fading;
+        Some(size)
+    });
+    2.0 * faded.fold(0.0, f64::max) / (1.0 - fading)
+}
+
+/// Turning points within a step of a quantity, given its rate and its value as functions of t.
+fn turns(
+    step: &Step,
+    rate: impl Fn(f64) -> f64,
+    value: impl Fn(f64) -> f64,
+) -> impl Iterator<Item = Turn> {
+    let (start, part) = (step.along.t, step.along.h / f64::from(LOOKS));
+    let time = move |i: u32| start + part * f64::from(i);
+    let mut from = (time(0), rate(time(0)));
     (1..=LOOKS).filter_map(move |i| {
-        let before = std::mem::replace(&mut from, (time(i), velocity(time(i))));
-        let turned = before.1 * from.1 < 0.0;
-        turned.then(|| (turn(step, &velocity, (before.0, from.0)), before.1 > 0.0))
+        let before = std::mem::replace(&mut from, (time(i), rate(time(i))));
+        (before.1 * from.1 < 0.0).then(|| {
+            let is_high = before.1 > 0.0;
+            let t = turning(&rate, is_high, (before.0, from.0));
+            Turn { t, value: value(t), is_high }
+        })
     })
 }
 
-fn turn(step: &Step, velocity: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> Turn {
-    let rises = velocity(low) > 0.0;
+/// The time at which a rate changes its sign.
+fn turning(rate: impl Fn(f64) -> f64, is_high: bool, (mut low, mut high): (f64, f64)) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = f64::midpoint(low, high);
-        if (velocity(middle) > 0.0) == rises { low = middle } else { high = middle }
+        if (rate(middle) > 0.0) == is_high { low = middle } else { high = middle }
     }
-    let t = f64::midpoint(low, high);
-    Turn { t, y: step.y0(t) }
+    f64::midpoint(low, high)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Numbers that approach 0 as Re(e^{iφ} (ϱe^{iω})ⁿ), for all phases φ, also where the last change is nearly 0:
+    /// within 0.74 of the error. If they turn by 0 < ω < 0.3 in a period, too few periods are kept for that.
+    #[test]
+    fn a_number_that_rings_is_within_its_error_of_its_limit() {
+        let mut largest = 0.0_f64;
+        for (decay, length) in [(0.3_f64, 5), (0.6, 8), (0.8, 13), (0.9, 13)] {
+            for turn in (3..30).map(|i| 0.1 * f64::from(i)).chain([0.0]) {
+                for phase in (0..100).map(|i| 0.0628 * f64::from(i)) {
+                    let number = |n: i32| decay.powi(n) * (phase + turn * f64::from(n)).cos();
+                    let changes: Vec<f64> =
+                        (1..length).map(|n| (number(n) - number(n - 1)).abs()).collect();
+                    let Some(fading) = fading(&changes, 0.0) else { continue };
+                    let off = number(length - 1).abs() / left(&changes, fading);
+                    largest = largest.max(off);
+                }
+            }
+        }
+        println!("{largest}");
+        assert!(largest < 1.0, "{largest}");
+    }
 
     /// The largest of a list, however coarse the bins have become.
     #[test]

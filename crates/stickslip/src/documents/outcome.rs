@@ -151,6 +151,9 @@ pub struct SwingDocument {
     pub amplitude_y0_error: f64,
     /// Half peak-to-peak of R - x0, in σ.
     pub amplitude_x0: f64,
+    /// Error of `amplitude_x0`, in σ.
+    #[serde(default)]
+    pub amplitude_x0_error: Option<f64>,
     /// Change of the largest y0 in the last period, over the amplitude.
     pub drift: f64,
 }
@@ -166,6 +169,7 @@ impl SwingDocument {
             amplitude_y0: motion.amplitude,
             amplitude_y0_error: motion.amplitude_error,
             amplitude_x0: motion.amplitude_along,
+            amplitude_x0_error: Some(motion.amplitude_along_error),
             drift: motion.drift,
         }
     }

@@ -46,6 +46,12 @@ impl Step {
         move |t| RADAU.between(&rates, self.part(t)) / self.along.h
     }
 
+    /// x0' on its polynomial as a function of t, for many t.
+    pub fn velocity_along(&self) -> impl Fn(f64) -> f64 + use<'_> {
+        let rates = apply(&RADAU.derivative, &self.along.displacement);
+        move |t| RADAU.between(&rates, self.part(t)) / self.along.h
+    }
+
     fn part(&self, t: f64) -> f64 {
         (t - self.along.t) / self.along.h
     }

@@ -81,7 +81,10 @@ pub(in crate::commands) fn of_across(document: &RunDocument) -> Summary {
         .maybe("period", swing.map(|s| held(s.period, s.period_error, "Γ/k")))
         .maybe("wavelength", swing.map(|s| held(s.wavelength, s.wavelength_error, "σ")))
         .maybe("amplitude of y0", swing.map(|s| held(s.amplitude_y0, s.amplitude_y0_error, "σ")))
-        .maybe("amplitude of x0", swing.map(|s| format!("{} σ", digits(s.amplitude_x0, 7))))
+        .maybe(
+            "amplitude of x0",
+            swing.map(|s| held(s.amplitude_x0, s.amplitude_x0_error.unwrap_or_default(), "σ")),
+        )
         .remarks(&document.remarks)
         .next(again("-o run.json --plot run.svg"))
 }

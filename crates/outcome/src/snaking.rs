@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use stickslip_tip::planar::{PlanarScenario, Step, Trajectory};
+use stickslip_tip::roots::halved_between;
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{STAGES, Support};
 
@@ -9,8 +10,6 @@ use stickslip_tip::{STAGES, Support};
 const REPEATS: f64 = 1e-3;
 /// Evaluations of the velocity within a step: between two of them it changes sign at most once.
 const LOOKS: u32 = 8;
-/// Number of bisections for the time of a turning point: to the last bit of a step.
-const BISECTIONS: u32 = 50;
 /// Changes below this many tolerances are errors of steps, whose decay
 const ERRORS: f64 = 10.0;
 /// is taken to be this factor per period.
@@ -334,19 +333,10 @@ fn turns(
         let before = std::mem::replace(&mut from, (time(i), rate(time(i))));
         (before.1 * from.1 < 0.0).then(|| {
             let is_high = before.1 > 0.0;
-            let t = turning(&rate, is_high, (before.0, from.0));
+            let t = halved_between(&rate, before.0, from.0);
             Turn { t, value: value(t), is_high }
         })
     })
-}
-
-/// The time at which a rate changes its sign.
-fn turning(rate: impl Fn(f64) -> f64, is_high: bool, (mut low, mut high): (f64, f64)) -> f64 {
-    for _ in 0..BISECTIONS {
-        let middle = f64::midpoint(low, high);
-        if (rate(middle) > 0.0) == is_high { low = middle } else { high = middle }
-    }
-    f64::midpoint(low, high)
 }
 
 #[cfg(test)]

@@ -119,15 +119,9 @@ impl<'a> Asked<'a> {
         Ok(Self { session, question, scenario: whole, discretisation, grid_until, time_limit })
     }
 
-    /// Start and end of the run.
-    fn span(&self) -> (f64, f64) {
-        let along = self.scenario.along();
-        (along.start_time(), along.until)
-    }
-
     /// Least and largest value of a coordinate until the grid ends.
     fn range(&self, coordinate: impl Fn(f64) -> f64) -> (f64, f64) {
-        let times = super::surface::evenly(self.span().0, self.grid_until, POINTS);
+        let times = super::surface::evenly(self.scenario.span().0, self.grid_until, POINTS);
         let values = times.into_iter().map(coordinate);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     }
@@ -195,7 +189,7 @@ fn document(
     sides: Sides,
 ) -> Result<CompareDocument, Failure> {
     let Sides { x, closed, motion: Motion { t, grid } } = sides;
-    let (start, until) = asked.span();
+    let (start, until) = asked.scenario.span();
     let spans = [asked.grid_until, until].map(|t| t - start);
     let rates = [grid.work.seconds / spans[0], closed.work.seconds / spans[1]];
     let across = closed.y0.as_ref().zip(grid.y0.as_ref());

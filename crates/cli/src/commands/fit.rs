@@ -195,7 +195,7 @@ impl<'a> Files<'a> {
             if gain.is_some() || is_known {
                 scale(column, self.forces.factor(&named, heading)?);
                 force_unit = self.forces.unit();
-            } else if let Some(factor) = common_factor(heading, &headings[1]) {
+            } else if let Some(factor) = ratio(heading.written_unit(), headings[1].written_unit()) {
                 scale(column, factor);
             } else {
                 let message = format!(
@@ -230,14 +230,6 @@ impl<'a> Files<'a> {
             scale(column, quantity.factor(&named, heading)?);
         }
         Ok((named, taken(option, path, columns)?))
-    }
-}
-
-/// The factor from the unit of a heading to that of another; `None` if they belong to different quantities.
-fn common_factor(heading: &Heading, other: &Heading) -> Option<f64> {
-    match (heading.written_unit(), other.written_unit()) {
-        (Some(unit), Some(other)) => ratio(unit, other),
-        (unit, other) => (unit == other).then_some(1.0),
     }
 }
 

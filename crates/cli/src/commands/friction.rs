@@ -146,11 +146,7 @@ impl<'a> Data<'a> {
     ) -> Result<f64, Failure> {
         let (first, known) =
             self.force.get_or_insert_with(|| (column.to_owned(), unit.map(str::to_owned)));
-        let factor = match (unit, known.as_deref()) {
-            (Some(unit), Some(known)) => ratio(unit, known),
-            (unit, known) => (unit == known).then_some(1.0),
-        };
-        factor.ok_or_else(|| {
+        ratio(unit, known.as_deref()).ok_or_else(|| {
             let of = |unit: Option<&str>| unit.map_or("has no unit".into(), |u| format!("is in {u}"));
             let (unit, known) = (of(unit), of(known.as_deref()));
             let message = format!(
@@ -192,7 +188,7 @@ fn sensitivity(arguments: &FrictionArguments, unit: Option<&str>) -> Result<Opti
         .split_once('/')
         .and_then(|(force, per)| Some((Unit::Force.parse(force).ok()?, per.trim())));
     match (parts, unit) {
-        (Some((force, per)), Some(unit)) => match ratio(unit, per) {
+        (Some((force, per)), Some(unit)) => match ratio(Some(unit), Some(per)) {
             Some(factor) => Ok(Some(force * factor)),
             None => needs(&named, format!("the data are in {unit}, not in {per}")),
         },

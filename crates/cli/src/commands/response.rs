@@ -20,7 +20,6 @@ pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Resu
     }
     let question: Response = parameter::question(values)?;
     // A pulse before the samples is felt in them.
-    let span = (f64::NEG_INFINITY, question.until);
-    warn_of_idle_pulses(session, pulse, &pulses, span);
+    warn_of_idle_pulses(session, pulse, &pulses, (f64::NEG_INFINITY, question.until));
     answer(session, question, place, &options.tip)
 }

@@ -146,11 +146,13 @@ impl Common {
     }
 }
 
-/// The factor from one unit of lengths, forces or voltages to another; `None` if they belong to different quantities.
-pub(crate) fn ratio(unit: &str, to: &str) -> Option<f64> {
+/// The factor from one unit of lengths, forces or voltages to another, 1 where both are unknown; `None` if they belong to
+/// different quantities, or one of them is unknown.
+pub(crate) fn ratio(unit: Option<&str>, to: Option<&str>) -> Option<f64> {
     if unit == to {
         return Some(1.0);
     }
+    let (unit, to) = (unit?, to?);
     let quantities = [Unit::Force, Unit::Length, Unit::Voltage];
     quantities.iter().find_map(|of| Some(of.one(unit)? / of.one(to)?))
 }

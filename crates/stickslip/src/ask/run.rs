@@ -176,6 +176,11 @@ impl RunScenario {
             Self::Across(scenario) => &scenario.along,
         }
     }
+
+    /// Start and end of the run, in Γ/k.
+    pub fn span(&self) -> (f64, f64) {
+        (self.along().start_time(), self.along().until)
+    }
 }
 
 /// Heights uniform in [-amplitude, amplitude] on a grid, interpolated by a cubic spline.
@@ -707,7 +712,7 @@ impl Ask for Run {
     /// The answer, with the dense history.
     fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
         let scenario = self.prepared()?;
-        let span = (scenario.along().start_time(), scenario.along().until);
+        let span = scenario.span();
         let times = self.sampling.times(span, "the run", true)?;
         let scenario = match scenario {
             RunScenario::Along(scenario) => scenario,

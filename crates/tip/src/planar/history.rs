@@ -42,13 +42,17 @@ impl Step {
 
     /// y0' on its polynomial as a function of t, for many t.
     pub fn velocity_across(&self) -> impl Fn(f64) -> f64 + use<'_> {
-        let rates = apply(&RADAU.derivative, &self.across);
-        move |t| RADAU.between(&rates, self.part(t)) / self.along.h
+        self.rate(&self.across)
     }
 
     /// x0' on its polynomial as a function of t, for many t.
     pub fn velocity_along(&self) -> impl Fn(f64) -> f64 + use<'_> {
-        let rates = apply(&RADAU.derivative, &self.along.displacement);
+        self.rate(&self.along.displacement)
+    }
+
+    /// The derivative of the polynomial through these displacements.
+    fn rate(&self, displacement: &Stages) -> impl Fn(f64) -> f64 + use<'_> {
+        let rates = apply(&RADAU.derivative, displacement);
         move |t| RADAU.between(&rates, self.part(t)) / self.along.h
     }
 

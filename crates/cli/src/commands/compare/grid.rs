@@ -246,7 +246,7 @@ pub(super) struct Watch {
 
 impl Watch {
     pub(super) fn new(asked: &Asked) -> Self {
-        let span = (asked.span().0, asked.grid_until);
+        let span = (asked.scenario.span().0, asked.grid_until);
         let pace = Pace::new("--grid-until", span, asked.time_limit);
         let progress = Progress::new(asked.session, span.0, span.1).at_every_call();
         Self { progress, pace, samples: Samples::default(), failure: None }

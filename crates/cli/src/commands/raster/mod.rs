@@ -94,8 +94,7 @@ pub(super) fn question<Q: Questions>(
     let question = question.resolved(&context(session)).map_err(refused)?;
     let plan = question.prepared().map_err(refused)?;
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
-    let span = (0.0, plan.duration(0));
-    warn_of_idle_pulses(session, pulse, &pulses, span);
+    warn_of_idle_pulses(session, pulse, &pulses, (0.0, plan.duration(0)));
     Ok((question, plan))
 }
 

@@ -27,8 +27,7 @@ pub(crate) fn disturbed(
     let run = with_files(session, run, arguments, support_path, scales)?;
     let run = run.resolved(&context(session)).map_err(&refused)?;
     let scenario = run.prepared().map_err(refused)?;
-    let along = scenario.along();
-    warn_of_idle(session, arguments, &run, (along.start_time(), along.until));
+    warn_of_idle(session, arguments, &run, scenario.span());
     Ok((run, scenario))
 }
 
@@ -91,8 +90,7 @@ fn warn_of_idle(session: &Session, arguments: &DisturbanceArguments, run: &Run, 
     let (Some(first), Some(last)) = (table.t.first(), table.t.last()) else { return };
     let mut rows = table.t.iter().zip(&table.force);
     let whole_from = rows.find(|(_, force)| force.abs() > 0.0).map_or(*last, |(t, _)| *t);
-    let ends = (*first, *last);
-    let acts = Acts { ends, core: ends, whole_from, least_time: None };
+    let acts = Acts { ends: (*first, *last), core: *first, whole_from, least_time: None };
     acts.warn(session, &format!("--force-file {}", path.display()), span);
 }
 
@@ -108,7 +106,7 @@ pub(crate) fn warn_of_idle_pulses(
         let half = WIDTHS_FELT * width;
         let acts = Acts {
             ends: (time - half, time + half),
-            core: (time, time),
+            core: time,
             whole_from: time - WIDTHS_CUT * width,
             least_time: Some(span.0 + WIDTHS_CUT * width),
         };
@@ -120,8 +118,8 @@ pub(crate) fn warn_of_idle_pulses(
 struct Acts {
     /// First and last time.
     ends: (f64, f64),
-    /// The part that a run needs to cover.
-    core: (f64, f64),
+    /// The time that a run needs to reach.
+    core: f64,
     /// A motion that begins later lacks a part of the force.
     whole_from: f64,
     /// The least time T of a pulse of which nothing is lacking.
@@ -132,7 +130,7 @@ impl Acts {
     /// Warns if the force acts outside of this span, or in part.
     fn warn(&self, session: &Session, option: &str, (start, until): (f64, f64)) {
         let said = if self.ends.0 >= until {
-            let (until, after) = (Typed(until), Typed(self.core.0));
+            let (until, after) = (Typed(until), Typed(self.core));
             format!(
                 "has no effect: it comes after the end at t = {until}: give an --until above {after}"
             )

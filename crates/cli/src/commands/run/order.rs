@@ -40,7 +40,7 @@ pub(super) fn order(
     let disturbance = (disturbance, support_path.as_deref());
     let refused = |failure| refusal(failure, &options.tip, &files);
     let (question, scenario) = disturbed(session, question, disturbance, scales.as_ref(), refused)?;
-    let span = (scenario.along().start_time(), scenario.along().until);
+    let span = scenario.span();
     let are_kept = format != RunFormat::Jsonl;
     let samples = question.sampling.times(span, "the run", are_kept)?;
     let every = checkpoint::interval(arguments.checkpoint_every, span)?;

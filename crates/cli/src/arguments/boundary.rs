@@ -1,7 +1,6 @@
 //! `stickslip boundary`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use std::path::PathBuf;
@@ -13,7 +12,7 @@ type Others = Either<RasterBoundary, Either<SnakingBoundary, LoadMap>>;
 /// Stability boundary: the critical α against r, with the oscillation at onset; or the critical α of scan lines
 /// against their pitch; or that of snaking against the stiffness across the scan.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
+#[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct BoundaryArguments {
     #[command(flatten)]
     pub(crate) options: Options<Either<Boundary, Others>>,
@@ -40,21 +39,33 @@ const USAGE: &str = "stickslip boundary --r-range <LO:HI:N> [OPTIONS]
 
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 6:
-    stickslip boundary --r-range 0.05:3:300 -o boundary.json --plot boundary.svg
+    stickslip boundary --r-range 0.05:3:300 -o boundary.json \\
+        --plot boundary.svg
   For a tip of your own, over four decades, as CSV:
-    stickslip boundary --tip-file tip.csv --r-range 0.01:100:401 --logarithmic -o boundary.csv
+    stickslip boundary --tip-file tip.csv --r-range 0.01:100:401 \\
+        --logarithmic -o boundary.csv
   Criticality along it:
-    stickslip boundary --r-range 0.01:100 --logarithmic --plot-onset criticality.svg
+    stickslip boundary --r-range 0.01:100 --logarithmic \\
+        --plot-onset criticality.svg
   With a depth limit, with the one below which nothing is unstable at each r:
-    stickslip boundary --beta 0 --depth-limit 5 --r-range 0.2:3:100 -o limited.json --plot limited.svg
+    stickslip boundary --beta 0 --depth-limit 5 --r-range 0.2:3:100 \\
+        -o limited.json --plot limited.svg
   Where lines begin to ripple together, and at what angle:
-    stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 -o pitch.csv --plot pitch.svg
+    stickslip boundary --tip gaussian --pitch-range 0.05:3:60 --r 1 \\
+        -o pitch.csv --plot pitch.svg
   The same on a spring across the scan, where lines bunch too:
-    stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 --stiffness-across 2.5 -o across.csv --plot across.svg
+    stickslip boundary --tip gaussian --pitch-range 0.5:3:11 --r 1 \\
+        --stiffness-across 2.5 -o across.csv --plot across.svg
   Where a single line snakes, and from which stiffness on it sticks and slips first:
-    stickslip boundary --stiffness-range 0.05:2:40 --r 1 -o snaking.json --plot snaking.svg
-    stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 -o velocity.csv
+    stickslip boundary --stiffness-range 0.05:2:40 --r 1 -o snaking.json \\
+        --plot snaking.svg
+    stickslip boundary --r-range 0.1:3:30 --stiffness-across 0.5 \\
+        -o velocity.csv
   At which load and velocity there are ripples, and how far apart, from a lever with α = 1.3 and r = 0.8 at 10 nN and 1 µm/s:
-    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --r-range 0.2um/s:2um/s --sigma 20nm --stiffness 0.2N/m --damping 3.2mNs/m -o loads.csv --plot loads.svg
+    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN \\
+        --load-range 2nN:20nN --r-range 0.2um/s:2um/s --sigma 20nm \\
+        --stiffness 0.2N/m --damping 3.2mNs/m -o loads.csv --plot loads.svg
   The same for a contact whose width was measured at several loads, of which the table has a row each:
-    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN --load-range 2nN:20nN --load-widths widths.csv --r-range 0.4:1.6 -o loads.json";
+    stickslip boundary --alpha 1.3 --r 0.8 --load 10nN \\
+        --load-range 2nN:20nN --load-widths widths.csv --r-range 0.4:1.6 \\
+        -o loads.json";

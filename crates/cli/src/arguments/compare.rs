@@ -1,7 +1,6 @@
 //! `stickslip compare`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::named::named;
 use super::{AnswerArguments, AreaArguments, DisturbanceArguments, Either, Options};
 use clap::Args;
@@ -15,7 +14,7 @@ use stickslip::{GridName, Raster, Run};
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
-    after_help = examples(EXAMPLES),
+    after_help = EXAMPLES,
     mut_arg("lines", |lines| lines.conflicts_with_all(OF_A_RUN)),
     mut_arg("area", |area| {
         area.conflicts_with_all(OF_A_RUN).conflicts_with_all(["pitch", "lines", "length"])
@@ -96,12 +95,16 @@ const OF_A_RUN: [&str; 6] =
 
 const EXAMPLES: &str = "Examples:
   Against the strongest grid, exact to round-off in space:
-    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76 -o compare.json --plot compare.svg
+    stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76 \\
+        -o compare.json --plot compare.svg
   From the paper's own start, noise on a flat surface:
     stickslip compare --alpha-above 0.01 --r 1 --start paper --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:
-    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid windowed --spacing 0.001 --step 0.04
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\
+        --grid windowed --spacing 0.001 --step 0.04
   A raster against rows of cells:
-    stickslip compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --lines 24 --length 40 -o rasters.json --plot rasters.png
+    stickslip compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 \\
+        --lines 24 --length 40 -o rasters.json --plot rasters.png
   Against the paper's own grid, for a time unit of it:
-    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 --grid uniform --spacing 0.001 --step 0.04 --grid-until 17";
+    stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\
+        --grid uniform --spacing 0.001 --step 0.04 --grid-until 17";

@@ -1,7 +1,6 @@
 //! `stickslip continue`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{AnswerArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
@@ -13,7 +12,7 @@ use stickslip::Continue;
 /// the onset of oscillation. It continues through folds, and ends at --to, in steady motion, at a branch of half the
 /// period, or where the period exceeds --longest-period: towards trapping the period has no bound.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
+#[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct ContinueArguments {
     #[command(flatten)]
     pub(crate) options: Options<Continue>,
@@ -32,7 +31,8 @@ const USAGE: &str = "stickslip continue --over alpha --r <R> [OPTIONS]
 
 const EXAMPLES: &str = "Examples:
   From onset through the period doubling and back, drawn:
-    stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
+    stickslip continue --r 1 --over alpha --to 1.88 --switch \\
+        -o branches.json --plot branches.svg
   As far as there are cycles, towards trapping:
     stickslip continue --r 1 --over alpha -o branch.csv
   In r, from a cycle that is known:

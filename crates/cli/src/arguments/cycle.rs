@@ -1,7 +1,6 @@
 //! `stickslip cycle`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{AnswerArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
@@ -12,7 +11,7 @@ use stickslip::Cycle;
 /// Solves for the motion and its period simultaneously, for unstable cycles too. A Floquet multiplier is the factor
 /// by which a small deviation changes in a period.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
+#[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct CycleArguments {
     #[command(flatten)]
     pub(crate) options: Options<Cycle>,
@@ -33,8 +32,10 @@ const EXAMPLES: &str = "Examples:
   Just above onset, where a run would need thousands of time units to settle:
     stickslip cycle --alpha-above 1e-4 --r 1
   Stick-slip with slips at 37 r, drawn:
-    stickslip cycle --tip gaussian --alpha 2.6 --r 1 -o cycle.json --plot cycle.svg
+    stickslip cycle --tip gaussian --alpha 2.6 --r 1 -o cycle.json \\
+        --plot cycle.svg
   The same a little further on:
     stickslip cycle --from cycle.json --alpha 2.61 -o next.json
   The wavelength in nm of an experiment, at any α:
-    stickslip cycle --alpha 1.3 --r 1 --sigma 30nm --print physical.wavelength_nm";
+    stickslip cycle --alpha 1.3 --r 1 --sigma 30nm \\
+        --print physical.wavelength_nm";

@@ -1,6 +1,5 @@
 //! `stickslip figures`.
 
-use super::examples::examples;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -59,7 +58,7 @@ impl FigureName {
 /// numbers, ours, and the explanation of each difference. The figures for β = 0 use exp(-x²), the tip of the printed
 /// numbers.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct FiguresArguments {
     /// Output folder; it is created if necessary, and files of the same names are replaced.
     #[arg(long, value_name = "DIR")]

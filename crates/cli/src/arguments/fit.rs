@@ -1,7 +1,6 @@
 //! `stickslip fit`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{Either, Length, Options, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -20,7 +19,7 @@ use stickslip::{Fit, FitImage};
 /// line are removed. All lines must be scanned in one direction. The tip is held on its lines, unless --stiffness-across is
 /// given or free.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = EXAMPLES)]
 #[command(mut_arg("width", |width| width.help(WIDTH).visible_alias("sigma")), brief())]
 pub(crate) struct FitArguments {
     /// Heights of ripples far behind the tip, along its path, by a heading such as `x_nm,z_nm`; or t,x,u, as `surface`
@@ -98,14 +97,18 @@ const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]
 
 const EXAMPLES: &str = "Examples:
   α, r and σ from ripples in nm, by the tip measured before, drawn:
-    stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
+    stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json \\
+        --plot fit.svg
   The same with σ known, and with the lateral force of the same scan:
-    stickslip fit --ripple ripples.csv --friction trace.csv --tip-file tip.json --width 30nm
+    stickslip fit --ripple ripples.csv --friction trace.csv \\
+        --tip-file tip.json --width 30nm
   A depth limit too, of rows some of which are dust:
     stickslip fit --ripple ripples.csv --free depth-limit --robust
   α and r from an image of ripples whose lines were 15 nm apart:
-    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian -o fit.json --plot fit.png
+    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian \\
+        -o fit.json --plot fit.png
   The same with a lever that is three times as stiff across the lines as along them, and the lateral force of its scan:
-    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian --stiffness-across 3 --lateral-image force.gsf
+    stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian \\
+        --stiffness-across 3 --lateral-image force.gsf
   α per load and r per velocity from onsets:
     stickslip fit --onsets onsets.csv --tip-file tip.json";

@@ -1,7 +1,6 @@
 //! `stickslip friction`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{Options, OutletArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -13,7 +12,7 @@ use stickslip::Friction;
 /// work of a loop, in nN and fJ if the units are known. Runs give theirs from their samples. The zero of the instrument is removed. Errors of means count the
 /// correlation of stick-slip, that of the peak the noise of the rows near it.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
+#[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct FrictionArguments {
     /// Positions of the support and lateral forces of the trace, by a heading such as `x_nm,force_nN`; with a third column,
     /// the retrace over the same positions. Or a document of `run`: the last closed loop of its --support-path.
@@ -54,10 +53,12 @@ const USAGE: &str = "stickslip friction [OPTIONS] <TRACE.csv> <RETRACE.csv>
 
 const EXAMPLES: &str = "Examples:
   Two tables with headings x_nm,force_nN:
-    stickslip friction trace.csv retrace.csv -o friction.json --plot friction.svg
+    stickslip friction trace.csv retrace.csv -o friction.json \\
+        --plot friction.svg
   One table of three columns, position, trace and retrace, of deflections in nm:
     stickslip friction loop.csv --stiffness 0.2N/m
   A run whose support returns, such as that of `stickslip run --support-path path.csv --sample-every 0.1 -o loop.json`:
     stickslip friction loop.json
   Voltages of a photodiode, calibrated to 25 nN per volt:
-    stickslip friction trace.csv retrace.csv --sensitivity 25nN/V --print work.value";
+    stickslip friction trace.csv retrace.csv --sensitivity 25nN/V \\
+        --print work.value";

@@ -6,7 +6,6 @@ mod compare;
 mod continuation;
 mod cycle;
 mod disturbance;
-mod examples;
 mod figures;
 mod fit;
 mod friction;
@@ -60,7 +59,6 @@ pub(crate) use verify::VerifyArguments;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use examples::examples;
 use stickslip::{SCHEMAS, Software};
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
@@ -69,7 +67,7 @@ use stickslip::{SCHEMAS, Software};
 /// it sticks, slips and writes ripples. All quantities are dimensionless: lengths in tip widths σ, times in Γ/k,
 /// forces in kσ, heights in kσ²/a; --units, or --sigma and related options, report results in nm, s and nN.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, long_version = Software::BUILD, after_help = examples(EXAMPLES))]
+#[command(name = "stickslip", version, long_version = Software::BUILD, after_help = EXAMPLES)]
 pub(crate) struct Cli {
     /// Print only errors: no progress, no warnings, no summary.
     #[arg(short, long, global = true)]
@@ -99,21 +97,30 @@ stickslip --help           all commands, with examples
 stickslip COMMAND --help   the options of one";
 
 const EXAMPLES: &str = "Examples:
-  stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+  stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\
+        -o run.json --plot run.svg
   stickslip verify run.json
-  stickslip surface run.json --at 457 --range -5:460 --spacing 0.02 -o surface.csv
+  stickslip surface run.json --at 457 --range -5:460 --spacing 0.02 \\
+        -o surface.csv
   stickslip stability --r 1
-  stickslip boundary --r-range 0.05:3:200 -o boundary.csv --plot boundary.svg
-  stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 -o response.csv
+  stickslip boundary --r-range 0.05:3:200 -o boundary.csv \\
+        --plot boundary.svg
+  stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 \\
+        -o response.csv
   stickslip compare --alpha 1.2 --r 1 --kick 0.05 --until 76
   stickslip cycle --alpha 1.2 --r 1 -o cycle.json --plot cycle.svg
-  stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json --plot branches.svg
+  stickslip continue --r 1 --over alpha --to 1.88 --switch -o branches.json \\
+        --plot branches.svg
   stickslip sweep --r 0.1:2:40 --alpha 0.05:4:40 -o map.json --plot map.svg
-  stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
+  stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 \\
+        --lines 256 --length 60 -o raster.json --plot raster.png
   stickslip tip measured.csv -o tip.json --plot tip.svg
-  stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json --plot fit.svg
-  stickslip friction trace.csv retrace.csv -o friction.json --plot friction.svg
-  stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+  stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json \\
+        --plot fit.svg
+  stickslip friction trace.csv retrace.csv -o friction.json \\
+        --plot friction.svg
+  stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm \\
+        --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip figures --out-dir figures
   stickslip schema run
@@ -183,4 +190,26 @@ pub(crate) struct SchemaArguments {
 pub(crate) struct CompletionsArguments {
     /// Shell to complete commands in.
     pub(crate) shell: Shell,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn examples_fit_a_terminal() {
+        let mut program = Cli::command();
+        program.build();
+        let commands = std::iter::once(&program).chain(program.get_subcommands());
+        let helps = commands.filter_map(|command| {
+            command.get_after_long_help().or(command.get_after_help()).map(ToString::to_string)
+        });
+        let helps: Vec<String> = helps.collect();
+        assert!(helps.len() > 15);
+        let lines = helps.iter().flat_map(|help| help.lines());
+        for line in lines.filter(|line| line.trim_start().starts_with("stickslip")) {
+            assert!(line.chars().count() <= 79, "{line}");
+        }
+    }
 }

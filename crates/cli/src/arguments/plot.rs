@@ -1,7 +1,6 @@
 //! `stickslip plot`.
 
 use super::InUnitsArguments;
-use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,7 +10,7 @@ use std::path::PathBuf;
 /// ends in .gif, .webp or .apng makes an animation of a run (the tip carves the surface, seen from above if it moves
 /// across the scan) or of a raster (which grows line by line). Its first frame shows the end of the motion.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct PlotArguments {
     /// The document, JSON; `-` for standard input.
     #[arg(value_name = "DOCUMENT.json")]
@@ -64,6 +63,7 @@ pub(crate) struct PlotArguments {
 const EXAMPLES: &str = "Examples:
   stickslip plot run.json -o run.pdf --width 85mm
   stickslip plot run.json -o slips.png --x-range 400:420 --dpi 300
-  stickslip plot run.json -o run.svg --sigma 30nm --stiffness 0.2N/m --velocity 1um/s --slope-force 5nN
+  stickslip plot run.json -o run.svg --sigma 30nm --stiffness 0.2N/m \\
+        --velocity 1um/s --slope-force 5nN
   stickslip plot boundary.json --onset -o criticality.svg
   stickslip plot run.json -o carving.gif --times 400:440 --seconds 8";

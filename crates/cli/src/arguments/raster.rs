@@ -1,7 +1,6 @@
 //! `stickslip raster`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{FieldArguments, Format, InUnitsArguments, Options};
 use clap::Args;
 use std::path::PathBuf;
@@ -26,7 +25,7 @@ pub(crate) struct AreaArguments {
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
-    after_help = examples(EXAMPLES),
+    after_help = EXAMPLES,
     mut_arg("area", |area| area.conflicts_with_all(["pitch", "lines", "length"])),
     brief()
 )]
@@ -76,12 +75,18 @@ const USAGE: &str = "stickslip raster (--alpha <A> | --alpha-above <D>) --r <R>
 
 const EXAMPLES: &str = "Examples:
   Ripples far below the threshold of a single line (`stability --pitch 0.5` says where they begin):
-    stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 --lines 256 --length 60 -o raster.json --plot raster.png
+    stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 \\
+        --lines 256 --length 60 -o raster.json --plot raster.png
   Forth and back, as a height map for Gwyddion:
-    stickslip raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 --path zigzag --lines 256 --length 60 -o raster.gsf
+    stickslip raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 \\
+        --path zigzag --lines 256 --length 60 -o raster.gsf
   A disc, whose lines examples/areas/circle.csv lists:
-    stickslip raster --tip gaussian --alpha 0.48 --r 1 --area examples/areas/circle.csv --tolerance 1e-6 -o disc.json --plot disc.png
+    stickslip raster --tip gaussian --alpha 0.48 --r 1 \\
+        --area examples/areas/circle.csv --tolerance 1e-6 -o disc.json \\
+        --plot disc.png
   The same line ten times:
-    stickslip raster --alpha 0.4 --r 1 --path repeat --lines 10 --length 40 -o repeated.csv
+    stickslip raster --alpha 0.4 --r 1 --path repeat --lines 10 --length 40 \\
+        -o repeated.csv
   Profiles and images of it afterwards:
-    stickslip surface raster.json --range 0:60 --y-range 0:128 --spacing 0.25 -o heights.npz";
+    stickslip surface raster.json --range 0:60 --y-range 0:128 \\
+        --spacing 0.25 -o heights.npz";

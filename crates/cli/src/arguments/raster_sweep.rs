@@ -1,7 +1,6 @@
 //! `stickslip sweep raster`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{InUnitsArguments, Options, OutletArguments, WorkArguments};
 use clap::Args;
 use std::path::PathBuf;
@@ -12,7 +11,7 @@ use stickslip::RasterSweep;
 /// Each point is a raster. Finished points are saved immediately beside the output (FILE.partial): after an interrupt
 /// the same command resumes from there.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES), brief())]
+#[command(after_help = EXAMPLES, brief())]
 pub(crate) struct RasterSweepArguments {
     #[command(flatten)]
     pub(crate) options: Options<RasterSweep>,
@@ -34,6 +33,8 @@ pub(crate) struct RasterSweepArguments {
 
 const EXAMPLES: &str = "Examples:
   From no ripples to ripples, pits and lines that stay at the edge:
-    stickslip sweep raster --tip gaussian --r 1 --pitch 0.25:2:8 --alpha 0.2:2:10 --lines 128 --length 80 -o map.json --plot map.svg
+    stickslip sweep raster --tip gaussian --r 1 --pitch 0.25:2:8 \\
+        --alpha 0.2:2:10 --lines 128 --length 80 -o map.json --plot map.svg
   The literature's depth limit:
-    stickslip sweep raster --r 1 --pitch 0.25:2:8 --alpha 0.5:3:6 --depth-limit 3 --lines 128 --length 80 -o map.json --plot map.svg";
+    stickslip sweep raster --r 1 --pitch 0.25:2:8 --alpha 0.5:3:6 \\
+        --depth-limit 3 --lines 128 --length 80 -o map.json --plot map.svg";

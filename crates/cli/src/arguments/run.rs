@@ -1,7 +1,6 @@
 //! `stickslip run`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::named::named;
 use super::{DisturbanceArguments, Either, FieldArguments, InUnitsArguments, Options};
 use clap::{Arg, Args, ValueEnum};
@@ -24,7 +23,7 @@ pub(crate) enum HistoryName {
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
-    after_help = examples(EXAMPLES),
+    after_help = EXAMPLES,
     mut_args(not_on_resume),
     brief()
 )]
@@ -115,25 +114,35 @@ fn not_on_resume(argument: Arg) -> Arg {
 
 const EXAMPLES: &str = "Examples:
   The paper's Fig. 1, just above onset:
-    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 -o run.json --plot run.svg
+    stickslip run --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\
+        -o run.json --plot run.svg
   With the paper's own start, noise on a flat surface:
-    stickslip run --alpha-above 0.01 --r 1 --start paper --until 457 -o run.json
+    stickslip run --alpha-above 0.01 --r 1 --start paper --until 457 \\
+        -o run.json
   A tip of your own, two pulses, samples as CSV:
-    stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 --pulse=-2,40,0.5 --until 80 -o run.csv
+    stickslip run --tip-file tip.csv --alpha 0.5 --r 0.8 --pulse 2,30,0.5 \\
+        --pulse=-2,40,0.5 --until 80 -o run.csv
   A trapped tip:
     stickslip run --alpha 4 --r 1 --until 1000 -o trapped.json
   Under the depth limit (61), on a surface that heals, and a friction loop of trace and retrace:
-    stickslip run --alpha 2.6 --beta 0 --r 1 --depth-limit 20 --kick 0.05 --until 200 -o limited.json
-    stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 --until 200 -o healing.json
+    stickslip run --alpha 2.6 --beta 0 --r 1 --depth-limit 20 --kick 0.05 \\
+        --until 200 -o limited.json
+    stickslip run --alpha 1.5 --r 1 --healing-time 10 --kick 0.05 \\
+        --until 200 -o healing.json
     printf 't,R\\n0,0\\n20,20\\n40,0\\n' > path.csv
-    stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 -o loop.json --plot loop.svg
+    stickslip run --alpha 0.8 --r 1 --support-path path.csv --until 40 \\
+        -o loop.json --plot loop.svg
   The peak of the lateral force after a hold of 100:
-    stickslip run --alpha 0.8 --r 1 --hold 20,100 --until 160 -o held.json --plot held.svg
+    stickslip run --alpha 0.8 --r 1 --hold 20,100 --until 160 -o held.json \\
+        --plot held.svg
   A particle that its own past drives: the Lorenz system:
-    stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
+    stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 \\
+        --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
   A walker in a rotating frame, on a circular orbit, and all orbits that exist there:
-    stickslip run --walker --alpha=-3 --rotation 0.3 --until 100 -o orbit.json --plot orbit.svg
+    stickslip run --walker --alpha=-3 --rotation 0.3 --until 100 \\
+        -o orbit.json --plot orbit.svg
   A long run, its samples written as it passes them, that survives a loss of power (errors of the period
   add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
-    stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
+    stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 \\
+        --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
     stickslip run --resume long.checkpoint";

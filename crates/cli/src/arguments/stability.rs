@@ -1,7 +1,6 @@
 //! `stickslip stability`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{AnswerArguments, Either, Options};
 use clap::Args;
 use stickslip::{RasterStability, Stability, Walking};
@@ -12,7 +11,7 @@ use stickslip::{RasterStability, Stability, Walking};
 /// --pitch: the threshold for ripples that grow from scan line to scan line. With --no-spring: the speeds of steady
 /// walks, and their growth exponents.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES), brief())]
+#[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct StabilityArguments {
     #[command(flatten)]
     pub(crate) options: Options<Either<Stability, Either<RasterStability, Walking>>>,
@@ -34,16 +33,21 @@ const EXAMPLES: &str = "Examples:
   Is a motion stable? All that grows, or decays slower than e^(-3t):
     stickslip stability --alpha 1.2 --r 1 --re-above=-3 --plot roots.svg
   Thirty exponents of a Gaussian tip, as CSV:
-    stickslip stability --tip gaussian --width 0.7 --alpha-above=-0.1 --r 2 --roots 30 -o roots.csv
+    stickslip stability --tip gaussian --width 0.7 --alpha-above=-0.1 --r 2 \\
+        --roots 30 -o roots.csv
   Lines half a width apart: where ripples set in, and how they grow above that:
     stickslip stability --tip gaussian --r 1 --pitch 0.5
-    stickslip stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 -o growth.csv --plot growth.svg
+    stickslip stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 \\
+        -o growth.csv --plot growth.svg
   The same where the tip has inertia and grooves are limited in depth:
-    stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 --inertia 0.3
+    stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 \\
+        --inertia 0.3
   On a spring across the scan, softer than that along it: where a line snakes, and where lines bunch or ripple:
     stickslip stability --r 1 --stiffness-across 0.5
-    stickslip stability --tip gaussian --r 1 --pitch 0.5 --stiffness-across 0.5
+    stickslip stability --tip gaussian --r 1 --pitch 0.5 \\
+        --stiffness-across 0.5
   Another pass over the same line:
-    stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 -o growth.csv
+    stickslip stability --tip gaussian --r 1 --path repeat --alpha 0.3 \\
+        -o growth.csv
   A tip that walks without a spring, over a healing surface: its speed, and whether it is stable:
     stickslip stability --no-spring --tip bessel --alpha=-3 --healing-time 1";

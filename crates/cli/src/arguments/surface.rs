@@ -1,14 +1,13 @@
 //! `stickslip surface`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::{FieldArguments, Format, InUnitsArguments, Interval};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Reconstruct the surface u(x,t) from a run, or u(x,y) from a raster.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES), brief())]
+#[command(after_help = EXAMPLES, brief())]
 pub(crate) struct SurfaceArguments {
     /// Document of `stickslip run` or `stickslip raster`; `-` is standard input.
     #[arg(value_name = "RUN.json")]
@@ -98,15 +97,21 @@ pub(crate) struct SurfaceArguments {
 }
 
 const EXAMPLES: &str = "Examples:
-  stickslip surface run.json --at 457 --range 400:460 --spacing 0.02 -o surface.csv
+  stickslip surface run.json --at 457 --range 400:460 --spacing 0.02 \\
+        -o surface.csv
   stickslip surface run.json --at 100,200,457 --plot surface.png
   An image for Gwyddion, and a height map of the same:
-    stickslip surface run.json --range 400:450 --y-range -2:2 --spacing 0.025 -o image.gsf --plot map.png
+    stickslip surface run.json --range 400:450 --y-range -2:2 \\
+        --spacing 0.025 -o image.gsf --plot map.png
   In nm, by a document of `stickslip units`; and read back as the surface that another run begins with:
     stickslip surface run.json --units units.json -o surface.csv
-    stickslip run --alpha 1.2 --r 1 --start flat --initial-surface surface.csv --units units.json --until 60
+    stickslip run --alpha 1.2 --r 1 --start flat \\
+        --initial-surface surface.csv --units units.json --until 60
   Profiles of a raster along two lines, and an image of it:
-    stickslip surface raster.json --range 0:60 --spacing 0.1 --y 10,10.25 -o profiles.csv
-    stickslip surface raster.json --range 0:60 --y-range 0:128 --spacing 0.25 -o image.gsf
+    stickslip surface raster.json --range 0:60 --spacing 0.1 --y 10,10.25 \\
+        -o profiles.csv
+    stickslip surface raster.json --range 0:60 --y-range 0:128 \\
+        --spacing 0.25 -o image.gsf
   Piped:
-    stickslip run --alpha 1.2 --r 1 --kick 0.05 --until 80 | stickslip surface - --x 60,60.5,61";
+    stickslip run --alpha 1.2 --r 1 --kick 0.05 \\
+        --until 80 | stickslip surface - --x 60,60.5,61";

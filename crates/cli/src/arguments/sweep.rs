@@ -1,7 +1,6 @@
 //! `stickslip sweep`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::named::named;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
@@ -20,7 +19,7 @@ use stickslip::{Sweep, TipName};
 /// output (FILE.partial): after an interrupt the same command resumes from there.
 #[derive(Debug, Args)]
 #[command(
-    override_usage = USAGE, after_help = examples(EXAMPLES),
+    override_usage = USAGE, after_help = EXAMPLES,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     brief()
@@ -114,13 +113,19 @@ const USAGE: &str =
 
 const EXAMPLES: &str = "Examples:
   The amplitude of stick-slip over α:
-    stickslip sweep --r 1 --alpha 1.07:2:100 -o amplitude.json --plot amplitude.svg
+    stickslip sweep --r 1 --alpha 1.07:2:100 -o amplitude.json \\
+        --plot amplitude.svg
   A phase diagram, and where steady motion ends in it:
-    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json --plot map.png
+    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 -o map.json \\
+        --plot map.png
   With a depth limit no tip is trapped:
-    stickslip sweep --beta 0 --r 1 --alpha 2:12:51 --depth-limit 5 -o limited.json --plot limited.svg
+    stickslip sweep --beta 0 --r 1 --alpha 2:12:51 --depth-limit 5 \\
+        -o limited.json --plot limited.svg
   A hundred runs, each from its own noise, and their statistics:
-    stickslip sweep --alpha 1.2 --r 1 --noise 1e-3 --seed 1:100:100 --until 200 -o ensemble.json
+    stickslip sweep --alpha 1.2 --r 1 --noise 1e-3 --seed 1:100:100 \\
+        --until 200 -o ensemble.json
   A phase diagram on four machines:
-    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 -o part-1.json
-    stickslip sweep merge part-1.json part-2.json part-3.json part-4.json -o map.json";
+    stickslip sweep --r 0.1:2:100 --alpha 0.05:4:100 --shard 1/4 \\
+        -o part-1.json
+    stickslip sweep merge part-1.json part-2.json part-3.json part-4.json \\
+        -o map.json";

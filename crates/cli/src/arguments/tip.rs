@@ -1,7 +1,6 @@
 //! `stickslip tip`.
 
 use super::brief::Brief;
-use super::examples::examples;
 use super::model::Length;
 use super::{Options, OutletArguments};
 use clap::Args;
@@ -15,7 +14,7 @@ use stickslip::MeasuredTip;
 /// reads by --tip-file. Lengths in it are in σ, the width of the Gaussian with the same full width at half maximum,
 /// and f(0) is 1, unless --sigma is given.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES), brief())]
+#[command(after_help = EXAMPLES, brief())]
 pub(crate) struct MeasuredTipArguments {
     /// Positions and heights, in two columns with any separator and decimal mark, with a heading such as `x_nm,z_nm`
     /// or a row of units below it; rows may be in any order and at any distance, and rows without a value are
@@ -55,11 +54,14 @@ const EXAMPLES: &str = "Examples:
     stickslip tip pit.txt --unit um --terms 2 --sigma 30nm -o tip.json
   An image, for f(x,y) of a raster:
     stickslip tip pit.gsf -o tip.json
-    stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 --lines 64 --length 60 -o raster.json
+    stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 \\
+        --lines 64 --length 60 -o raster.json
   A pit whose sides differ; αc of trace and retrace, and a zigzag with either side on its way:
     stickslip tip pit.csv --both-sides -o sides.json
     stickslip stability --tip-file sides.json --r 1
     stickslip stability --tip-file sides.json --r 1 --retrace
-    stickslip raster --tip-file sides.json --width-y 1 --alpha 0.6 --r 1 --pitch 0.5 --lines 4 --length 20 --path zigzag -o raster.json
+    stickslip raster --tip-file sides.json --width-y 1 --alpha 0.6 --r 1 \\
+        --pitch 0.5 --lines 4 --length 20 --path zigzag -o raster.json
   What the noise leaves open of the onset at r = 0.5, for a script:
-    stickslip tip pit.csv --r 0.5 --print critical_alpha.low --print critical_alpha.high";
+    stickslip tip pit.csv --r 0.5 --print critical_alpha.low \\
+        --print critical_alpha.high";

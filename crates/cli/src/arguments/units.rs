@@ -1,6 +1,5 @@
 //! `stickslip units`.
 
-use super::examples::examples;
 use super::{Options, OutletArguments, Questions};
 use clap::Args;
 use stickslip::parameter::{Parameter, parameters};
@@ -12,7 +11,7 @@ use stickslip::{Units, UnitsDocument};
 /// both: they are solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
 /// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is rejected.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = examples(EXAMPLES))]
+#[command(override_usage = USAGE, after_help = EXAMPLES)]
 pub(crate) struct UnitsArguments {
     /// Friction Γ of the tip (kg/s or Ns/m), (1).
     #[arg(
@@ -102,8 +101,11 @@ const USAGE: &str =
 
 const EXAMPLES: &str = "Examples:
   α, r, the lag, and how far it is to stick-slip:
-    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm \\
+        --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   The velocity and indentation rate that give α = 1.2 and r = 1:
-    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --alpha 1.2 --r 1
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm \\
+        --slope-force 5nN --alpha 1.2 --r 1
   The indentation rate from an α fitted to a measured profile:
-    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm --slope-force 5nN --velocity 1um/s --alpha 1.2";
+    stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm \\
+        --slope-force 5nN --velocity 1um/s --alpha 1.2";

@@ -1,7 +1,6 @@
 //! `stickslip verify`.
 
 use super::OutletArguments;
-use super::examples::examples;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -24,7 +23,7 @@ use std::path::PathBuf;
 /// Exit status 1 if l, x0 or the surface differ by more than the run's tolerance allows, or another value differs; 3
 /// if the run is correct but incomplete, because it was killed or is still running.
 #[derive(Debug, Args)]
-#[command(after_help = examples(EXAMPLES))]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct VerifyArguments {
     /// Output of `stickslip run`: a document (.json), lines (.jsonl), or incomplete lines (.jsonl.part); `-` is
     /// standard input.

@@ -345,14 +345,6 @@ fn solve_if(
     if closed.orbit.difference_of_halves(r) < REPEATS_WITHIN {
         return solve_if(equation, closed.orbit.halved(r), tolerance, sought);
     }
-    // A tip with inertia overshoots, and swings back after each slip.
-    if closed.orbit.retreat() > equation.retreat() && equation.wider.inertia.is_some() {
-        let far = equation.reaching_back(tolerance).map_err(|error| match error {
-            CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
-            _ => NotClosed::Lost,
-        })?;
-        return solve_if(&far, closed.orbit, tolerance, sought);
-    }
     // What swings by no more than its error is steady motion.
     let swings = |cycle: &Cycle| cycle.slips() > 0 && cycle.amplitude_x0() > cycle.error();
     Cycle::new(closed).ok().filter(swings).ok_or(NotClosed::Lost)

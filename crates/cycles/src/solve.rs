@@ -100,11 +100,32 @@ pub(super) fn close(
 /// The cycle near a guess, if it is wanted: the first solution, on the mesh of the guess, decides. Its linearisation is
 /// in the rough sum.
 pub(super) fn close_if(
+    equation: Embedding,
+    orbit: Orbit,
+    condition: Condition,
+    allowed: f64,
+    is_wanted: impl Fn(&Linearisation) -> bool,
+) -> Result<Closed, NotClosed> {
+    let closed = close_in_sums(equation, orbit, condition, allowed, &is_wanted)?;
+    let Closed { equation, orbit, .. } = &closed;
+    if orbit.retreat() <= equation.retreat() || equation.wider.inertia.is_none() {
+        return Ok(closed);
+    }
+    // A tip with inertia overshoots, and swings back after each slip.
+    let far = equation.reaching_back(allowed).map_err(|error| match error {
+        CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
+        _ => NotClosed::Lost,
+    })?;
+    close_in_sums(far, closed.orbit, condition, allowed, &is_wanted)
+}
+
+/// The same in the sums of an embedding, for any retreat of the tip.
+fn close_in_sums(
     mut equation: Embedding,
     mut orbit: Orbit,
     condition: Condition,
     allowed: f64,
-    is_wanted: impl Fn(&Linearisation) -> bool,
+    is_wanted: &impl Fn(&Linearisation) -> bool,
 ) -> Result<Closed, NotClosed> {
     if orbit.stages.len() > MOST_STEPS_OF_GUESS {
         return Err(NotClosed::Lost);

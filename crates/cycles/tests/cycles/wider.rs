@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use stickslip_cycles::{
-    Continuation, Cycle, CycleError, Parameter, SpecialKind, cycle, cycle_near,
+    Continuation, Cycle, CycleError, End, Parameter, SpecialKind, cycle, cycle_near,
 };
 use stickslip_tip::motion::{Extremum, latest_extrema};
 use stickslip_tip::{MemoryChoice, Model, Scenario, TipFunction, Wider, run};
@@ -205,4 +205,16 @@ fn a_cycle_leads_to_its_neighbour_and_what_has_none_is_refused() {
     let free = Wider { spring: false, ..Wider::default() };
     let free = Model::under(free, here.tip().clone(), -3.0, 0.0).unwrap();
     assert_eq!(cycle(&free, 1e-9).unwrap_err(), CycleError::NoSpring);
+}
+
+/// From α = 4.84 on the tip moves back by more than half a width after each slip. The period at α = 5 is that of a
+/// simulation in Python (f as a sum over a lattice of Gaussians, extrapolated midpoint rule at 1e-12), 29.001173605(5).
+#[test]
+fn a_branch_goes_on_where_a_tip_with_inertia_swings_back_farther() {
+    let wider = [0.0, 8.0, 0.9];
+    let before = cycle(&model(0.5, 4.8, 1.0, wider), 1e-9).unwrap();
+    let settings = Continuation { to: 5.0, ..Continuation::default() };
+    let branch = settings.from_cycle(&before, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    assert_eq!(branch.end, End::Reached);
+    assert!((branch.last.period() - 29.001_173_605).abs() < 5e-9, "{}", branch.last.period());
 }

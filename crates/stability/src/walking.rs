@@ -85,14 +85,18 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
     Ok(Walk { speed, weight, spectrum })
 }
 
-/// Threshold of walking, 1/(T²f''(0)), a negative number: for α below it a tip at rest on a surface that heals within
-/// T begins to walk.
+/// Threshold of walking, e^{|h|/b}/(T²f''(0)) with |h| = f(0)/(T|f''(0)|), a negative number: for α below it a tip at
+/// rest on a surface that heals within T begins to walk. Without healing there is none.
 ///
-/// At rest λ(Mλ + 1) = α f''(0) λT/(λ + 1/T): at the threshold 0 is a double root for any M. A depth limit changes
-/// nothing at rest except the weight w.
+/// At rest λ(Mλ + 1) = αw f''(0) λT/(λ + 1/T): at the threshold 0 is a double root for any M. A depth limit b changes
+/// only the weight w = e^{-|h|/b} of the height h = αwT f(0).
 #[must_use]
-pub fn walking_alpha(tip: &TipFunction, healing_time: f64) -> f64 {
-    1.0 / (healing_time * healing_time * tip.slope_and_curvature(0.0).1)
+pub fn walking_alpha(tip: &TipFunction, wider: &Wider) -> Option<f64> {
+    let healing_time = wider.healing_time?;
+    let curvature = tip.slope_and_curvature(0.0).1;
+    let height = tip.value(0.0) / (healing_time * curvature);
+    let exponent = wider.depth_limit.map_or(0.0, |limit| height.abs() / limit);
+    Some(exponent.exp() / (healing_time * healing_time * curvature))
 }
 
 /// The model of a dragged tip of the same speed: its groove is the same, except for the sign.

@@ -16,8 +16,8 @@ use stickslip_tip::Model;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WalkingFound {
-    /// 1/(T² f''(0)): below this α, which is negative, a tip at rest begins to walk. Null if the surface does not
-    /// heal.
+    /// 1/(T² f''(0)), with a depth limit b times exp(f(0)/(bT|f''(0)|)): below this α, which is negative, a tip at
+    /// rest begins to walk. Null if the surface does not heal.
     pub walking_alpha: Option<f64>,
     /// All walks by rising speed; of each walk and its mirror image only one is listed.
     pub walks: Vec<WalkDocument>,
@@ -106,8 +106,7 @@ impl Ask for Walking {
                 Err(error) => said.push(format!("{name}: {error}")),
             }
         }
-        let healing_time = model.wider().healing_time;
-        let walking_alpha = healing_time.map(|time| theory::walking_alpha(model.tip(), time));
+        let walking_alpha = theory::walking_alpha(model.tip(), model.wider());
         Ok((WalkingFound { walking_alpha, walks }, said))
     }
 }

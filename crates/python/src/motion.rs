@@ -2,7 +2,6 @@
 
 use crate::failed::unusable;
 use pyo3::PyResult;
-use pyo3::exceptions::PyRuntimeError;
 use stickslip::RunDocument;
 use stickslip_surface::Surface;
 use stickslip_tip::{Support, Trajectory};
@@ -44,7 +43,7 @@ pub(crate) fn heights(
     let mut rows = Vec::with_capacity(x.len() * t.len());
     for t in t {
         let row = surface.heights(*t, x);
-        rows.extend(row.map_err(|error| PyRuntimeError::new_err(error.to_string()))?);
+        rows.extend(row.map_err(unusable)?);
     }
     Ok(rows)
 }

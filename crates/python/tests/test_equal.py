@@ -155,6 +155,9 @@ def test_a_surface_is_that_of_the_program(shell, tmp_path):
     assert mine.tolist() == [surface["u"] for surface in program]
     by_command = stickslip.surface(run, at=[60, 80], range=(50, 70, 41))
     assert by_command.to_dict()["surfaces"] == program
+    for outside in [{"x": 60, "t": 1}, {"x": float("nan")}]:
+        with pytest.raises(ValueError, match="outside of the run|not a finite number"):
+            run.surface(**outside)
     assert run.surface(60.5).shape == () and run.surface([[60.0, 61.0]], 80).shape == (1, 2)
 
 

@@ -53,6 +53,9 @@ fn a_user_is_told_by_document_and_exit_status() {
     other["parameters"]["alpha"] = json!(1.200_001);
     folder.write("other.json", other.to_string());
     folder.refuses("verify other.json", &["RUN.json other.json", "history: from"]);
+    for name in ["abc", "verified.csv"] {
+        folder.refuses(&format!("verify run.json -o {name}"), &["--output", name, ".json"]);
+    }
     folder.refuses(&format!("{good} --verify -o run.jsonl"), &["--verify", ".json"]);
 }
 

@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
+use crate::files::output::OutputFormat;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use claims::Summary;
@@ -37,13 +38,19 @@ pub(crate) fn verify(session: &Session, arguments: &VerifyArguments) -> Result<(
     }
 }
 
-/// The output: JSON for any file name, or text; there are no columns.
+/// The output: JSON, or text; there are no columns.
 fn job(session: &Session, outlet: &OutletArguments) -> Result<Job, Failure> {
     let format = match outlet.format {
         Some(format @ (Format::Json | Format::Text)) => format,
         Some(_) => return Err(Failure::input("--format", "must be json or text")),
         None if outlet.output == Path::new("-") => on_standard_output(session),
-        None => Format::Json,
+        None => match OutputFormat::or_also(&outlet.output, "") {
+            Ok(OutputFormat::Json) => Format::Json,
+            _ => {
+                let option = format!("--output {}", outlet.output.display());
+                return Err(Failure::input(option, "must be .json, or - for standard output"));
+            }
+        },
     };
     Job::of_format(session, VerifyDocument::FORMAT, format, &outlet.output, &outlet.fields, None)
 }

@@ -43,7 +43,7 @@ fn parameters_out_of_range_are_refused() {
 #[test]
 fn options_of_a_run_out_of_range_are_refused() {
     let folder = Folder::new("options");
-    let cases: [(&str, &[&str]); 41] = [
+    let cases: [(&str, &[&str]); 42] = [
         ("", &["--until"]),
         ("--until 10", &["--until 10", "starts at t = 16.03", "after"]),
         ("--until -5", &["--until -5", "starts at"]),
@@ -76,7 +76,8 @@ fn options_of_a_run_out_of_range_are_refused() {
         ("--until 60 --noise 1 --noise-spacing -1", &["--noise-spacing -1", "above 0"]),
         ("--until 60 --noise 1 --noise-spacing nan", &["--noise-spacing NaN", "above 0"]),
         ("--until 60 --noise 1 --noise-spacing 1e-12", &["--noise-spacing 1e-12", "at most"]),
-        ("--until 60 --noise-spacing 1", &["--noise <A>"]),
+        ("--until 60 --noise-spacing 1", &["--noise-spacing: ", "give --noise too"]),
+        ("--until 60 --seed 2", &["--seed: ", "give --noise too"]),
         ("--until 60 --noise 1 --seed -1", &["'-1'", "'--seed <N>'"]),
         ("--until 60 --pulse 1", &["--pulse 1:", "A,T,W"]),
         ("--until 60 --pulse 1,2,3,4", &["--pulse 1,2,3,4", "A,T,W"]),

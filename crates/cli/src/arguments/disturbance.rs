@@ -12,23 +12,11 @@ pub(crate) struct DisturbanceArguments {
 
     /// Spacing of the noise grid, in σ [default: 0.1]. It is part of the initial condition: white noise has no limit
     /// as the spacing goes to 0.
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "noise",
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) noise_spacing: Option<f64>,
 
     /// Seed of the noise [default: 1].
-    #[arg(
-        long,
-        value_name = "N",
-        requires = "noise",
-        allow_hyphen_values = true,
-        help_heading = "Start"
-    )]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Start")]
     pub(crate) seed: Option<u64>,
 
     /// Profile added to the initial surface: CSV `x,u`, interpolated by a cubic spline with level ends, 0 outside;
@@ -46,4 +34,12 @@ pub(crate) struct DisturbanceArguments {
     /// t_s,force_nN.
     #[arg(long, value_name = "FILE", help_heading = "Force")]
     pub(crate) force_file: Option<PathBuf>,
+}
+
+impl DisturbanceArguments {
+    /// An option that describes a noise, if one is given.
+    pub(crate) fn of_noise(&self) -> Option<&'static str> {
+        let spacing = self.noise_spacing.map(|_| "--noise-spacing");
+        spacing.or(self.seed.map(|_| "--seed"))
+    }
 }

@@ -57,6 +57,8 @@ fn with_files(
         let spacing = arguments.noise_spacing.unwrap_or(NoiseParameters::SPACING);
         let seed = arguments.seed.unwrap_or(NoiseParameters::SEED);
         run.noise = Some(NoiseParameters { amplitude, spacing, seed });
+    } else if let Some(name) = arguments.of_noise() {
+        return Err(Failure::input(name, "belongs to a noise: give --noise too"));
     }
     Ok(run)
 }

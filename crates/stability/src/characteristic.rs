@@ -92,6 +92,11 @@ impl Characteristic {
         if is_cut && indents { -self.law.fading } else { f64::NEG_INFINITY }
     }
 
+    /// Whether N grows to the left as e^{Λ²w²/2}, so that its zeros form chains.
+    pub(super) fn has_chain(&self) -> bool {
+        matches!(self.law.footprint.tip(), TipFunction::Gaussians(_))
+    }
+
     /// A line left of all zeros, if there is no indentation and they are few.
     pub(super) fn left_of_all(&self) -> Option<f64> {
         let Law { drag, spring, inertia, .. } = self.law;

@@ -17,6 +17,15 @@ const FARTHEST: f64 = 1e9;
 const BESIDE: f64 = 1e-10;
 /// Largest number of Newton steps from a start close to a zero.
 const SOON: usize = 10;
+/// Λ²w² of the second complex zero less that of the first, and of one far up less that of the one before: about those of
+/// the Gaussian and of the triple with β = 1, whose length w is.
+const FIRST_INTERVAL: Complex64 = Complex64::new(-5.5, -9.5);
+const FAR_INTERVAL: Complex64 = Complex64::new(-2.0, -12.5);
+/// Λw of the first complex zero of these, from large α to small.
+const FIRST: [Complex64; 3] =
+    [Complex64::new(-1.1, 3.7), Complex64::new(-2.2, 2.5), Complex64::new(-3.2, 1.8)];
+/// Distances to the left of where a zero is expected, times w.
+const LEFT_OF_NEXT: [f64; 2] = [0.1, 0.35];
 /// Largest number of shifts of a left edge that passes through a root.
 const MOST_SHIFTS: u32 = 8;
 
@@ -59,12 +68,21 @@ impl HalfPlane {
     }
 
     pub(super) fn spectrum(&self, h: &Characteristic) -> Result<Spectrum, StabilityError> {
+        self.spectrum_with(h, &[])
+    }
+
+    /// All zeros, of which some may be known.
+    fn spectrum_with(
+        &self,
+        h: &Characteristic,
+        known: &[Complex64],
+    ) -> Result<Spectrum, StabilityError> {
         let certified = |upper: &[Complex64]| {
             let roots = with_conjugates(upper, h.r());
             let certificate = Certificate::of(h, self.region(h.r()), self.count, &roots);
             (roots, certificate)
         };
-        let (mut roots, mut certificate) = certified(&self.by_deflation(h));
+        let (mut roots, mut certificate) = certified(&self.by_deflation(h, known));
         if certificate.found != self.count {
             (roots, certificate) = certified(&self.by_halving(h)?);
         }
@@ -75,36 +93,75 @@ impl HalfPlane {
         Ok(Spectrum { roots, certificate })
     }
 
-    /// Zeros with Im Λ ≥ 0 from a grid of starts, until their number equals the count. Most starts that lead to a zero
-    /// do so in a few steps: the iterations are continued only if zeros are missing after that.
-    fn by_deflation(&self, h: &Characteristic) -> Vec<Complex64> {
-        let starts = self.starts(h);
-        let mut upper = Vec::new();
+    /// Zeros with Im Λ ≥ 0 from starts, until their number equals the count: along the chain that they form, then from a
+    /// grid. Most starts that lead to a zero do so in a few steps: the iterations are continued only if zeros are
+    /// missing after that.
+    fn by_deflation(&self, h: &Characteristic, known: &[Complex64]) -> Vec<Complex64> {
+        let mut upper: Vec<_> = known.iter().copied().filter(|z| self.contains(*z)).collect();
+        self.add_first(h, &mut upper, self.count);
+        let grid = self.grid(h);
         for (most, start) in
-            [SOON, MOST_ITERATIONS].iter().flat_map(|n| starts.iter().map(move |z| (*n, *z)))
+            [SOON, MOST_ITERATIONS].iter().flat_map(|n| grid.iter().map(move |z| (*n, *z)))
         {
             if total(&upper) >= self.count || stop::is_asked() {
                 break;
             }
-            let Some(zero) = another(|z| h.at(z), start, &upper, (2.0 / h.length(), most)) else {
-                continue;
-            };
-            let is_new = |zero: &Complex64| {
-                let inside = zero.re >= self.left && zero.re <= self.right && zero.im <= self.top;
-                let apart = 1e-8 * zero.norm().min(1.0 / h.length());
-                inside && upper.iter().all(|k: &Complex64| (k - zero).norm() > apart)
-            };
-            let zeros = settled(h, zero).into_iter().filter(is_new);
-            let zeros: Vec<_> = zeros.filter(|z| h.relative_residual(*z) < 1e-9).collect();
-            upper.extend(zeros);
+            if self.add_from(h, start, most, &mut upper) {
+                self.add_chain(h, &mut upper, self.count);
+            }
         }
         upper
     }
 
-    /// The root of α = 0, those of large α, and a grid that widens upwards as the roots do.
-    fn starts(&self, h: &Characteristic) -> Vec<Complex64> {
-        let mut starts = vec![Complex64::new(0.0, 0.8 / h.length())];
-        starts.extend(h.likely_roots());
+    fn contains(&self, zero: Complex64) -> bool {
+        zero.re >= self.left && zero.re <= self.right && zero.im <= self.top
+    }
+
+    /// Adds the zero to which a start leads in at most `most` steps, and one too close to it; whether it is new.
+    fn add_from(
+        &self,
+        h: &Characteristic,
+        start: Complex64,
+        most: usize,
+        upper: &mut Vec<Complex64>,
+    ) -> bool {
+        let found = another(|z| h.at(z), start, upper, (2.0 / h.length(), most));
+        let is_new = |zero: &Complex64| {
+            let apart =
+                1e-8 * zero.norm().min(1.0 / h.length()) + 4.0 * h.root_error(*zero, ROUNDOFF);
+            self.contains(*zero) && upper.iter().all(|k| (k - zero).norm() > apart)
+        };
+        let zeros = found.into_iter().flat_map(|zero| settled(h, zero)).filter(is_new);
+        let zeros: Vec<_> = zeros.filter(|z| h.relative_residual(*z) < 1e-9).collect();
+        upper.extend(&zeros);
+        !zeros.is_empty()
+    }
+
+    /// Adds zeros until there are `count` of them or the next is not where it is expected: those of α = 0 and of large α,
+    /// then the chain above them.
+    fn add_first(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
+        let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length()));
+        for start in first.chain(h.likely_roots()) {
+            if total(&*upper) < count {
+                self.add_from(h, start, SOON, upper);
+            }
+        }
+        self.add_chain(h, upper, count);
+    }
+
+    /// Adds zeros upwards, each where those below it let it be expected.
+    fn add_chain(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
+        while h.has_chain() && total(&*upper) < count && !stop::is_asked() {
+            let starts = next_in_chain(upper, h.length());
+            if !starts.into_iter().any(|start| self.add_from(h, start, SOON, upper)) {
+                break;
+            }
+        }
+    }
+
+    /// A grid of starts that widens upwards as the zeros do.
+    fn grid(&self, h: &Characteristic) -> Vec<Complex64> {
+        let mut starts = vec![];
         let spacing = 0.8 / h.length();
         let across = ((self.right.min(2.0 / h.length()) - self.left) / spacing).clamp(1.0, 80.0);
         let up = (self.top.min(2.0 / h.length() - self.left) / spacing).clamp(1.0, 80.0);
@@ -147,19 +204,59 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
     }
     let count = h.degree().map_or(count, |degree| count.min(degree));
     let mut left = -2.0 / h.length();
+    let further = |left: f64| (left - 1.0 / h.length()).max(h.leftmost());
+    let known = first_zeros(h, count);
+    let seen = |left: f64| total(known.iter().filter(|z| z.re >= left));
+    if total(&known) >= count {
+        let edges = std::iter::successors(Some(left), |left| Some(further(*left)));
+        let edge = edges.take_while(|left| *left > h.leftmost()).find(|left| seen(*left) >= count);
+        let half_plane = edge.and_then(|edge| HalfPlane::counted(h, edge).ok());
+        // If they are all, none of the lines before has enough zeros right of it.
+        if let Some(all) = half_plane.filter(|found| found.count == seen(found.left)) {
+            return all.spectrum_with(h, &known);
+        }
+    }
     loop {
         left = left.max(h.leftmost());
         let half_plane = HalfPlane::counted(h, left)?;
         if half_plane.count >= count || left <= h.leftmost() {
-            return half_plane.spectrum(h);
+            return half_plane.spectrum_with(h, &known);
         }
-        left -= 1.0 / h.length();
+        left = further(left);
     }
 }
 
+/// Up to `count` zeros of the chain, without a certificate that none is left out.
+fn first_zeros(h: &Characteristic, count: usize) -> Vec<Complex64> {
+    let everywhere =
+        HalfPlane { left: h.leftmost(), right: f64::INFINITY, top: f64::INFINITY, count };
+    let mut known = vec![];
+    everywhere.add_first(h, &mut known, count);
+    known
+}
+
+/// About where the next zero above those known lies. The zeros are those of e^{Λ²w²/2} = R(Λ), R being nearly rational:
+/// far up, Λ²w² of one is that of the one below less 4πi.
+fn next_in_chain(upper: &[Complex64], length: f64) -> Vec<Complex64> {
+    let mut below: Vec<_> = upper.iter().filter(|z| z.im > 0.0).map(|z| z * length).collect();
+    below.sort_by(|a, b| a.im.total_cmp(&b.im));
+    let square = match below[..] {
+        [.., before, last] => {
+            Some(last * last + (last * last - before * before + FAR_INTERVAL) * 0.5)
+        }
+        [only] => Some(only * only + FIRST_INTERVAL),
+        [] => None,
+    };
+    let next = square.map(|square| Complex64::I * (-square).sqrt());
+    // From the left, where N grows as e^{Λ²w²/2}, Newton's method does not overshoot.
+    let expected = next.into_iter().flat_map(|next| LEFT_OF_NEXT.map(|left| next - left));
+    let first = FIRST.into_iter().filter(|_| below.len() < 2);
+    expected.chain(first).map(|z| z / length).collect()
+}
+
 /// Number of zeros that `upper` represents: two for a conjugate pair, one if it is real.
-fn total(upper: &[Complex64]) -> usize {
-    upper.iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
+fn total<'a>(upper: impl IntoIterator<Item = &'a Complex64>) -> usize {
+    upper.into_iter().map(|z| if z.im > 0.0 { 2 } else { 1 }).sum()
 }
 
 /// A zero on or above the real axis from Newton's method, and another one that is too close to it for that method.
@@ -208,7 +305,7 @@ mod tests {
             let tip = TipFunction::triple_gaussian(beta, 1.0).unwrap();
             let h = Characteristic::new(&Model::new(tip, alpha, r).unwrap()).unwrap();
             let half_plane = HalfPlane::counted(&h, -2.7).unwrap();
-            let by_deflation = with_conjugates(&half_plane.by_deflation(&h), 1.0);
+            let by_deflation = with_conjugates(&half_plane.by_deflation(&h, &[]), 1.0);
             let by_halving = with_conjugates(&half_plane.by_halving(&h).unwrap(), 1.0);
             assert_eq!(by_deflation.len(), half_plane.count);
             assert_eq!(by_halving.len(), half_plane.count);
@@ -216,5 +313,33 @@ mod tests {
                 assert!((a - b).norm() < 1e-11, "{a} {b}");
             }
         }
+    }
+
+    /// The line is the first of those 1/width apart with enough zeros right of it, however many of them were seen first.
+    #[test]
+    fn leading_zeros_are_those_of_the_first_line_with_enough() {
+        let tips = [TipFunction::gaussian(1.0), TipFunction::triple_gaussian(1.0, 1.0)];
+        for tip in tips.map(Result::unwrap) {
+            for (alpha, r) in [(1.2, 1.0), (50.0, 1.0), (0.3, 0.1), (20.0, 10.0), (1e-3, 1.0)] {
+                let h = Characteristic::new(&Model::new(tip.clone(), alpha, r).unwrap()).unwrap();
+                let Certificate { region, counted, .. } = leading(&h, 8).unwrap().certificate;
+                let counts = (2..).map(|n| HalfPlane::counted(&h, -f64::from(n) / h.length()));
+                let first = counts.map(Result::unwrap).find(|found| found.count >= 8).unwrap();
+                assert_eq!(counted, first.count, "{alpha} {r}");
+                assert!((region.re_min - r * first.left).abs() < 1e-12 * r, "{alpha} {r}");
+            }
+        }
+    }
+
+    /// Without the chain a grid of starts would have to find each.
+    #[test]
+    fn the_chain_leads_from_each_zero_to_the_next() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let h = Characteristic::new(&Model::new(tip, 1.2, 1.0).unwrap()).unwrap();
+        let seen = first_zeros(&h, 40);
+        let all = leading(&h, 40).unwrap().roots;
+        assert!(
+            total(&seen) >= 40 && seen.iter().all(|z| all.iter().any(|k| (k - z).norm() < 1e-9))
+        );
     }
 }

@@ -48,8 +48,8 @@ impl Push {
     fn largest(&self) -> Option<(f64, f64)> {
         let ratio = (self.fastest / self.slowest).powf(1.0 / f64::from(SAMPLES));
         let sample = |i: u32| self.slowest * ratio.powi(i.cast_signed());
-        let highest =
-            (0..=SAMPLES).map(sample).max_by(|a, b| self.q(*a).0.total_cmp(&self.q(*b).0))?;
+        let samples = (0..=SAMPLES).map(sample).map(|p| (p, self.q(p).0));
+        let (highest, _) = samples.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let rises = |p: f64| self.q(p).1 > 0.0;
         let is_narrow = |(low, high): (f64, f64)| high - low <= 4.0 * f64::EPSILON * high;
         let (p, _) = bisected((highest / ratio, highest * ratio), rises, is_narrow);

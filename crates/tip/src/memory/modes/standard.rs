@@ -2,22 +2,14 @@
 //!
 //! They are those that [`Fit::reaching_back`](super::Fit::reaching_back) finds, to the last bit.
 
-mod table;
-
 use super::certificate::FitCertificate;
 use super::term::Term;
 use crate::elementary::{log10, pow};
 use crate::tip_function::{Gaussian, TipFunction};
 use num_complex::Complex;
 
-/// The fit to any of the accuracies from 10^(-from/4) to 10^(-to/4), for a small retreat.
-struct Standard {
-    quarters: (u32, u32),
-    /// Errors of the slope and of the curvature, and the area of the first.
-    certificate: [f64; 3],
-    /// Re s, Im s, Re w, Im w.
-    terms: &'static [[f64; 4]],
-}
+/// Sums and their certificates; its first lines say what a line contains.
+const TABLE: &str = include_str!("standard/table.txt");
 
 const fn gaussian(amplitude: f64, center: f64) -> Gaussian {
     Gaussian { amplitude, center, width: 1.0 }
@@ -30,21 +22,32 @@ const GAUSSIAN: [Gaussian; 1] = [gaussian(1.0, 0.0)];
 /// The terms, if they are known: of these footprints, to a whole quarter of a decade.
 pub(super) fn known(tip: &TipFunction, wanted: f64) -> Option<(Vec<Term>, FitCertificate)> {
     let TipFunction::Gaussians(sum) = tip else { return None };
-    let table: &[Standard] = match sum.terms() {
-        terms if terms == TRIPLE_GAUSSIAN => &table::TRIPLE_GAUSSIAN,
-        terms if terms == GAUSSIAN => &table::GAUSSIAN,
+    let name = match sum.terms() {
+        terms if terms == TRIPLE_GAUSSIAN => "triple-gaussian ",
+        terms if terms == GAUSSIAN => "gaussian ",
         _ => return None,
     };
     let exact = |quarters: &u32| accuracy(*quarters).to_bits() == wanted.to_bits();
-    let quarters = nearest_quarter(wanted).filter(exact)?;
-    let found = table.iter().find(|fit| (fit.quarters.0..=fit.quarters.1).contains(&quarters))?;
-    let term = |[s, si, w, wi]: &[f64; 4]| Term {
-        exponent: Complex::new(*s, *si),
-        weight: Complex::new(*w, *wi),
-    };
-    let [slope, curvature, area] = found.certificate;
-    let terms = found.terms.iter().map(term).collect();
-    Some((terms, FitCertificate { slope, curvature, area }))
+    let quarters = f64::from(nearest_quarter(wanted).filter(exact)?);
+    TABLE.split("\n\n").find_map(|sum| {
+        let (head, terms) = sum.strip_prefix(name)?.split_once('\n')?;
+        let [from, to, slope, curvature, area] = numbers(head)?;
+        if !(from..=to).contains(&quarters) {
+            return None;
+        }
+        let terms: Option<Vec<Term>> = terms.lines().map(term).collect();
+        Some((terms?, FitCertificate { slope, curvature, area }))
+    })
+}
+
+fn term(line: &str) -> Option<Term> {
+    let [s, si, w, wi] = numbers(line)?;
+    Some(Term { exponent: Complex::new(s, si), weight: Complex::new(w, wi) })
+}
+
+fn numbers<const N: usize>(line: &str) -> Option<[f64; N]> {
+    let numbers: Result<Vec<f64>, _> = line.split(' ').map(str::parse).collect();
+    numbers.ok()?.try_into().ok()
 }
 
 /// 10^(-quarters/4), as [`accuracy_needed`](super::accuracy_needed) has it.
@@ -69,48 +72,39 @@ mod tests {
 
     fn tips() -> [(&'static str, TipFunction); 2] {
         let tip = |beta| TipFunction::triple_gaussian(beta, 1.0).unwrap();
-        [("TRIPLE_GAUSSIAN", tip(1.0)), ("GAUSSIAN", tip(0.0))]
+        [("triple-gaussian", tip(1.0)), ("gaussian", tip(0.0))]
     }
 
     /// The table is what the algorithm finds today, character by character. Where the algorithm changes, the message
     /// names the file to put in its place.
     #[test]
     fn the_table_is_what_is_found() {
-        let head = include_str!("standard/table.rs").split("\n\n").next().unwrap();
-        let mut text = format!("{head}\n\nuse super::Standard;\n");
+        let head = TABLE.split("\n\n").next().unwrap();
+        let mut text = format!("{head}\n");
         for (name, tip) in tips() {
             text += &tabulated(name, &tip);
         }
-        if text != include_str!("standard/table.rs") {
-            let file = std::env::temp_dir().join("table.rs");
+        if text != TABLE {
+            let file = std::env::temp_dir().join("table.txt");
             std::fs::write(&file, text).unwrap();
-            panic!("standard/table.rs is not what is found: that is in {}", file.display());
+            panic!("standard/table.txt is not what is found: that is in {}", file.display());
         }
     }
 
     fn tabulated(name: &str, tip: &TipFunction) -> String {
         let found = |quarters| Some((quarters, Fit::new(tip, accuracy(quarters)).ok()?));
         let fits: Vec<(u32, Fit)> = QUARTERS.filter_map(found).collect();
-        let alike: Vec<_> = fits.chunk_by(|a, b| a.1.terms() == b.1.terms()).collect();
         let mut text = String::new();
-        writeln!(
-            text,
-            "\n#[rustfmt::skip]\npub(super) static {name}: [Standard; {}] = [",
-            alike.len()
-        )
-        .unwrap();
-        for alike in alike {
+        for alike in fits.chunk_by(|a, b| a.1.terms() == b.1.terms()) {
             let (from, to) = (alike[0].0, alike[alike.len() - 1].0);
             let (fit, certificate) = (&alike[0].1, alike[0].1.certificate());
             let FitCertificate { slope, curvature, area } = certificate;
-            writeln!(text, "    Standard {{ quarters: ({from}, {to}), terms: &[").unwrap();
+            writeln!(text, "\n{name} {from} {to} {slope:?} {curvature:?} {area:?}").unwrap();
             for Term { exponent: s, weight: w } in fit.terms() {
-                writeln!(text, "        [{:?}, {:?}, {:?}, {:?}],", s.re, s.im, w.re, w.im)
-                    .unwrap();
+                writeln!(text, "{:?} {:?} {:?} {:?}", s.re, s.im, w.re, w.im).unwrap();
             }
-            writeln!(text, "    ], certificate: [{slope:?}, {curvature:?}, {area:?}] }},").unwrap();
         }
-        text + "];\n"
+        text
     }
 
     #[test]

@@ -14,7 +14,7 @@ const SHORTEST: f64 = 1e-13;
 /// Largest number of steps on one side of a contour.
 const MOST_STEPS: usize = 1_000_000;
 
-/// Change of arg h along the straight line from `from` to `to`, in radians.
+/// Change of arg h along the straight line from `from`, where it is `here`, to `to`, in radians, and h there.
 ///
 /// Steps are |h/h'| times 0.7. They are shortened until h' at the far end agrees, h itself turns and grows no more
 /// than that, and the change of h agrees with its slopes. A turn would be missed if h and h' were the same at both
@@ -23,18 +23,17 @@ const MOST_STEPS: usize = 1_000_000;
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`] if h vanishes on the line.
-pub(super) fn argument_change(
+fn argument_change(
     h: impl Fn(Complex64) -> Scaled,
-    from: Complex64,
+    (from, mut here): (Complex64, Scaled),
     to: Complex64,
-) -> Result<f64, StabilityError> {
+) -> Result<(f64, Scaled), StabilityError> {
     let length = (to - from).norm();
     if length <= 0.0 {
-        return Ok(0.0);
+        return Ok((0.0, here));
     }
     let direction = (to - from) / length;
-    let (mut at, mut here) = (0.0, h(from));
-    let mut turned = 0.0;
+    let (mut at, mut turned) = (0.0, 0.0);
     for _ in 0..MOST_STEPS {
         if stop::is_asked() {
             return Err(StabilityError::Stopped);
@@ -60,7 +59,7 @@ pub(super) fn argument_change(
             step *= 0.5;
         }
         if at >= length {
-            return Ok(turned);
+            return Ok((turned, here));
         }
     }
     Err(StabilityError::RootOnContour { re: (from + direction * at).re })
@@ -76,7 +75,13 @@ pub(super) fn argument_along(
     h: impl Fn(Complex64) -> Scaled,
     corners: &[Complex64],
 ) -> Result<f64, StabilityError> {
-    corners.windows(2).map(|side| argument_change(&h, side[0], side[1])).sum()
+    let Some(first) = corners.first() else { return Ok(0.0) };
+    let start = (*first, h(*first), 0.0);
+    let end = corners.iter().skip(1).try_fold(start, |(from, here, turned), to| {
+        let (more, there) = argument_change(&h, (from, here), *to)?;
+        Ok((*to, there, turned + more))
+    });
+    end.map(|(_, _, turned)| turned)
 }
 
 /// Corners added to a path, so that h varies little from one to the next:
@@ -138,7 +143,7 @@ mod tests {
     #[test]
     fn a_zero_on_the_contour_is_refused() {
         let h = |z: Complex64| Scaled { value: z, derivative: Complex64::ONE, log_scale: 0.0 };
-        let side = argument_change(h, Complex64::new(-1.0, 0.0), Complex64::new(1.0, 0.0));
+        let side = argument_along(h, &[Complex64::new(-1.0, 0.0), Complex64::new(1.0, 0.0)]);
         assert!(matches!(side, Err(StabilityError::RootOnContour { .. })));
     }
 
@@ -151,7 +156,7 @@ mod tests {
             Scaled { value: z * down, derivative: Complex64::ONE * down, log_scale }
         };
         let (from, to) = (Complex64::new(-1.0, 0.3), Complex64::new(2.0, 0.1));
-        let turns = [argument_change(plain, from, to), argument_change(scaled, from, to)];
+        let turns = [argument_along(plain, &[from, to]), argument_along(scaled, &[from, to])];
         assert!((turns[0].unwrap() - turns[1].unwrap()).abs() < 1e-12);
     }
 }

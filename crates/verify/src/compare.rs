@@ -7,11 +7,11 @@ use stickslip_tip::{
     InitialSurface, Model, RunError, Step, Support, TipFunction, Trajectory, planar,
 };
 
-/// Smallest absolute error of l and of heights of order one at any tolerance,
+/// Smallest absolute error that is allowed of l, and of heights of order one, at any tolerance.
 const ROUND_OFF: f64 = 1e-12;
-/// smallest relative error of a large l,
+/// Smallest relative error that is allowed of a large l.
 const DIGITS: f64 = 8.0 * f64::EPSILON;
-/// and smallest error of a height relative to the carved material.
+/// Smallest error that is allowed of a height, relative to all that was carved there.
 const DIGITS_OF_SUM: f64 = 1e-13;
 /// Error of sums by FFT relative to the deepest groove, everywhere.
 const DIGITS_OF_FFT: f64 = f64::EPSILON;

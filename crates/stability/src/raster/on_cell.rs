@@ -67,7 +67,7 @@ impl Determinant {
         self.is_beside_axis() || self.multipliers().any(|mu| self.is_positive(mu))
     }
 
-    /// How near the cell, or a cell beside it, comes to a zero to first order: the larger, the nearer.
+    /// Estimate, to first order, of how close the cell and its neighbours come to a zero of Q; larger is closer.
     pub(super) fn promise(&self) -> f64 {
         if let Some(plane) = &self.plane {
             return plane.promise();

@@ -42,12 +42,12 @@ pub struct Across {
     pub width: f64,
 }
 
-/// g(x) h(y).
+/// One term g(x) h(y) of a footprint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// g
+    /// g(x), the factor along the scan.
     pub along: TipFunction,
-    /// h
+    /// h(y), the factor across the scan.
     pub across: Across,
 }
 

@@ -61,7 +61,7 @@ impl Plane {
     }
 }
 
-/// The refusal of the grid whose heights are all advanced at every stage.
+/// Rejects `--grid uniform`, which is available along the scan only.
 pub(super) fn no_uniform() -> Failure {
     let message = "is not available across the scan: take spectral or sinc (exact) or windowed (second order)";
     Failure::input("--grid uniform", message)

@@ -99,7 +99,7 @@ impl Visits {
         Self { rules: [None; LANES], count: 0, parts: nothing, weights: nothing }
     }
 
-    /// The visits of a lane are those of this rule, as they mostly were in the last step.
+    /// Gives a lane the visits of a rule; in most steps it has them already.
     pub(super) fn set(&mut self, lane: usize, rule: &'static Rule) {
         if self.rules[lane].replace(rule).is_some_and(|before| std::ptr::eq(before, rule)) {
             return;

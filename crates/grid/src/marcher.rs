@@ -10,9 +10,9 @@ use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 /// An embedded Runge–Kutta step of the tip and of all cells, with three savings that change results by round-off
 /// only: f is evaluated only within its reach of the tip's stage position; stage values of cells are computed only
 /// where the tip reads the slope; all other cells are unchanged.
-pub(crate) struct Marcher<'a, S> {
+pub(crate) struct Marcher<'a> {
     problem: &'a Problem<'a>,
-    scheme: S,
+    scheme: Box<dyn Scheme + 'a>,
     tableau: Tableau,
     stepping: Stepping,
     control: Control,
@@ -54,10 +54,10 @@ struct Scratch {
     errors: [Patch; 2],
 }
 
-impl<'a, S: Scheme> Marcher<'a, S> {
+impl<'a> Marcher<'a> {
     pub(crate) fn new(
         problem: &'a Problem<'a>,
-        scheme: S,
+        scheme: Box<dyn Scheme + 'a>,
         tableau: Tableau,
         stepping: Stepping,
         cells: Cells<'a>,

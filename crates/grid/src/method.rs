@@ -2,7 +2,7 @@
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;
-use crate::scheme::{Scheme, positive};
+use crate::scheme::{Scheme, positive, sound};
 use crate::sinc::Sinc;
 use crate::tableau::Tableau;
 use crate::theta::Theta;
@@ -80,19 +80,16 @@ pub fn solve_observed(
             let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
             let start = |cell: i64| problem.start.height(cell as f64 * spacing);
             let cells = Cells::new(&start);
-            Marcher::new(problem, scheme, Tableau::dopri5(), *stepping, cells, None)
+            Marcher::new(problem, Box::new(scheme), Tableau::dopri5(), *stepping, cells, None)
                 .run(request, observe)
         }
         Method::Spectral { gaussians, spacing } => {
             let scheme = Theta::new(gaussians, positive(*spacing)?)?;
-            spectral(problem, scheme, stepping, request, observe)
+            spectral(problem, Box::new(scheme), stepping, request, observe)
         }
         &Method::Sinc { spacing, half_width } => {
-            if !(1..=10_000).contains(&half_width) {
-                return Err(GridError::HalfWidth(half_width));
-            }
-            let scheme = Sinc::new(problem.footprint, positive(spacing)?, half_width);
-            spectral(problem, scheme, stepping, request, observe)
+            let scheme = Sinc::checked(problem.footprint, spacing, half_width)?;
+            spectral(problem, Box::new(scheme), stepping, request, observe)
         }
     }
 }
@@ -100,15 +97,12 @@ pub fn solve_observed(
 /// A lattice that contains only u - u0; u0 and its slope are evaluated on request.
 fn spectral(
     problem: &Problem,
-    scheme: impl Scheme,
+    scheme: Box<dyn Scheme + '_>,
     stepping: &Stepping,
     request: &Request,
     observe: &mut Observer,
 ) -> Result<Run, GridError> {
-    let defect = crate::scheme::defect(&scheme, &problem.footprint);
-    if defect > 0.01 {
-        return Err(GridError::Defect { defect });
-    }
+    let scheme = sound(scheme, &problem.footprint)?;
     let nothing = |_: i64| 0.0;
     let (cells, start) = (Cells::new(&nothing), &problem.start);
     Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start))

@@ -11,8 +11,8 @@
 use crate::cells::Cells;
 use crate::marcher::Marcher;
 use crate::patch::Patch;
-use crate::row_scheme::{HALF_WIDTH, RowMethod, RowScheme};
-use crate::scheme::{Scheme, sample};
+use crate::row_scheme::{HALF_WIDTH, RowMethod};
+use crate::scheme::{Scheme, positive, sample};
 use crate::{Footprint, GridError, Path, Problem, Request, Start, Stepping, Wider, Work};
 use std::ops::ControlFlow;
 
@@ -90,10 +90,7 @@ pub fn scan(
     observe: &mut LineObserver,
 ) -> Result<Scanned, GridError> {
     stepping.check()?;
-    if !(spacing.is_finite() && spacing > 0.0) {
-        return Err(GridError::Spacing(spacing));
-    }
-    let mut plane = Plane::new(scan, spacing)?;
+    let mut plane = Plane::new(scan, positive(spacing)?)?;
     let (mut x0, mut steps, mut state, mut work) = (vec![], vec![], None, Work::default());
     for (n, line) in scan.lines.iter().enumerate() {
         let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
@@ -230,7 +227,7 @@ impl Plane {
 
 /// A row with its state before the line.
 struct Reader<'a> {
-    scheme: RowScheme<'a>,
+    scheme: Box<dyn Scheme + 'a>,
     first: i64,
     cells: Vec<f64>,
 }
@@ -244,9 +241,9 @@ impl Reader<'_> {
         self.dot(|scheme, out| scheme.slope_stencil(x, out))
     }
 
-    fn dot(&self, stencil: impl Fn(&RowScheme, &mut Patch)) -> f64 {
+    fn dot(&self, stencil: impl Fn(&dyn Scheme, &mut Patch)) -> f64 {
         let mut patch = Patch::default();
-        stencil(&self.scheme, &mut patch);
+        stencil(&*self.scheme, &mut patch);
         let cell = |k: usize| {
             let index = patch.first - self.first + k as i64;
             usize::try_from(index).ok().and_then(|k| self.cells.get(k)).copied().unwrap_or(0.0)

@@ -1,7 +1,6 @@
 //! Discretisations of the rows of a scanned area along x.
 
 use crate::Footprint;
-use crate::patch::Patch;
 use crate::scheme::Scheme;
 use crate::sinc::Sinc;
 use crate::tableau::Tableau;
@@ -21,10 +20,10 @@ pub enum RowMethod {
 pub(crate) const HALF_WIDTH: usize = 80;
 
 impl RowMethod {
-    pub(crate) fn scheme(self, footprint: Footprint<'_>, spacing: f64) -> RowScheme<'_> {
+    pub(crate) fn scheme(self, footprint: Footprint<'_>, spacing: f64) -> Box<dyn Scheme + '_> {
         match self {
-            Self::Sinc => RowScheme::Sinc(Sinc::new(footprint, spacing, HALF_WIDTH)),
-            Self::ThreePoint => RowScheme::ThreePoint(ThreePoint { footprint, spacing }),
+            Self::Sinc => Box::new(Sinc::new(footprint, spacing, HALF_WIDTH)),
+            Self::ThreePoint => Box::new(ThreePoint { footprint, spacing }),
         }
     }
 
@@ -32,42 +31,6 @@ impl RowMethod {
         match self {
             Self::Sinc => Tableau::dop853(),
             Self::ThreePoint => Tableau::dopri5(),
-        }
-    }
-}
-
-/// One of the two discretisations.
-pub(crate) enum RowScheme<'a> {
-    Sinc(Sinc<'a>),
-    ThreePoint(ThreePoint<'a>),
-}
-
-impl Scheme for RowScheme<'_> {
-    fn spacing(&self) -> f64 {
-        match self {
-            Self::Sinc(scheme) => scheme.spacing(),
-            Self::ThreePoint(scheme) => scheme.spacing(),
-        }
-    }
-
-    fn imprint(&self, tip: f64, out: &mut Patch) {
-        match self {
-            Self::Sinc(scheme) => scheme.imprint(tip, out),
-            Self::ThreePoint(scheme) => scheme.imprint(tip, out),
-        }
-    }
-
-    fn slope_stencil(&self, x: f64, out: &mut Patch) {
-        match self {
-            Self::Sinc(scheme) => scheme.slope_stencil(x, out),
-            Self::ThreePoint(scheme) => scheme.slope_stencil(x, out),
-        }
-    }
-
-    fn height_stencil(&self, x: f64, out: &mut Patch) {
-        match self {
-            Self::Sinc(scheme) => scheme.height_stencil(x, out),
-            Self::ThreePoint(scheme) => scheme.height_stencil(x, out),
         }
     }
 }

@@ -34,8 +34,20 @@ pub(crate) fn sample(footprint: &crate::Footprint, spacing: f64, tip: f64, out: 
     }
 }
 
+/// Largest relative error with which a discretisation may reproduce the footprint.
+const LARGEST_DEFECT: f64 = 0.01;
+
+/// A scheme, if it reproduces the footprint.
+pub(crate) fn sound<'a>(
+    scheme: Box<dyn Scheme + 'a>,
+    footprint: &crate::Footprint,
+) -> Result<Box<dyn Scheme + 'a>, GridError> {
+    let defect = defect(&*scheme, footprint);
+    if defect > LARGEST_DEFECT { Err(GridError::Defect { defect }) } else { Ok(scheme) }
+}
+
 /// max |Σ_j read(x - x_j) write(x_j - y) - f(x - y)| over the reach, relative to max |f|.
-pub(crate) fn defect(scheme: &(impl Scheme + ?Sized), footprint: &crate::Footprint) -> f64 {
+fn defect(scheme: &dyn Scheme, footprint: &crate::Footprint) -> f64 {
     let (mut read, mut write, mut local) = Default::default();
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for k in -64..=64 {

@@ -1,9 +1,9 @@
 //! A band-limited grid for any smooth f: samples, interpolated by a regularised sinc.
 
-use crate::Footprint;
 use crate::bell::Bell;
 use crate::patch::Patch;
-use crate::scheme::{Scheme, sample};
+use crate::scheme::{Scheme, positive, sample};
+use crate::{Footprint, GridError};
 use std::f64::consts::PI;
 
 /// Cells contain samples of u - u0, interpolated by u(x) = Σ_j w_j S(x - x_j) with
@@ -25,6 +25,21 @@ impl<'a> Sinc<'a> {
     pub(crate) fn new(footprint: Footprint<'a>, spacing: f64, half_width: usize) -> Self {
         let width = half_width as f64 * spacing / 8.85;
         Self { footprint, spacing, steepness: width.powi(-2), bell: Bell::new(width, spacing) }
+    }
+
+    /// The same for numbers that a user gives.
+    ///
+    /// # Errors
+    /// A width or a spacing out of range.
+    pub(crate) fn checked(
+        footprint: Footprint<'a>,
+        spacing: f64,
+        half_width: usize,
+    ) -> Result<Self, GridError> {
+        if !(1..=10_000).contains(&half_width) {
+            return Err(GridError::HalfWidth(half_width));
+        }
+        Ok(Self::new(footprint, positive(spacing)?, half_width))
     }
 
     /// The regulariser at the cells around x.

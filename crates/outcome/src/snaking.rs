@@ -1,10 +1,10 @@
 //! Oscillation of a tip across the scan: whether it is periodic, and the errors of its figures.
 
 use std::collections::VecDeque;
+use stickslip_tip::Support;
 use stickslip_tip::planar::{PlanarScenario, Step, Trajectory};
 use stickslip_tip::roots::halved_between;
 use stickslip_tip::state::{Damaged, Reader, State};
-use stickslip_tip::{STAGES, Support};
 
 /// A motion is periodic if the changes that remain add up to at most this fraction of its amplitude, and of its period.
 const REPEATS: f64 = 1e-3;
@@ -215,9 +215,7 @@ impl SnakingObserver {
         state.pairs(self.span.iter());
         state.count(u64::from(self.last.is_some()));
         if let Some(step) = &self.last {
-            state.step(&step.along);
-            state.number(step.y);
-            step.across.iter().for_each(|across| state.number(*across));
+            step.save(state);
         }
         self.cycles.save(state);
         state.number(self.deviations.width);
@@ -228,13 +226,7 @@ impl SnakingObserver {
         self.span = state.pairs()?.pop();
         self.last = match state.length(1)? {
             0 => None,
-            _ => {
-                let (along, y, mut across) = (state.step()?, state.finite()?, [0.0; STAGES]);
-                for across in &mut across {
-                    *across = state.finite()?;
-                }
-                Some(Step { along, y, across })
-            }
+            _ => Some(Step::restored(state)?),
         };
         self.cycles = Cycles::restored(state)?;
         self.deviations = Largest { width: state.finite()?, bins: state.numbers()? };

@@ -2,7 +2,7 @@
 
 use crate::elementary::exp;
 use crate::series::checked;
-use crate::spline::CubicSpline;
+use crate::spline::{CubicSpline, Ends};
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
@@ -102,7 +102,7 @@ impl Force {
             }
         }
         let table = table.map(|(t, force)| checked(t, force)).transpose()?;
-        let table = table.map(|(t, force)| CubicSpline::through(t, force));
+        let table = table.map(|(t, force)| CubicSpline::through(t, force, Ends::Straight));
         Ok(Self { pulses, table, function: None })
     }
 

@@ -217,12 +217,19 @@ impl Heights {
     }
 }
 
-/// The dense output of a run: x0(t) at every t of it. It contains only the data that `surface` needs.
+/// The dense output of a run: x0(t) at every t of it, and in two coordinates y0(t). It contains only the data that
+/// `surface` needs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trajectory {
+pub struct Trajectory<S = Step> {
     support: Support,
     wider: Wider,
-    steps: Vec<Step>,
+    steps: Vec<S>,
+}
+
+impl AsRef<Self> for Step {
+    fn as_ref(&self) -> &Self {
+        self
+    }
 }
 
 /// Points of the Gauss rule on a part of a step. It integrates f(x - polynomial) far beyond the accuracy of the
@@ -238,30 +245,15 @@ const GONE: f64 = 40.0;
 static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(POINTS_ON_A_PART).unwrap() }));
 
-impl Trajectory {
-    /// A trajectory of consecutive steps without gaps, for support velocity r.
-    ///
-    /// # Panics
-    /// If there are no steps.
-    #[must_use]
-    pub fn new(r: f64, steps: Vec<Step>) -> Self {
-        Self::under(Wider::default(), Support::Moving(r), steps)
-    }
-
+impl<S: AsRef<Step>> Trajectory<S> {
     /// A trajectory in the extended model, or for another motion of the support.
     ///
     /// # Panics
     /// If there are no steps.
     #[must_use]
-    pub fn under(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
+    pub fn under(wider: Wider, support: Support, steps: Vec<S>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
         Self { support, wider, steps }
-    }
-
-    /// Velocity of the support at the start.
-    #[must_use]
-    pub fn r(&self) -> f64 {
-        self.support.velocity(self.start())
     }
 
     /// The motion of the support.
@@ -278,20 +270,62 @@ impl Trajectory {
 
     /// The steps, in order.
     #[must_use]
-    pub fn steps(&self) -> &[Step] {
+    pub fn steps(&self) -> &[S] {
         &self.steps
     }
 
     /// Start time.
     #[must_use]
     pub fn start(&self) -> f64 {
-        self.steps[0].t
+        self.steps[0].as_ref().t
     }
 
     /// End time.
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.steps[self.steps.len() - 1].end()
+        self.steps[self.steps.len() - 1].as_ref().end()
+    }
+
+    /// R(t) - x0(t).
+    #[must_use]
+    pub fn lag(&self, t: f64) -> f64 {
+        self.step_at(t).as_ref().lag(&self.support, t)
+    }
+
+    /// x0(t).
+    #[must_use]
+    pub fn x0(&self, t: f64) -> f64 {
+        self.step_at(t).as_ref().position(&self.support, t)
+    }
+
+    /// The height of the surface under the tip, where there is a depth limit.
+    #[must_use]
+    pub fn height(&self, t: f64) -> Option<f64> {
+        self.step_at(t).as_ref().height(t)
+    }
+
+    /// The step that contains t; before the first and after the last, that one.
+    #[must_use]
+    pub fn step_at(&self, t: f64) -> &S {
+        let after = self.steps.partition_point(|step| step.as_ref().t <= t);
+        &self.steps[after.max(1) - 1]
+    }
+}
+
+impl Trajectory {
+    /// A trajectory of consecutive steps without gaps, for support velocity r.
+    ///
+    /// # Panics
+    /// If there are no steps.
+    #[must_use]
+    pub fn new(r: f64, steps: Vec<Step>) -> Self {
+        Self::under(Wider::default(), Support::Moving(r), steps)
+    }
+
+    /// Velocity of the support at the start.
+    #[must_use]
+    pub fn r(&self) -> f64 {
+        self.support.velocity(self.start())
     }
 
     /// l(t) = rt - r - x0(t). Outside of the run, the polynomial of the first or last step.
@@ -304,24 +338,6 @@ impl Trajectory {
     #[must_use]
     pub fn followed(&self, t: f64) -> f64 {
         self.step_at(t).followed(&self.support, t)
-    }
-
-    /// R(t) - x0(t).
-    #[must_use]
-    pub fn lag(&self, t: f64) -> f64 {
-        self.step_at(t).lag(&self.support, t)
-    }
-
-    /// x0(t).
-    #[must_use]
-    pub fn x0(&self, t: f64) -> f64 {
-        self.step_at(t).position(&self.support, t)
-    }
-
-    /// The height of the surface under the tip, where there is a depth limit.
-    #[must_use]
-    pub fn height(&self, t: f64) -> Option<f64> {
-        self.step_at(t).height(t)
     }
 
     /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.
@@ -367,12 +383,5 @@ impl Trajectory {
         let factors = exponents.iter().map(|exponent| exp(exponent - largest));
         weights.iter_mut().zip(factors).for_each(|(weight, factor)| *weight *= factor);
         (positions, weights, largest)
-    }
-
-    /// The step that contains t; before the first and after the last, that one.
-    #[must_use]
-    pub fn step_at(&self, t: f64) -> &Step {
-        let after = self.steps.partition_point(|step| step.t <= t);
-        &self.steps[after.max(1) - 1]
     }
 }

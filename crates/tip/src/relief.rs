@@ -5,7 +5,7 @@ mod on_lattice;
 
 use crate::memory::ROOM;
 use crate::series::{SeriesError, checked};
-use crate::spline::CubicSpline;
+use crate::spline::{CubicSpline, Ends, piece_of};
 use crate::{Model, TipFunction};
 use chacha20::ChaCha8Rng;
 use expanded::Expanded;
@@ -101,7 +101,7 @@ impl Relief {
     /// Too short, not finite, unsorted.
     pub fn profile(x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
         let (x, u) = checked(x, u)?;
-        Ok(Self(Shape::Spline(CubicSpline::level(x, u))))
+        Ok(Self(Shape::Spline(CubicSpline::through(x, u, Ends::Level))))
     }
 
     /// Noise on grid points `from`, `from` + spacing, … up to `to`.
@@ -111,7 +111,7 @@ impl Relief {
         let u = noise_heights(noise, points, 0);
         #[expect(clippy::cast_precision_loss, reason = "a count")]
         let x = (0..points).map(|i| from + noise.spacing * i as f64).collect();
-        Self(Shape::Spline(CubicSpline::through(x, u)))
+        Self(Shape::Spline(CubicSpline::through(x, u, Ends::Straight)))
     }
 
     /// A height and its slope as fields on one lattice, and 0 beyond their ends, where both must have decayed: the
@@ -301,18 +301,13 @@ impl Axis<'_> {
     /// The piece that contains a tip at x, or that the tip is about to enter if it is at a knot; x has an error of at
     /// most `accuracy`.
     pub(crate) fn piece(&self, x: f64, forward: bool, accuracy: f64) -> Piece {
-        let nearest = self.piece_of(x);
+        let nearest = piece_of(self.0, x);
         let interval = self.0[nearest + 1] - self.0[nearest];
         let least = accuracy.max(ROUNDINGS_AT_A_KNOT * x.abs());
         let slack = least.max(AT_A_KNOT * interval).min(MOST_AT_A_KNOT * interval);
         // What ended within the slack before a knot begins beyond it.
         let (low, high, index) = self.ends_at(if forward { x + slack } else { x - slack });
         Piece { low, high, slack: 0.5 * slack, index }
-    }
-
-    /// The piece between knots that contains x, or the nearest one.
-    fn piece_of(&self, x: f64) -> usize {
-        self.0.partition_point(|knot| *knot <= x).clamp(1, self.0.len() - 1) - 1
     }
 
     /// Ends and number of the piece that contains x.
@@ -323,7 +318,7 @@ impl Axis<'_> {
         } else if x >= last {
             (last, f64::INFINITY, None)
         } else {
-            let piece = self.piece_of(x);
+            let piece = piece_of(self.0, x);
             (self.0[piece], self.0[piece + 1], Some(piece))
         }
     }

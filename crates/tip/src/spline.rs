@@ -11,16 +11,10 @@ pub(crate) struct CubicSpline {
 }
 
 impl CubicSpline {
-    /// The natural spline: its second derivative is 0 at both ends. The callers ensure that `x` increases, is as long
-    /// as `y`, and contains at least two points.
-    pub(crate) fn through(x: Vec<f64>, y: Vec<f64>) -> Self {
-        let m = second_derivatives(&x, &y, Ends::Straight);
-        Self { x, y, m }
-    }
-
-    /// The spline with slope 0 at both ends.
-    pub(crate) fn level(x: Vec<f64>, y: Vec<f64>) -> Self {
-        let m = second_derivatives(&x, &y, Ends::Level);
+    /// The spline with this at both ends. The callers ensure that `x` increases, is as long as `y`, and contains at
+    /// least two points.
+    pub(crate) fn through(x: Vec<f64>, y: Vec<f64>, ends: Ends) -> Self {
+        let m = second_derivatives(&x, &y, ends);
         Self { x, y, m }
     }
 
@@ -71,7 +65,7 @@ impl CubicSpline {
 
     /// The piece between knots that contains x, or the nearest one.
     pub(crate) fn piece_of(&self, x: f64) -> usize {
-        self.x.partition_point(|knot| *knot <= x).clamp(1, self.x.len() - 1) - 1
+        piece_of(&self.x, x)
     }
 
     /// The knots at both ends of a piece.
@@ -85,10 +79,15 @@ impl CubicSpline {
     }
 }
 
+/// The piece between knots that contains x, or the nearest one.
+pub(crate) fn piece_of(knots: &[f64], x: f64) -> usize {
+    knots.partition_point(|knot| *knot <= x).clamp(1, knots.len() - 1) - 1
+}
+
 /// The derivative that vanishes at both ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ends {
-    /// The second derivative.
+pub(crate) enum Ends {
+    /// The second derivative: the natural spline.
     Straight,
     /// The first derivative.
     Level,
@@ -131,7 +130,7 @@ mod tests {
             let x: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
             // sin(πx) has vanishing second derivatives at both ends, as the natural spline has.
             let y = x.iter().map(|x| (std::f64::consts::PI * x).sin()).collect();
-            let spline = CubicSpline::through(x, y);
+            let spline = CubicSpline::through(x, y, Ends::Straight);
             let at = |i: i32| f64::from(i) / 1000.0;
             let miss = |x: f64| spline.value(x) - (std::f64::consts::PI * x).sin();
             (0..=1000).map(|i| miss(at(i)).abs()).fold(0.0, f64::max)
@@ -147,7 +146,7 @@ mod tests {
         let error = |n: i32| {
             let x: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
             let y = x.iter().map(|x| (std::f64::consts::PI * x).cos()).collect();
-            let spline = CubicSpline::level(x, y);
+            let spline = CubicSpline::through(x, y, Ends::Level);
             assert!(spline.jet(0.0).1.abs() < 1e-13 && spline.jet(1.0).1.abs() < 1e-13);
             let at = |i: i32| f64::from(i) / 1000.0;
             let miss = |x: f64| spline.value(x) - (std::f64::consts::PI * x).cos();
@@ -163,7 +162,7 @@ mod tests {
     fn derivatives_are_those_of_the_value() {
         let x = vec![0.0, 0.3, 1.0, 1.2, 2.0];
         let y = vec![1.0, -0.5, 0.2, 0.9, 0.0];
-        let spline = CubicSpline::through(x, y);
+        let spline = CubicSpline::through(x, y, Ends::Straight);
         for x in [0.1, 0.5, 1.1, 1.7] {
             let h = 1e-4;
             let (_, slope, curvature) = spline.jet(x);

@@ -39,7 +39,7 @@ pub fn verify_across(
         Ok(())
     })?;
     let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
-    let reference = Trajectory::new(wider, support, steps);
+    let reference = Trajectory::under(wider, support, steps);
     let allowed = TOLERANCES_ALLOWED * scenario.along.tolerance;
     let compare = |value: fn(&Trajectory, f64) -> f64| {
         let steps = trajectory.steps().iter().chain(reference.steps()).map(|step| &step.along);

@@ -85,7 +85,7 @@ fn a_changed_motion_is_found_where_it_was_changed() {
         let mut steps = steps.to_vec();
         change(&mut steps[20]);
         let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
-        verified(&scenario, &Trajectory::new(wider, support, steps))
+        verified(&scenario, &Trajectory::under(wider, support, steps))
     };
     let (from, to) = (steps[20].along.t, steps[20].end());
     let across = changed(|step| step.y += 1e-5);

@@ -2,7 +2,7 @@
 
 use super::product::{self, Product};
 use crate::patch::Patch;
-use crate::scheme::{self, Scheme, positive};
+use crate::scheme::{Scheme, positive, sound};
 use crate::sinc::Sinc;
 use crate::tableau::Tableau;
 use crate::theta::Theta;
@@ -75,9 +75,6 @@ pub(super) struct Stencils {
     pub(super) slope: [Patch; 2],
 }
 
-/// Largest relative error with which a discretisation may reproduce the footprint.
-const LARGEST_DEFECT: f64 = 0.01;
-
 impl<'a> Tensor<'a> {
     /// # Errors
     /// A spacing that is not a finite number above 0, or too wide for the footprint.
@@ -127,12 +124,8 @@ fn scheme_of<'a>(
             Box::new(Theta::read_by(width, terms, positive(spacing)?))
         }
         PlaneMethod::Sinc { spacing, half_width } => {
-            if !(1..=10_000).contains(&half_width) {
-                return Err(GridError::HalfWidth(half_width));
-            }
-            Box::new(Sinc::new(footprint, positive(spacing[axis])?, half_width))
+            Box::new(Sinc::checked(footprint, spacing[axis], half_width)?)
         }
     };
-    let defect = scheme::defect(&*spectral, &footprint);
-    if defect > LARGEST_DEFECT { Err(GridError::Defect { defect }) } else { Ok(spectral) }
+    sound(spectral, &footprint)
 }

@@ -151,7 +151,7 @@ fn averaged(heights: &Array2<f64>) -> Array2<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::judged::Random;
+    use super::super::tests::Random;
     use super::*;
     use std::f64::consts::TAU;
 

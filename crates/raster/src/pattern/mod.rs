@@ -3,11 +3,11 @@
 mod bunched;
 mod doubt;
 mod estimate;
-#[cfg(test)]
-mod judged;
 mod local;
 mod regime;
 mod sheet;
+#[cfg(test)]
+mod tests;
 mod vector;
 mod wave;
 mod window;

@@ -36,7 +36,7 @@ pub(super) fn found(
     }
     let ended = became_across(scenario, &running, context.seconds() - began)?;
     let ended = RunEnd { interrupted: ended.end < span.1, ..ended };
-    let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
+    let trajectory = Trajectory::under(*along.model.wider(), along.support(), steps);
     let samples = samples(&trajectory, times, along);
     let (steady_state, remarks) = (SteadyState::of(&along.model), ended.remarks.clone());
     let history = Some(history_across(&trajectory, along.model.wider()));

@@ -140,7 +140,7 @@ impl History {
             Some(i) => {
                 Err(unusable(format!("y0 of step {} is not that at the end of step {i}", i + 1)))
             }
-            None => Ok(planar::Trajectory::new(wider, support, steps)),
+            None => Ok(planar::Trajectory::under(wider, support, steps)),
         }
     }
 

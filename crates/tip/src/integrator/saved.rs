@@ -13,10 +13,7 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         }
         state.steps(self.taylor.taken().or(self.last.as_ref()).into_iter());
         self.corner.iter().for_each(|corner| corner.save(state));
-        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
-        [steps, rejected, newton_iterations, series, switches]
-            .into_iter()
-            .for_each(|count| state.count(count));
+        self.work.save(state);
         self.control.save(state);
         self.taylor.save(state);
         self.memory.save(state);
@@ -33,15 +30,30 @@ impl<M: Memory + Saved> Saved for Integrator<'_, M> {
         if self.last.is_some_and(|last| last.height.is_some() != self.corner.is_some()) {
             return Err(Damaged::OutOfRange);
         }
-        self.work = Work {
-            steps: state.count()?,
-            rejected: state.count()?,
-            newton_iterations: state.count()?,
-            series: state.count()?,
-            switches: state.count()?,
-        };
+        self.work.restore(state)?;
         self.control.restore(state)?;
         self.taylor.restore(state, (self.t, self.extension))?;
         self.memory.restore(state)
+    }
+}
+
+impl Saved for Work {
+    fn save(&self, state: &mut State) {
+        let Self { steps, rejected, newton_iterations, series, switches } = *self;
+        for count in [steps, rejected, newton_iterations, series, switches] {
+            state.count(count);
+        }
+    }
+
+    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+        let Self { steps, rejected, newton_iterations, series, switches } = self;
+        for count in [steps, rejected, newton_iterations, series, switches] {
+            // One that can still be counted on.
+            *count = state.count()?;
+            if *count >= u64::MAX / 2 {
+                return Err(Damaged::OutOfRange);
+            }
+        }
+        Ok(())
     }
 }

@@ -15,7 +15,7 @@
 
 use super::bells::Bells;
 use super::ground::Ground;
-use super::layers::{LANES, Lanes, ROOTS, add_product, dot, total};
+use super::layers::{LANES, Lanes, ROOTS, add, add_product, dot, total};
 use super::part::Part;
 use super::spline::Partials;
 use super::weighing::Weighing;
@@ -510,13 +510,6 @@ fn run(chain: &mut Chain, acting: &Acting) {
 }
 
 // Loops throughout: closures that iterators call are not compiled for wider vectors.
-
-#[inline(always)]
-fn add(sum: &mut Lanes, row: &Lanes, factor: f64) {
-    for i in 0..LANES {
-        sum[i] += factor * row[i];
-    }
-}
 
 #[inline(always)]
 fn times(row: &Lanes, factor: f64) -> Lanes {

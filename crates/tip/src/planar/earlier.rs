@@ -13,6 +13,7 @@
 use super::jet::Jet;
 use crate::elementary::exp;
 use crate::footprint::{Across, Footprint};
+use crate::tip_function::Gaussian;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use stickslip_convolution::Rows;
 
@@ -20,7 +21,7 @@ use stickslip_convolution::Rows;
 const SPACING: f64 = 0.36;
 const SPREAD: f64 = FRAC_1_SQRT_2;
 /// Distance in widths beyond which e^{-z²/2} is negligible.
-const NOTHING: f64 = 8.7;
+pub(super) const NOTHING: f64 = 8.7;
 
 /// Distance of the rows, and the share that each has in a position of the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +30,11 @@ pub struct RowLattice {
     spread: f64,
 }
 
-/// h(y) as a sum over rows: Gaussians of one width about ± a center.
+/// A Gaussian as a sum over rows: that of one row, about a center.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Reading {
+pub(super) struct Reading {
     center: f64,
-    /// q and the factor v b/(√(2π) s q).
+    /// q, and the amplitude times v b/(√(2π) s q).
     width: f64,
     scale: f64,
 }
@@ -57,7 +58,7 @@ pub struct EarlierGrooves {
     /// Index of the first row.
     first: i64,
     /// For each layer its reading, heights and slopes.
-    layers: Vec<(Reading, Rows, Rows)>,
+    layers: Vec<(Vec<Reading>, Rows, Rows)>,
     /// Position and direction of the line: the position at x is origin + sign x, and at y it is `y` + y.
     origin: f64,
     sign: f64,
@@ -70,7 +71,11 @@ impl RowLattice {
     /// The rows for a footprint.
     #[must_use]
     pub fn of(footprint: &Footprint) -> Self {
-        let widths = footprint.layers().iter().map(|layer| layer.across.width);
+        Self::for_widths(footprint.layers().iter().map(|layer| layer.across.width))
+    }
+
+    /// The rows for Gaussians of these widths.
+    pub(super) fn for_widths(widths: impl Iterator<Item = f64>) -> Self {
         let smallest = widths.fold(f64::INFINITY, f64::min);
         Self { spacing: SPACING * smallest, spread: SPREAD * smallest }
     }
@@ -113,39 +118,47 @@ impl RowLattice {
     /// The factor of a row in h, at this distance from the row.
     #[must_use]
     pub fn height(&self, across: Across, distance: f64) -> f64 {
-        Reading::of(self, across).at(distance)[0]
+        jet(&self.readings(across), distance)[0]
+    }
+
+    /// h as a sum over rows.
+    fn readings(&self, Across { center, width }: Across) -> Vec<Reading> {
+        let twin = (center > 0.0).then_some(-center);
+        let of = |center| self.reading(Gaussian { amplitude: 1.0, center, width });
+        std::iter::once(center).chain(twin).map(of).collect()
+    }
+
+    /// A Gaussian as a sum over rows.
+    pub(super) fn reading(&self, Gaussian { amplitude, center, width: v }: Gaussian) -> Reading {
+        let Self { spacing, spread } = *self;
+        let width = (v * v - spread * spread).sqrt();
+        let scale = v * spacing / ((2.0 * PI).sqrt() * spread * width);
+        Reading { center, width, scale: scale * amplitude }
+    }
+
+    /// The distance of the rows, and s.
+    pub(super) fn lengths(&self) -> (f64, f64) {
+        (self.spacing, self.spread)
     }
 }
 
-impl Reading {
-    fn of(lattice: &RowLattice, across: Across) -> Self {
-        let RowLattice { spacing, spread } = *lattice;
-        let v = across.width;
-        let width = (v * v - spread * spread).sqrt();
-        let scale = v * spacing / ((2.0 * PI).sqrt() * spread * width);
-        Self { center: across.center, width, scale }
-    }
+/// Distance beyond which a row has no effect.
+pub(super) fn reach(readings: &[Reading]) -> f64 {
+    let reach = |reading: &Reading| reading.center.abs() + NOTHING * reading.width;
+    readings.iter().map(reach).fold(0.0, f64::max)
+}
 
-    /// Distance beyond which a row has no effect.
-    fn reach(&self) -> f64 {
-        self.center + NOTHING * self.width
+/// Value and two derivatives of a sum at a distance from a row.
+pub(super) fn jet(readings: &[Reading], distance: f64) -> [f64; 3] {
+    let mut jet = [0.0; 3];
+    for Reading { center, width: q, scale } in readings {
+        let z = (distance - center) / q;
+        let value = scale * exp(-0.5 * z * z);
+        jet[0] += value;
+        jet[1] -= z / q * value;
+        jet[2] += (z * z - 1.0) / (q * q) * value;
     }
-
-    /// Value and two derivatives at a distance from a row.
-    fn at(&self, distance: f64) -> [f64; 3] {
-        let q = self.width;
-        let term = |center: f64| {
-            let z = (distance - center) / q;
-            let value = self.scale * exp(-0.5 * z * z);
-            [value, -z / q * value, (z * z - 1.0) / (q * q) * value]
-        };
-        let one = term(self.center);
-        if self.center <= 0.0 {
-            return one;
-        }
-        let twin = term(-self.center);
-        [one[0] + twin[0], one[1] + twin[1], one[2] + twin[2]]
-    }
+    jet
 }
 
 /// Number of rows that are evaluated together.
@@ -163,7 +176,7 @@ impl EarlierGrooves {
         along: (f64, bool),
     ) -> Self {
         let layer =
-            |layer: GrooveRows| (Reading::of(&lattice, layer.across), layer.heights, layer.slopes);
+            |layer: GrooveRows| (lattice.readings(layer.across), layer.heights, layer.slopes);
         let layers = layers.into_iter().map(layer).collect();
         let sign = if along.1 { -1.0 } else { 1.0 };
         Self { lattice, first, layers, origin: along.0, sign, y, wide }
@@ -180,9 +193,9 @@ impl EarlierGrooves {
     pub fn at(&self, x: f64, y: f64) -> Jet {
         let (x, y) = (self.origin + self.sign * x, self.y + y);
         let mut jet = Jet::default();
-        for (reading, heights, slopes) in &self.layers {
+        for (readings, heights, slopes) in &self.layers {
             if heights.range().contains(&x) {
-                self.add(reading, (heights, slopes), (x, y), &mut jet);
+                self.add(readings, (heights, slopes), (x, y), &mut jet);
             }
         }
         jet.slope[0] *= self.sign;
@@ -192,13 +205,13 @@ impl EarlierGrooves {
 
     fn add(
         &self,
-        reading: &Reading,
+        readings: &[Reading],
         (heights, slopes): (&Rows, &Rows),
         at: (f64, f64),
         jet: &mut Jet,
     ) {
         let (x, y) = at;
-        let (low, high) = (y - reading.reach(), y + reading.reach());
+        let (low, high) = (y - reach(readings), y + reach(readings));
         let place = |row: i64| usize::try_from(row - self.first).unwrap_or(0).min(heights.count());
         let end = place(self.lattice.row_above(high));
         let mut from = place(self.lattice.row_above(low));
@@ -210,7 +223,7 @@ impl EarlierGrooves {
             slopes.read(x, from, slope, curvature);
             for j in 0..count {
                 let row = self.lattice.y(self.first + (from + j) as i64);
-                let [factor, steep, bent] = reading.at(y - row);
+                let [factor, steep, bent] = self::jet(readings, y - row);
                 jet.height += factor * value[j];
                 jet.slope[0] += factor * slope[j];
                 jet.slope[1] += steep * value[j];

@@ -1,7 +1,7 @@
 //! The history of a tip in two coordinates: its accepted steps, each a polynomial along and one across.
 
 use crate::collocation::{RADAU, STAGES, Stages, apply};
-use crate::{Support, Wider};
+use crate::state::{Damaged, Reader, State};
 
 /// One accepted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,15 +59,35 @@ impl Step {
     fn part(&self, t: f64) -> f64 {
         (t - self.along.t) / self.along.h
     }
+
+    /// Writes all data of the step.
+    pub fn save(&self, state: &mut State) {
+        state.step(&self.along);
+        state.number(self.y);
+        self.across.iter().for_each(|across| state.number(*across));
+    }
+
+    /// Reads a step that [`save`](Self::save) wrote.
+    ///
+    /// # Errors
+    /// Too few words left, or a number out of its range.
+    pub fn restored(state: &mut Reader) -> Result<Self, Damaged> {
+        let (along, y, mut across) = (state.step()?, state.finite()?, [0.0; STAGES]);
+        for across in &mut across {
+            *across = state.finite()?;
+        }
+        Ok(Self { along, y, across })
+    }
+}
+
+impl AsRef<crate::Step> for Step {
+    fn as_ref(&self) -> &crate::Step {
+        &self.along
+    }
 }
 
 /// The dense output of a run: x0(t) and y0(t) at every t of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trajectory {
-    support: Support,
-    wider: Wider,
-    steps: Vec<Step>,
-}
+pub type Trajectory = crate::Trajectory<Step>;
 
 /// A node of the history: a position with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,24 +101,14 @@ pub struct Visit {
 }
 
 impl Trajectory {
-    /// A trajectory of consecutive steps without gaps.
-    ///
-    /// # Panics
-    /// If there are no steps.
-    #[must_use]
-    pub fn new(wider: Wider, support: Support, steps: Vec<Step>) -> Self {
-        assert!(!steps.is_empty(), "a trajectory has at least one step");
-        Self { support, wider, steps }
-    }
-
     /// Positions of the tip until t with their weights: `∫_{start}^t w e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight
     /// q(x, y). The surface is its initial state minus α times the sum for q = f(x - x0, y - y0).
     #[must_use]
     pub fn residence(&self, t: f64) -> Vec<Visit> {
         let mut visits = vec![];
-        for step in self.steps.iter().take_while(|step| step.along.t < t) {
-            let origin = self.support.position(step.along.t) - step.along.extension;
-            step.along.each_moment(&self.wider, t, |moment| {
+        for step in self.steps().iter().take_while(|step| step.along.t < t) {
+            let origin = self.support().position(step.along.t) - step.along.extension;
+            step.along.each_moment(self.wider(), t, |moment| {
                 visits.push(Visit {
                     x: origin + moment.value(&step.along.displacement),
                     y: step.y + moment.value(&step.across),
@@ -109,64 +119,15 @@ impl Trajectory {
         visits
     }
 
-    /// The steps, in order.
-    #[must_use]
-    pub fn steps(&self) -> &[Step] {
-        &self.steps
-    }
-
-    /// Start time.
-    #[must_use]
-    pub fn start(&self) -> f64 {
-        self.steps[0].along.t
-    }
-
-    /// End time.
-    #[must_use]
-    pub fn end(&self) -> f64 {
-        self.steps[self.steps.len() - 1].end()
-    }
-
-    /// x0(t). Outside of the run, the polynomial of the first or last step.
-    #[must_use]
-    pub fn x0(&self, t: f64) -> f64 {
-        self.step_at(t).along.position(&self.support, t)
-    }
-
     /// y0(t).
     #[must_use]
     pub fn y0(&self, t: f64) -> f64 {
         self.step_at(t).y0(t)
     }
 
-    /// R(t) - x0(t).
-    #[must_use]
-    pub fn lag(&self, t: f64) -> f64 {
-        self.step_at(t).along.lag(&self.support, t)
-    }
-
     /// x0'(t) and y0'(t), one order less accurate than positions.
     #[must_use]
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         self.step_at(t).velocity(t)
-    }
-
-    /// The height of the surface under the tip, with a depth limit.
-    #[must_use]
-    pub fn height(&self, t: f64) -> Option<f64> {
-        self.step_at(t).along.height(t)
-    }
-
-    /// The motion of the support.
-    #[must_use]
-    pub fn support(&self) -> &Support {
-        &self.support
-    }
-
-    /// The step that contains t.
-    #[must_use]
-    pub fn step_at(&self, t: f64) -> &Step {
-        let after = self.steps.partition_point(|step| step.along.t <= t);
-        &self.steps[after.max(1) - 1]
     }
 }

@@ -1,28 +1,24 @@
 //! The past of a retreating tip: Gaussians on a lattice along the scan, for each layer across.
 //!
-//! A Gaussian of variance w² is the convolution of one of variance s² with one of w² - s². If the spacing is small
-//! enough, the integral of the convolution is a sum over a lattice, except for round-off:
+//! As [rows](super::earlier) hold the grooves of earlier scans, points `x_j` = jh of a lattice along the scan hold the past:
+//! with q² = w² - s²
 //!
 //! ```text
-//!     e^{-(x-x')²/2w²} = (w h/(√(2π) s q)) Σ_j e^{-(x-x_j)²/2q²} e^{-(x_j-x')²/2s²}        q² = w² - s², x_j = jh
+//!     e^{-(x-x')²/2w²} = (w h/(√(2π) s q)) Σ_j e^{-(x-x_j)²/2q²} e^{-(x_j-x')²/2s²}
 //! ```
 //!
 //! So the contributions of each node to the lattice points close to it represent the whole past, for motion in both
 //! directions. They cost more than exponentials, which are valid on one side only, and yield no series.
 
-use super::layers::{LANES, Lanes, recenter};
+use super::earlier::{self, NOTHING, Reading, RowLattice, reach};
+use super::layers::{LANES, Lanes, add_all, recenter, resized};
 use super::modes::Integrals;
 use super::past::Layered;
+use crate::TipFunction;
 use crate::elementary::exp;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
-use crate::{Gaussian, TipFunction};
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// Spacing, in units of the smallest width w of f: the error of the sum is 6e-16 of a Gaussian.
-const SPACING: f64 = 0.36;
-/// Distance in widths beyond which e^{-z²/2} is negligible.
-const NOTHING: f64 = 8.7;
 /// Distance behind the farthest point within which lattice points are kept, in the smallest width and in reaches of
 /// f: some 700 for (48).
 const KEPT: (f64, f64) = (250.0, 4.0);
@@ -35,8 +31,8 @@ pub(super) struct Lattice {
     spread: f64,
     /// The Gaussian of the contribution of a node.
     left: TipFunction,
-    /// For each Gaussian of f its amplitude times w h/(√(2π) s q), its center and q.
-    terms: Vec<[f64; 3]>,
+    /// The Gaussians of f.
+    terms: Vec<Reading>,
     /// Distance beyond which lattice points have no effect; distance behind the farthest point within which they are
     /// kept.
     reach: f64,
@@ -54,14 +50,10 @@ impl Lattice {
     pub(super) fn new(tip: &TipFunction) -> Option<Self> {
         let TipFunction::Gaussians(sum) = tip else { return None };
         let smallest = sum.terms().iter().map(|g| g.width).fold(f64::INFINITY, f64::min);
-        let (spacing, spread) = (SPACING * smallest, FRAC_1_SQRT_2 * smallest);
-        let term = |g: &Gaussian| {
-            let q = (g.width * g.width - spread * spread).sqrt();
-            let scale = g.width * spacing / ((2.0 * PI).sqrt() * spread * q);
-            [scale * g.amplitude, g.center, q]
-        };
-        let terms: Vec<_> = sum.terms().iter().map(term).collect();
-        let reach = terms.iter().map(|[_, c, q]| c.abs() + NOTHING * q).fold(0.0, f64::max);
+        let lattice = RowLattice::for_widths(std::iter::once(smallest));
+        let (spacing, spread) = lattice.lengths();
+        let terms: Vec<Reading> = sum.terms().iter().map(|g| lattice.reading(*g)).collect();
+        let reach = reach(&terms);
         Some(Self {
             left: TipFunction::gaussian(spread).ok()?,
             kept: (KEPT.0 * smallest).max(KEPT.1 * reach),
@@ -145,15 +137,8 @@ impl Layered for Lattice {
     }
 
     fn resize(&mut self, groups: usize) {
-        let kept = groups.min(self.groups);
-        let mut nodes = vec![[0.0; LANES]; self.count() * groups];
-        if kept > 0 {
-            let old = self.nodes.chunks_exact(self.groups);
-            for (new, old) in nodes.chunks_exact_mut(groups).zip(old) {
-                new[..kept].copy_from_slice(&old[..kept]);
-            }
-        }
-        (self.nodes, self.groups) = (nodes, groups);
+        self.nodes = resized(&self.nodes, self.groups, (self.count(), groups));
+        self.groups = groups;
     }
 
     fn recenter(&mut self, distance: f64) {
@@ -171,7 +156,7 @@ impl Layered for Lattice {
             let x = self.first + j as f64 * self.spacing;
             let left = self.left.fading_tail(x - end, past.healing / past.velocity);
             let weight = past.weight * left / past.velocity;
-            add(node, phi, weight);
+            add_all(node, phi, weight);
         }
         self.farthest = self.farthest.max(end);
     }
@@ -185,7 +170,7 @@ impl Layered for Lattice {
             let nodes = self.nodes.chunks_exact_mut(self.groups).enumerate().skip(from);
             for (j, node) in nodes.take(index(2.0 * near / self.spacing) + 2) {
                 let z = (self.first + j as f64 * self.spacing - position) / self.spread;
-                add(node, weighted, exp(-0.5 * z * z));
+                add_all(node, weighted, exp(-0.5 * z * z));
             }
             self.farthest = self.farthest.max(*position);
         }
@@ -200,16 +185,9 @@ impl Layered for Lattice {
         let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);
         for (j, node) in nodes.take(index(2.0 * self.reach / self.spacing) + 2) {
             let distance = displacement - (self.first + j as f64 * self.spacing);
-            let mut sums = [0.0; 3];
-            for [amplitude, center, q] in &self.terms {
-                let z = (distance - center) / q;
-                let value = amplitude * exp(-0.5 * z * z);
-                sums[0] += value;
-                sums[1] -= z / q * value;
-                sums[2] += (z * z - 1.0) / (q * q) * value;
-            }
+            let sums = earlier::jet(&self.terms, distance);
             for (told, sum) in jet.iter_mut().zip(sums) {
-                add(told, node, sum);
+                add_all(told, node, sum);
             }
         }
     }
@@ -221,19 +199,11 @@ fn index(x: f64) -> usize {
     x.max(0.0) as usize
 }
 
-/// Adds layers times a factor.
-fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
-    for (sum, layers) in sum.iter_mut().zip(layers) {
-        for i in 0..LANES {
-            sum[i] += factor * layers[i];
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::layers::values;
     use super::*;
+    use crate::Gaussian;
 
     /// Visits by themselves are the oracle, on a way forth and back; of a steady past a fine sum of them.
     #[test]

@@ -172,6 +172,21 @@ pub(super) fn recenter(distance: f64, states: &mut [Lanes], groups: usize) {
     }
 }
 
+/// These vectors of layers with another number of groups than `before`; new layers are 0.
+pub(super) fn resized(
+    states: &[Lanes],
+    before: usize,
+    (count, groups): (usize, usize),
+) -> Vec<Lanes> {
+    let mut resized = vec![[0.0; LANES]; count * groups];
+    let kept = groups.min(before);
+    if kept > 0 {
+        let pairs = resized.chunks_exact_mut(groups).zip(states.chunks_exact(before));
+        pairs.for_each(|(new, old)| new[..kept].copy_from_slice(&old[..kept]));
+    }
+    resized
+}
+
 /// Σ_m of products.
 pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
     let mut sums = [0.0; LANES];
@@ -182,6 +197,21 @@ pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
 }
 
 // A loop: closures that iterators call are not compiled for wider vectors.
+
+#[inline(always)]
+pub(super) fn add(sum: &mut Lanes, row: &Lanes, factor: f64) {
+    for i in 0..LANES {
+        sum[i] += factor * row[i];
+    }
+}
+
+/// Adds a vector of layers times a factor.
+#[inline(always)]
+pub(super) fn add_all(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
+    for (sum, layers) in sum.iter_mut().zip(layers) {
+        add(sum, layers, factor);
+    }
+}
 
 #[inline(always)]
 pub(super) fn add_product(sum: &mut Lanes, a: &Lanes, b: &Lanes) {

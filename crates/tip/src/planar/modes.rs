@@ -9,7 +9,8 @@
 //! The case n = 0 evaluates g itself, whose error is at most the [area](crate::memory::FitCertificate::area) of the
 //! fit.
 
-use super::layers::{self, LANES, Lanes};
+use super::layers::{self, LANES, Lanes, add_all, resized};
+use super::past::Layered;
 use crate::elementary::{complex_exp, inverse_factorials};
 use crate::exponential::of_lanes;
 use crate::memory::{ExpandedPart, Fit, HIGHEST_DEGREE, Prepared, SteadyPast, TERMS, Terms};
@@ -48,29 +49,9 @@ impl Modes {
         self.fit.terms().len()
     }
 
-    /// Number of groups of lanes that contain the layers.
-    pub(super) fn groups(&self) -> usize {
-        self.groups
-    }
-
-    /// Distance of the tip behind its farthest point.
-    pub(super) fn behind(&self) -> f64 {
-        self.farthest
-    }
-
-    /// Distance behind the farthest point within which the sum is valid.
-    pub(super) fn retreat(&self) -> f64 {
-        self.fit.retreat()
-    }
-
     /// Largest distance behind the farthest point at which a step may begin.
     pub(super) fn retreat_between_steps(&self) -> f64 {
         self.fit.retreat_between_steps()
-    }
-
-    /// Number of real numbers in the state.
-    pub(super) fn size(&self) -> usize {
-        self.states.len() * LANES
     }
 
     /// Derivatives of g at 0, from the sum of exponentials.
@@ -78,46 +59,61 @@ impl Modes {
         self.prepared.powers.of_tip()
     }
 
-    /// Changes the number of layers; new layers are 0.
-    pub(super) fn resize(&mut self, groups: usize) {
-        let mut states = vec![[0.0; LANES]; 2 * self.terms() * groups];
-        let kept = groups.min(self.groups);
-        if kept > 0 {
-            let old = self.states.chunks_exact(self.groups);
-            states.chunks_exact_mut(groups).zip(old).for_each(|(new, old)| {
-                new[..kept].copy_from_slice(&old[..kept]);
-            });
-        }
-        (self.states, self.groups) = (states, groups);
+    fn terms_in_parts(&self) -> impl Iterator<Item = f64> {
+        self.fit.terms().iter().flat_map(|term| [term.exponent.re, term.exponent.im])
     }
 
-    /// Moves the center by a number of widths.
-    pub(super) fn recenter(&mut self, distance: f64) {
+    /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
+    /// many as there is room for.
+    pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
+        derivatives(self.prepared.powers.rows(), &self.states, factor, of_layers);
+    }
+}
+
+impl Layered for Modes {
+    fn groups(&self) -> usize {
+        self.groups
+    }
+
+    fn behind(&self) -> f64 {
+        self.farthest
+    }
+
+    fn retreat(&self) -> f64 {
+        self.fit.retreat()
+    }
+
+    fn size(&self) -> usize {
+        self.states.len() * LANES
+    }
+
+    fn resize(&mut self, groups: usize) {
+        self.states = resized(&self.states, self.groups, (2 * self.terms(), groups));
+        self.groups = groups;
+    }
+
+    fn recenter(&mut self, distance: f64) {
         layers::recenter(distance, &mut self.states, self.groups);
     }
 
-    /// Multiplies the whole past by a factor.
-    pub(super) fn fade(&mut self, factor: f64) {
+    fn fade(&mut self, factor: f64) {
         self.states.as_flattened_mut().iter_mut().for_each(|z| *z *= factor);
     }
 
-    /// Adds a steady past on a line with these layers.
-    pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
+    fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
         for (term, states) in
             self.fit.terms().iter().zip(self.states.chunks_exact_mut(2 * phi.len()))
         {
             let fading: Complex<f64> = past.velocity * term.exponent - past.healing;
             let state = -past.weight / fading * complex_exp(term.exponent * past.distance);
             let (re, im) = states.split_at_mut(phi.len());
-            add(re, phi, state.re);
-            add(im, phi, state.im);
+            add_all(re, phi, state.re);
+            add_all(im, phi, state.im);
         }
         self.farthest = self.farthest.max(-past.distance);
     }
 
-    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
-    /// layers of each node multiplied by its weight.
-    pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
+    fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         let Some(moved) = position.last() else { return };
         self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
         let Self { prepared, groups, states, moments, .. } = self;
@@ -133,13 +129,12 @@ impl Modes {
             }
             if degree.is_none() {
                 let states = states.chunks_exact_mut(2 * *groups);
-                states.for_each(|state| add(&mut state[..*groups], weights, 1.0));
+                states.for_each(|state| add_all(&mut state[..*groups], weights, 1.0));
             }
         });
     }
 
-    /// Writes the state, and the exponents that it belongs to.
-    pub(super) fn save(&self, state: &mut State) {
+    fn save(&self, state: &mut State) {
         let exponents: Vec<f64> = self.terms_in_parts().collect();
         state.numbers(exponents.into_iter());
         state.numbers(self.states.as_flattened().iter().copied());
@@ -147,7 +142,7 @@ impl Modes {
         state.number(self.farthest);
     }
 
-    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    fn restore(&mut self, state: &mut Reader, _: Option<usize>) -> Result<(), Damaged> {
         // A fit made on another machine may differ by a rounding: not to the last bit the same run.
         let saved = state.numbers()?.into_iter().map(f64::to_bits);
         if !saved.eq(self.terms_in_parts().map(f64::to_bits)) {
@@ -164,18 +159,7 @@ impl Modes {
         Ok(())
     }
 
-    fn terms_in_parts(&self) -> impl Iterator<Item = f64> {
-        self.fit.terms().iter().flat_map(|term| [term.exponent.re, term.exponent.im])
-    }
-
-    /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
-    /// many as there is room for.
-    pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
-        derivatives(self.prepared.powers.rows(), &self.states, factor, of_layers);
-    }
-
-    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
+    fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         jet.iter_mut().for_each(|integral| integral.fill([0.0; LANES]));
         let exponentials = self.prepared.bank.terms().flat_map(|(exponents, _)| {
             let (re, im) = of_lanes(*exponents, displacement);
@@ -186,20 +170,10 @@ impl Modes {
             let (re, im) = state.split_at(self.groups);
             let mut factor = term.weight * e / term.exponent;
             for integral in jet.iter_mut() {
-                add(integral, re, factor.re);
-                add(integral, im, -factor.im);
+                add_all(integral, re, factor.re);
+                add_all(integral, im, -factor.im);
                 factor *= term.exponent;
             }
-        }
-    }
-}
-
-/// Adds a vector of layers times a factor.
-#[inline(always)]
-fn add(sum: &mut [Lanes], layers: &[Lanes], factor: f64) {
-    for (sum, layers) in sum.iter_mut().zip(layers) {
-        for i in 0..LANES {
-            sum[i] += factor * layers[i];
         }
     }
 }

@@ -70,6 +70,23 @@ impl Past {
         Self { modes: None, other, goes_back: true }
     }
 
+    /// All memories, the exponentials first.
+    fn each(&self) -> impl Iterator<Item = &dyn Layered> {
+        let modes = self.modes.iter().map(|modes| modes as &dyn Layered);
+        modes.chain(self.other.as_deref())
+    }
+
+    fn each_mut(&mut self) -> impl Iterator<Item = &mut (dyn Layered + 'static)> {
+        let modes = self.modes.iter_mut().map(|modes| modes as &mut dyn Layered);
+        modes.chain(self.other.as_deref_mut())
+    }
+
+    /// The memory in use in the present step.
+    fn in_use(&self) -> Option<&dyn Layered> {
+        let other = self.other.as_deref().filter(|_| self.goes_back);
+        other.or_else(|| self.modes.as_ref().map(|modes| modes as &dyn Layered))
+    }
+
     /// Chooses between the two for a step from the present position of the tip.
     pub(super) fn begin(&mut self) -> Result<(), TooFar> {
         let behind = self.behind();
@@ -94,79 +111,66 @@ impl Past {
         self.modes.as_ref().map_or(&[], Modes::of_tip)
     }
 
-    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
+    /// As [`Layered::at`].
     pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
-        match (&self.other, &self.modes) {
-            (Some(other), _) if self.goes_back => other.at(displacement, jet),
-            (_, modes) => modes.iter().for_each(|modes| modes.at(displacement, jet)),
-        }
+        self.in_use().iter().for_each(|memory| memory.at(displacement, jet));
     }
 
     /// The lowest displacement from the tip that a step may reach.
     pub(super) fn lowest(&self, farthest: f64) -> f64 {
-        let other = self.other.as_ref().filter(|_| self.goes_back);
-        let of_modes = || self.modes.as_ref().map_or(f64::INFINITY, Modes::retreat);
-        farthest - other.map_or_else(of_modes, |other| other.retreat())
+        farthest - self.in_use().map_or(f64::INFINITY, |memory| memory.retreat())
     }
 
     /// Distance of the tip behind its farthest point; -∞ if no retreat is too far.
     pub(super) fn behind(&self) -> f64 {
-        let of_other = || self.other.as_ref().map_or(f64::NEG_INFINITY, |other| other.behind());
-        self.modes.as_ref().map_or_else(of_other, Modes::behind)
+        self.each().next().map_or(f64::NEG_INFINITY, |memory| memory.behind())
     }
 
-    /// Number of groups of lanes that contain the layers.
+    /// As [`Layered::groups`].
     pub(super) fn groups(&self) -> usize {
-        let of_other = || self.other.as_ref().map_or(0, |other| other.groups());
-        self.modes.as_ref().map_or_else(of_other, Modes::groups)
+        self.each().next().map_or(0, |memory| memory.groups())
     }
 
-    /// Changes the number of layers; new layers are 0.
+    /// As [`Layered::resize`].
     pub(super) fn resize(&mut self, groups: usize) {
-        self.modes.iter_mut().for_each(|modes| modes.resize(groups));
-        self.other.iter_mut().for_each(|other| other.resize(groups));
+        self.each_mut().for_each(|memory| memory.resize(groups));
     }
 
-    /// Moves the center of the layers by a number of widths.
+    /// As [`Layered::recenter`].
     pub(super) fn recenter(&mut self, distance: f64) {
-        self.modes.iter_mut().for_each(|modes| modes.recenter(distance));
-        self.other.iter_mut().for_each(|other| other.recenter(distance));
+        self.each_mut().for_each(|memory| memory.recenter(distance));
     }
 
-    /// Multiplies the whole past by a factor.
+    /// As [`Layered::fade`].
     pub(super) fn fade(&mut self, factor: f64) {
-        self.modes.iter_mut().for_each(|modes| modes.fade(factor));
-        self.other.iter_mut().for_each(|other| other.fade(factor));
+        self.each_mut().for_each(|memory| memory.fade(factor));
     }
 
-    /// Adds a steady past on a line with these layers.
+    /// As [`Layered::remember_steady`].
     pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
-        self.modes.iter_mut().for_each(|modes| modes.remember_steady(past, phi));
-        self.other.iter_mut().for_each(|other| other.remember_steady(past, phi));
+        self.each_mut().for_each(|memory| memory.remember_steady(past, phi));
     }
 
-    /// Adds nodes as [`Layered::remember`].
+    /// As [`Layered::remember`].
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
-        self.modes.iter_mut().for_each(|modes| modes.remember(position, weighted));
-        self.other.iter_mut().for_each(|other| other.remember(position, weighted));
+        self.each_mut().for_each(|memory| memory.remember(position, weighted));
     }
 
     pub(super) fn save(&self, state: &mut State) {
-        self.modes.iter().for_each(|modes| modes.save(state));
-        self.other.iter().for_each(|other| other.save(state));
+        self.each().for_each(|memory| memory.save(state));
     }
 
     pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
-        if let Some(modes) = &mut self.modes {
-            modes.restore(state)?;
+        let mut groups = None;
+        for memory in self.each_mut() {
+            memory.restore(state, groups)?;
+            groups = Some(memory.groups());
         }
-        let groups = self.modes.as_ref().map(Modes::groups);
-        self.other.iter_mut().try_for_each(|other| other.restore(state, groups))
+        Ok(())
     }
 
     /// Number of real numbers in the memory.
     pub(super) fn size(&self) -> usize {
-        let of_other = self.other.as_ref().map_or(0, |other| other.size());
-        self.modes.as_ref().map_or(0, Modes::size) + of_other
+        self.each().map(|memory| memory.size()).sum()
     }
 }

@@ -9,7 +9,7 @@
 //! with the second derivatives m at its knots. The spline of splines needs u, `u_xx`, `u_yy` and `u_xxyy` at each point.
 
 use crate::relief::{Axis, Piece};
-use crate::spline::CubicSpline;
+use crate::spline::{CubicSpline, Ends};
 
 /// `∂x^a ∂y^b u` in row a and column b: all that a cubic has.
 pub(super) type Partials = [[f64; 4]; 4];
@@ -30,15 +30,6 @@ pub(super) struct Patch {
     pub(super) y: Piece,
 }
 
-/// Slopes of the rows at their ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ends {
-    /// The second derivative is 0.
-    Straight,
-    /// The slope is 0.
-    Level,
-}
-
 impl Bicubic {
     /// The spline through heights given row after row. Across it is level at both ends and continues so beyond them;
     /// a single row is the same for all y. Along it is 0 beyond its ends. The callers ensure that both axes increase,
@@ -48,16 +39,17 @@ impl Bicubic {
         let mut points: Vec<[f64; 4]> = u.iter().map(|u| [*u, 0.0, 0.0, 0.0]).collect();
         for row in points.chunks_exact_mut(columns) {
             let heights = row.iter().map(|point| point[0]).collect();
-            let spline = match ends {
-                Ends::Straight => CubicSpline::through(x.clone(), heights),
-                Ends::Level => CubicSpline::level(x.clone(), heights),
-            };
+            let spline = CubicSpline::through(x.clone(), heights, ends);
             row.iter_mut().zip(spline.curvatures()).for_each(|(point, m)| point[1] = *m);
         }
         for column in 0..if y.len() > 1 { columns } else { 0 } {
             for of in 0..2 {
                 let along = points.iter().skip(column).step_by(columns);
-                let spline = CubicSpline::level(y.clone(), along.map(|point| point[of]).collect());
+                let spline = CubicSpline::through(
+                    y.clone(),
+                    along.map(|point| point[of]).collect(),
+                    Ends::Level,
+                );
                 let along = points.iter_mut().skip(column).step_by(columns);
                 along.zip(spline.curvatures()).for_each(|(point, m)| point[of + 2] = *m);
             }

@@ -1,9 +1,10 @@
 //! The initial surface u0(x,y) as far as no tip has carved it: tables and noise.
 
-use super::spline::{Bicubic, Ends, Partials, Patch};
+use super::spline::{Bicubic, Partials, Patch};
 use crate::relief::{Piece, noise_heights, noise_points};
 use crate::run::Scenario;
 use crate::series::{SeriesError, checked};
+use crate::spline::Ends;
 use thiserror::Error;
 
 /// Heights u at the points (`x_i`, `y_j`) of a grid, in kσ²/a and σ.

@@ -7,7 +7,7 @@
 
 use super::{Gaussian, TipFunctionError};
 use crate::elementary::exp;
-use crate::spline::CubicSpline;
+use crate::spline::{CubicSpline, Ends};
 
 pub(crate) const MIN_ROWS: usize = 8;
 const MAX_ROWS: usize = 2000;
@@ -169,7 +169,7 @@ fn on_a_lattice(x: &[f64], f: &[f64]) -> (f64, Vec<f64>) {
         return (spacing, f.to_vec());
     }
     // Mirrored, so that the spline is flat at 0 of itself.
-    let spline = CubicSpline::through(mirrored(x, -1.0), mirrored(f, 1.0));
+    let spline = CubicSpline::through(mirrored(x, -1.0), mirrored(f, 1.0), Ends::Straight);
     (spacing, (0..x.len()).map(|i| spline.value(lattice(i))).collect())
 }
 

@@ -99,7 +99,7 @@ fn both_ways(scenario: &PlanarScenario) -> [(&'static str, Trajectory); 2] {
     let by_series = run(scenario).unwrap();
     let mut running = PlanarRunning::new(scenario).unwrap().with_fixed_step(0.25);
     let steps = std::iter::from_fn(|| running.step().unwrap()).collect();
-    let by_collocation = Trajectory::new(Wider::default(), scenario.along.support(), steps);
+    let by_collocation = Trajectory::under(Wider::default(), scenario.along.support(), steps);
     [("series", by_series.trajectory), ("collocation", by_collocation)]
 }
 

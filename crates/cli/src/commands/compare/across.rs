@@ -44,7 +44,7 @@ impl Closed {
     fn of(asked: &Asked, scenario: &PlanarScenario) -> Result<Self, Failure> {
         let ((steps, work, memory), seconds) = timed(|| steps(asked, scenario))?;
         let along = &scenario.along;
-        let trajectory = Trajectory::new(*along.model.wider(), along.support(), steps);
+        let trajectory = Trajectory::under(*along.model.wider(), along.support(), steps);
         Ok(Self { trajectory, work, memory, seconds })
     }
 

@@ -48,7 +48,7 @@ pub(super) fn write(
         Target::Document(job) => {
             let (wider, support) = (*scenario.along.model.wider(), scenario.along.support());
             let steps = integrated.record.steps.take();
-            let trajectory = steps.map(|steps| Trajectory::new(wider, support, steps));
+            let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
             let history = trajectory.as_ref().map(|trajectory| history_across(trajectory, &wider));
             let reached = signal.map(|_| end.end);
             let samples = std::mem::take(&mut integrated.record.samples);

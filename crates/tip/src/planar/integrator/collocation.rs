@@ -4,7 +4,7 @@ use super::super::jet::Jet;
 use super::super::part::Part;
 use super::super::scenario::PlanarError;
 use super::super::stages::{Solution, StageEquations, Under, Unknowns};
-use super::Integrator;
+use super::PlanarRunning;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
 use crate::integrator::control::OVERSHOOT;
@@ -17,16 +17,16 @@ use crate::step::{self, Depth, Inertia, carving, healing};
 /// Weight of the defect of the motion across, as far as its change from step to step is not looked at.
 const WEIGHT_OF_DEFECT: f64 = 1.5;
 
-impl Integrator<'_> {
-    /// Makes a step that ends at `until` at the latest.
-    pub(super) fn step_by_collocation(&mut self, until: f64) -> Result<(), PlanarError> {
+impl PlanarRunning<'_> {
+    /// Makes a step that ends at the end of the scenario at the latest.
+    pub(super) fn step_by_collocation(&mut self) -> Result<(), PlanarError> {
         self.enter_field();
         let now = self.forces_now();
         if self.wider().inertia.is_none() {
             self.velocity[0] = now[0];
         }
         self.velocity[1] = now[1];
-        let end = self.next_end(until);
+        let end = self.next_end();
         let mut h = self.control.proposal(self.length_limit(), end - self.t);
         loop {
             let (t, tolerance) = (self.t, self.control.tolerance());

@@ -26,13 +26,14 @@ use crate::integrator::taylor::switch::Switch;
 use crate::integrator::taylor::visits::Visits;
 use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
 use crate::memory::{FitError, MemoryChoice, Retreat, SteadyPast};
+use crate::state::{Damaged, Reader};
 use crate::tip_function::BAND_OF_A_GAUSSIAN;
-use crate::{Force, Model, Scenario, Start, Support, Wider};
+use crate::{Force, Model, RunError, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The state of a tip in motion, and all forces on it.
-pub(super) struct Integrator<'a> {
+/// A tip in motion through a scenario, with bounded memory: its state, and all forces on it.
+pub struct PlanarRunning<'a> {
     model: &'a Model,
     /// The memory in use, and the reason if exponentials were considered and are not used.
     storage: Storage,
@@ -59,8 +60,9 @@ pub(super) struct Integrator<'a> {
     switch: Switch,
     /// End time of the present series or stages; steps already made but not yet returned lie before it.
     t: f64,
-    /// Start time of the run.
+    /// Start and end time of the run.
     start: f64,
+    until: f64,
     /// R - x0
     extension: f64,
     y: f64,
@@ -91,12 +93,45 @@ fn may_go_back(PlanarScenario { along, force_across, .. }: &PlanarScenario) -> b
     is_pushed || along.path.is_some() || retreat(along) == Retreat::Swing
 }
 
-impl<'a> Integrator<'a> {
-    /// The integrator at the start of a valid scenario.
-    pub(super) fn new(
+impl<'a> PlanarRunning<'a> {
+    /// Begins a scenario.
+    ///
+    /// # Errors
+    /// A parameter out of range, or an option that is not available in two coordinates.
+    pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
+        Self::begun(scenario, None)
+    }
+
+    /// Begins a scenario on the surface that earlier scans left.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn over(
+        scenario: &'a PlanarScenario,
+        earlier: &'a EarlierGrooves,
+    ) -> Result<Self, PlanarError> {
+        Self::begun(scenario, Some(earlier))
+    }
+
+    /// Resumes a run from a state written by [`save`](Self::save). Every later step equals that of the uninterrupted
+    /// run, bit for bit.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); a state that is not one of this scenario.
+    pub fn resumed(scenario: &'a PlanarScenario, state: &mut Reader) -> Result<Self, PlanarError> {
+        let mut running = Self::new(scenario)?;
+        running.restore(state).map_err(RunError::from)?;
+        if !(scenario.along.start_time()..=scenario.along.until).contains(&running.t()) {
+            return Err(RunError::from(Damaged::OutOfRange).into());
+        }
+        Ok(running)
+    }
+
+    fn begun(
         scenario: &'a PlanarScenario,
         earlier: Option<&'a EarlierGrooves>,
     ) -> Result<Self, PlanarError> {
+        scenario.validate()?;
         let goes_back = earlier.is_some() || may_go_back(scenario);
         let modes =
             || Self::with(scenario, Storage::Modes(retreat(&scenario.along), goes_back), earlier);
@@ -147,6 +182,7 @@ impl<'a> Integrator<'a> {
             control,
             t: along.start_time(),
             start: along.start_time(),
+            until: along.until,
             extension: along.start_extension() + along.kick,
             y,
             velocity: [along.velocity_at_start(), 0.0],
@@ -174,21 +210,28 @@ impl<'a> Integrator<'a> {
         Ok(integrator)
     }
 
-    /// Sets a fixed step, by collocation and without error control.
-    pub(super) fn fix_step(&mut self, h: f64) {
+    /// The run with a fixed step, by collocation and without error control: for observing the order of convergence.
+    #[must_use]
+    pub fn with_fixed_step(mut self, h: f64) -> Self {
         self.control.fix(h);
+        self
     }
 
-    /// Start of the next step.
-    pub(super) fn t(&self) -> f64 {
+    /// Time reached: the start of the next step.
+    #[must_use]
+    pub fn t(&self) -> f64 {
         self.made.front().map_or(self.t, |step| step.along.t)
     }
 
-    pub(super) fn work(&self) -> Work {
+    /// Counts so far.
+    #[must_use]
+    pub fn work(&self) -> Work {
         self.work
     }
 
-    pub(super) fn layers(&self) -> Layers {
+    /// Number of layers so far, and their error.
+    #[must_use]
+    pub fn layers(&self) -> Layers {
         let of = |part: &Part| Layers { error: part.error(), ..part.frame.layers() };
         let add = |sum: Layers, part: Layers| Layers {
             most: sum.most + part.most,
@@ -200,7 +243,8 @@ impl<'a> Integrator<'a> {
     }
 
     /// Name of the memory in use, and the reason for it.
-    pub(super) fn memory(&self) -> (&'static str, String) {
+    #[must_use]
+    pub fn memory(&self) -> (&'static str, String) {
         let (name, reason) = match (self.storage, self.instead_of_modes) {
             (Storage::Modes(..), _) => ("modes", "exponentials fit f'".into()),
             (Storage::Direct, _) => return ("direct", "requested".into()),
@@ -212,16 +256,21 @@ impl<'a> Integrator<'a> {
         (name, format!("{reason}; up to {} layers", self.layers().most))
     }
 
-    pub(super) fn memory_size(&self) -> usize {
+    /// Number of real numbers in the memory.
+    #[must_use]
+    pub fn memory_size(&self) -> usize {
         self.parts.iter().map(Part::memory_size).sum()
     }
 
-    /// The next step; `None` at the end.
-    pub(super) fn step(&mut self, until: f64) -> Result<Option<Step>, PlanarError> {
-        if self.made.is_empty() && self.t < until {
+    /// Makes the next step; `None` once the end of the scenario is reached.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
+    pub fn step(&mut self) -> Result<Option<Step>, PlanarError> {
+        if self.made.is_empty() && self.t < self.until {
             self.choose_memories()?;
-            if !self.step_by_series(until)? {
-                self.step_by_collocation(until)?;
+            if !self.step_by_series()? {
+                self.step_by_collocation()?;
             }
         }
         let step = self.made.pop_front();
@@ -262,9 +311,9 @@ impl<'a> Integrator<'a> {
     }
 
     /// Latest end of the next step.
-    fn next_end(&self, until: f64) -> f64 {
+    fn next_end(&self) -> f64 {
         let breaks = self.force.iter().map(|force| force.next_break(self.t));
-        breaks.fold(self.support.next_break(self.t).min(until), f64::min)
+        breaks.fold(self.support.next_break(self.t).min(self.until), f64::min)
     }
 
     /// Longest step that does not skip a pulse.

@@ -1,14 +1,12 @@
 //! Saved states of the integrator between two steps.
 
 use super::super::history::Step;
-use super::Integrator;
-use crate::collocation::Stages;
-use crate::integrator::Work;
+use super::PlanarRunning;
 use crate::state::{Damaged, Reader, Saved, State};
 
-/// Contains all data that determine the next steps, except the arguments of [`Integrator::new`].
-impl Saved for Integrator<'_> {
-    fn save(&self, state: &mut State) {
+impl PlanarRunning<'_> {
+    /// Writes all data, except the scenario, that determine the rest of the run.
+    pub fn save(&self, state: &mut State) {
         let [along, across] = self.velocity;
         for number in [self.t, self.extension, self.y, along, across] {
             state.number(number);
@@ -16,16 +14,13 @@ impl Saved for Integrator<'_> {
         save_steps(self.last.iter(), state);
         save_steps(self.made.iter(), state);
         self.corner.iter().for_each(|corner| corner.save(state));
-        let Work { steps, rejected, newton_iterations, series, switches } = self.work;
-        for count in [steps, rejected, newton_iterations, series, switches] {
-            state.count(count);
-        }
+        self.work.save(state);
         self.control.save(state);
         self.switch.save(state);
         self.parts.iter().for_each(|part| part.save(state));
     }
 
-    fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
+    pub(super) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         (self.t, self.extension, self.y) = (state.finite()?, state.finite()?, state.finite()?);
         self.velocity = [state.finite()?, state.finite()?];
         self.last = restored_steps(state)?.pop();
@@ -38,41 +33,18 @@ impl Saved for Integrator<'_> {
         if all.into_iter().any(|step| is_limited(step) != self.corner.is_some()) {
             return Err(Damaged::OutOfRange);
         }
-        self.work = Work {
-            steps: restored_count(state)?,
-            rejected: restored_count(state)?,
-            newton_iterations: restored_count(state)?,
-            series: restored_count(state)?,
-            switches: restored_count(state)?,
-        };
+        self.work.restore(state)?;
         self.control.restore(state)?;
         self.switch.restore(state)?;
         self.parts.iter_mut().try_for_each(|part| part.restore(state))
     }
 }
 
-/// One that can still be counted on.
-fn restored_count(state: &mut Reader) -> Result<u64, Damaged> {
-    state.count().and_then(|n| if n < u64::MAX / 2 { Ok(n) } else { Err(Damaged::OutOfRange) })
-}
-
 fn save_steps<'a>(steps: impl ExactSizeIterator<Item = &'a Step>, state: &mut State) {
     state.count(steps.len() as u64);
-    for Step { along, y, across } in steps {
-        state.step(along);
-        state.number(*y);
-        across.iter().for_each(|across| state.number(*across));
-    }
+    steps.for_each(|step| step.save(state));
 }
 
 fn restored_steps(state: &mut Reader) -> Result<Vec<Step>, Damaged> {
-    let step = |state: &mut Reader| {
-        let (along, y) = (state.step()?, state.finite()?);
-        let mut across: Stages = [0.0; _];
-        for across in &mut across {
-            *across = state.finite()?;
-        }
-        Ok(Step { along, y, across })
-    };
-    (0..state.length(1)?).map(|_| step(state)).collect()
+    (0..state.length(1)?).map(|_| Step::restored(state)).collect()
 }

@@ -3,7 +3,7 @@
 use super::super::chain::Acting;
 use super::super::part::Part;
 use super::super::scenario::PlanarError;
-use super::Integrator;
+use super::PlanarRunning;
 use crate::collocation::STAGES;
 use crate::elementary::exp;
 use crate::integrator::landing::landing;
@@ -36,13 +36,13 @@ enum Made {
     Nothing,
 }
 
-impl Integrator<'_> {
+impl PlanarRunning<'_> {
     /// Makes a step: its pieces wait, the memory knows of all of it. False where collocation is to make it.
-    pub(super) fn step_by_series(&mut self, until: f64) -> Result<bool, PlanarError> {
+    pub(super) fn step_by_series(&mut self) -> Result<bool, PlanarError> {
         if self.control.is_fixed() || !self.switch.is_to_series() {
             return Ok(false);
         }
-        let end = self.next_end(until);
+        let end = self.next_end();
         let made = self.expand(end)?;
         if !made && self.switch.left_series() {
             self.work.switches += 1;

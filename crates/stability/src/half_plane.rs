@@ -41,6 +41,8 @@ pub(super) struct HalfPlane {
 impl HalfPlane {
     /// Counts the zeros; shifts the edge if it passes through one.
     pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
+        // Right of the bound there is no zero.
+        let left = left.min(2.0 * h.right_bound());
         if !(h.right_bound() * h.length() < FARTHEST && (left * h.length()).abs() < FARTHEST) {
             return Err(h.too_far_apart());
         }

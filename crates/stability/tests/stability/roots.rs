@@ -296,3 +296,14 @@ fn many_gaussians_by_quadrature_agree_with_few_in_closed_form() {
         assert!((a - b).norm() < 1e-12, "{a} {b}");
     }
 }
+
+/// |Λ|² is at most some 10 α/r² right of the imaginary axis, so that nothing grows this fast.
+#[test]
+fn far_to_the_right_there_are_no_roots() {
+    for (alpha, r) in [(1.0, 1.0), (1.2, 0.01), (0.0, 3.0)] {
+        for bound in [1e3, 1e10, 1e300] {
+            let found = roots(&model(1.0, alpha, r), bound).unwrap();
+            assert!(found.roots.is_empty() && found.certificate.is_complete(), "{alpha} {bound}");
+        }
+    }
+}

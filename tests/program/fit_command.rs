@@ -207,6 +207,8 @@ fn what_cannot_be_fitted_is_refused_with_what_would_do() {
         ("fit --ripple two.csv --free gamma", 2, ["gamma", "depth-limit"]),
         ("fit --ripple two.csv --free beta --tip gaussian", 2, ["--free beta", "--tip"]),
         ("fit --ripple two.csv --r -1", 2, ["--r -1", "above 0"]),
+        ("fit --ripple two.csv --healing-time 10", 2, ["--healing-time", "have faded"]),
+        ("fit --ripple two.csv --free healing-time", 2, ["--free", "have faded"]),
         ("fit --ripple two.csv", 2, ["two.csv", "too few"]),
         ("fit --ripple noise.csv", 2, ["noise.csv", "no significant ripple"]),
         ("fit --onsets same.csv", 2, ["same.csv", "different velocities"]),

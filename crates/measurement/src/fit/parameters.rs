@@ -94,7 +94,7 @@ impl Values {
     }
 
     /// The model at this α and r; `None` if the values are invalid.
-    pub(super) fn model(&self, shape: &Shape, alpha: f64, r: f64) -> Option<Model> {
+    pub fn model(&self, shape: &Shape, alpha: f64, r: f64) -> Option<Model> {
         let tip = match shape {
             Shape::Known(tip) => tip.clone(),
             Shape::Triple => TipFunction::triple_gaussian(self.get(Name::Beta)?, 1.0).ok()?,

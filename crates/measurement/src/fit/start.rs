@@ -6,8 +6,6 @@ use super::problem::{Problem, ends};
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
 use std::f64::consts::TAU;
-use stickslip_stability::critical;
-use stickslip_tip::Wider;
 
 /// Values of r, and of α over αc, that are tried if they are unknown.
 const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
@@ -123,10 +121,8 @@ fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
             let over: Vec<f64> = match values.get(Name::Alpha) {
                 Some(alpha) => vec![alpha],
                 None => {
-                    let onset = values.model(problem.shape, 1.0, r);
-                    let onset =
-                        onset.and_then(|model| critical(&Wider::default(), model.tip(), r).ok());
-                    onset.map_or(vec![], |at| OVER.iter().map(|o| o * at.alpha).collect())
+                    let onset = problem.onset(&values, r);
+                    onset.map_or(vec![], |(at, _)| OVER.iter().map(|o| o * at).collect())
                 }
             };
             for alpha in over {
@@ -160,17 +156,16 @@ fn of_series(problem: &Problem, values: Values) -> Vec<Values> {
     let middle =
         |values: &[f64]| (values.iter().map(|v| v.ln()).sum::<f64>() / values.len() as f64).exp();
     let found = RS.iter().flat_map(|r| {
-        let onset = values.model(problem.shape, 1.0, *r);
-        let onset = onset.and_then(|model| critical(&Wider::default(), model.tip(), *r).ok());
+        let onset = problem.onset(&values, *r);
         let over: &[f64] = if wavelength.is_some() { &OVER } else { &[1.0] };
         over.iter().filter_map(move |over| {
-            let at = onset?;
-            let per_load = over * at.alpha / middle(load);
+            let (alpha, born) = onset?;
+            let per_load = over * alpha / middle(load);
             let mut found = values;
             for (name, value) in [
                 (Name::RPerVelocity, Some(r / middle(velocity))),
                 (Name::AlphaPerLoad, Some(per_load)),
-                (Name::Width, wavelength.map(|w| middle(w) / at.wavelength)),
+                (Name::Width, wavelength.map(|w| middle(w) / born)),
             ] {
                 if let (None, Some(value)) = (found.get(name), value) {
                     found.set(name, value);

@@ -9,8 +9,8 @@ use crate::noise::normal;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use rand::RngExt;
-use stickslip_measurement::{Data, Fit, FitRequest, Name, Part, Shape, Values, fit};
-use stickslip_tip::TipFunction;
+use stickslip_measurement::{Data, Fit, FitRequest, Name, Part, Shape, Track, Values, fit};
+use stickslip_tip::{TipFunction, Wider};
 
 /// One of the kinds of fit that are judged.
 struct Case {
@@ -233,6 +233,26 @@ fn freed_numbers_and_other_data_are_held_as_often_as_they_say() {
         if only.is_none_or(|only| only == i) {
             judged(case, sets());
         }
+    }
+}
+
+/// α is 5.9 here, where that of the onset is 1.88 without the depth limit: from motions near that one, the search ended
+/// at α = 0.4.
+#[test]
+fn a_known_depth_limit_leads_to_motions_above_its_own_onset() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let drawn = Truth::drawn(&mut random);
+    let wider = Wider { depth_limit: Some(5.0), ..drawn.wider };
+    let truth = Truth { over: 1.135, r: 1.0, beta: 0.0, width: 30.0, wider };
+    let Data::Ripple(track) = ripple(&truth, 0.05, &mut random) else { panic!("a ripple") };
+    let data = [Data::Ripple(Track { gain: None, ..track })];
+    let known = Values::default().with(Name::DepthLimit, 5.0).with(Name::Width, truth.width);
+    let shape = Shape::Known(TipFunction::gaussian(1.0).unwrap());
+    let found = fit(&data, &FitRequest { shape, known, ..request(None) }).unwrap();
+    assert!(found.explained);
+    for (name, value) in [(Name::Alpha, truth.alpha()), (Name::R, truth.r)] {
+        let told = found.numbers.iter().find(|n| n.name == name).unwrap().estimate;
+        assert!(told.holds(value), "{} {told:?} for {value}", name.word());
     }
 }
 

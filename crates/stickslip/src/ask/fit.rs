@@ -12,7 +12,7 @@ use stickslip_measurement::{
     Shape, Track, Values,
 };
 use stickslip_stability::critical;
-use stickslip_tip::{Gaussian, TipFunction, Wider};
+use stickslip_tip::{Gaussian, TipFunction};
 
 /// Parameters of the model estimated from measured data, with 95 % intervals by profile likelihood.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -411,7 +411,14 @@ impl Ask for Fit {
             .into());
         }
         self.tip.iter().try_for_each(|tip| tip.judge_even("a fit"))?;
-        self.all_known()?;
+        let heals = self.all_known()?.get(Name::HealingTime).is_some();
+        let has_ripple = self.data.iter().any(|data| matches!(data, Measured::Ripple { .. }));
+        if has_ripple && (heals || self.is_free(FreeName::HealingTime)) {
+            let name = if heals { "healing_time" } else { "free" };
+            let why = "on a surface that heals, ripples far behind the tip have faded: fit lateral \
+                       forces, onsets or wavelengths";
+            return Err(Refused::whole(name, why).into());
+        }
         let footprints = if self.is_free(FreeName::Beta) { 0 } else { self.draws.len() };
         Ok(Self { footprints, ..self })
     }
@@ -419,14 +426,16 @@ impl Ask for Fit {
     fn answer(&self, _: &Context) -> Result<(FitFound, Vec<String>), Failure> {
         let data = self.reduced()?;
         let rows: Vec<Data> = data.iter().map(|(_, rows)| rows.clone()).collect();
-        let found = measurement::fit(&rows, &self.request()?).map_err(|error| match error {
+        let request = self.request()?;
+        let found = measurement::fit(&rows, &request).map_err(|error| match error {
             FitError::Stopped => Failure::Cancelled,
             FitError::NoStart => Failure::Failed(error.to_string()),
             error => self.refused(&error).into(),
         })?;
-        let tip = self.footprint(found.values.get(Name::Beta))?.0;
-        let r = found.values.get(Name::R);
-        let critical_alpha = r.and_then(|r| critical(&Wider::default(), &tip, r).ok());
+        let critical_alpha = found.values.get(Name::R).and_then(|r| {
+            let model = found.values.model(&request.shape, 1.0, r)?;
+            critical(model.wider(), model.tip(), r).ok()
+        });
         let mut answer = FitFound::of(&found, &data, critical_alpha.map(|at| at.alpha));
         for (fitted, measured) in answer.data.iter_mut().zip(&self.data) {
             [fitted.x_unit, fitted.y_unit] = self.units(measured);

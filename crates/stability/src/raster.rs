@@ -330,7 +330,9 @@ impl Raster {
 /// Σ_j Σ_l c^j h_l(jd) ĝ_l(s)
 fn beside(waves: &Waves, heights: &[Vec<f64>]) -> f64 {
     let each = waves.steady_layers();
-    each.iter().zip(heights).map(|(g, heights)| g * heights.iter().sum::<f64>()).sum()
+    // Where c is 0 the surface may heal so fast that ĝ(s) is infinite.
+    let felt = each.iter().zip(heights).filter(|(_, heights)| !heights.is_empty());
+    felt.map(|(g, heights)| g * heights.iter().sum::<f64>()).sum()
 }
 
 /// Smallest distinguishable ratio of a spring across to r: S(s) - S(p) has a round-off of 1e-16.

@@ -518,3 +518,17 @@ fn a_zigzag_of_a_table_with_inertia_at_a_wide_pitch_has_the_threshold_of_its_pro
     });
     assert!((found.alpha / wanted.alpha - 1.0).abs() < 1e-7, "{found:?} {wanted:?}");
 }
+
+/// Along the imaginary axis G(p) = ∫f''e^{-px}dx over x > 0 with p = s + iq, s = 1/(rT) = 100, is -1/p + 3/p³ or so for a
+/// Gaussian: of a line alone T has the sign of -Im G < 0 at every q, and e^{-100 X} = 0 of it is left for the next.
+#[test]
+fn lines_on_a_surface_that_heals_at_once_are_stable_for_certain() {
+    let footprint = Footprint::separable(TipFunction::gaussian(1.0).unwrap(), 1.0).unwrap();
+    for (r, healing) in [(0.1, 0.1), (1.0, 0.01), (1.0, 1e-4)] {
+        let law = Wider { healing_time: Some(healing), ..Wider::default() };
+        let left = (-20.0 / (r * healing)).exp();
+        let raster = Raster::new(&footprint, law, (r, 0.5), left).unwrap();
+        let found = raster.critical(RasterPath::OneWay);
+        assert_eq!(found, Err(StabilityError::NoCrossing { r }), "{healing}");
+    }
+}

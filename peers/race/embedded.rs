@@ -108,7 +108,7 @@ fn ends_side_by_side(motions: &[Scenario]) -> Vec<f64> {
         |i, motion| {
             let motion = motion.expect("a run that ends");
             assert!(motion.side_by_side, "motion {i} went alone");
-            let last = motion.steps.0.expect("a run has steps");
+            let last = motion.trajectory.0.expect("a run has steps");
             ends[i] = last.l(case::R, last.end());
         },
     );

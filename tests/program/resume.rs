@@ -66,8 +66,9 @@ fn finish(mut running: Watched, mut steps: Vec<[u64; STEP_NUMBERS]>) -> Told {
     while let Some(step) = running.step().unwrap() {
         steps.push(bits(&step));
     }
-    let (outcome, work) = (running.outcome(), running.work());
-    Told(steps, format!("{outcome:?} {work:?} {} {}", running.memory(), running.memory_reason()))
+    let (outcome, made) = (running.outcome(), running.running());
+    let (work, memory, why) = (made.work(), made.memory(), made.memory_reason());
+    Told(steps, format!("{outcome:?} {work:?} {memory} {why}"))
 }
 
 /// The run, saved after so many steps and cannot be used by another that knows only the words.
@@ -154,7 +155,7 @@ fn a_state_that_is_not_the_same_is_noticed() {
             }
         };
         // t and extension; and velocity, which steps by series work out anew.
-        let carried = if running.work().series > 0 { 2 } else { 3 };
+        let carried = if running.running().work().series > 0 { 2 } else { 3 };
         assert!((0..carried).all(|i| noticed(&i)), "{memory:?}");
         let tried = || (0..words.len().min(400)).step_by(3);
         let seen = tried().filter(noticed).count();

@@ -13,7 +13,7 @@ pub struct Footprint<'a> {
 
 impl<'a> Footprint<'a> {
     /// `value` is f; |f| beyond `reach` must be below round-off, about 1e-17 of its largest value.
-    /// For Gaussians that is 8.8 widths beyond the outermost center. [`Footprint::reach_of`] finds it.
+    /// For Gaussians that is 8.8 widths beyond the outermost center.
     ///
     /// # Errors
     /// `reach` not finite or not positive.
@@ -22,20 +22,6 @@ impl<'a> Footprint<'a> {
             Ok(Self { value, reach })
         } else {
             Err(GridError::Reach(reach))
-        }
-    }
-
-    /// The smallest distance, among multiples of `limit`/4096, beyond which |f| ≤ `level` up to `limit`; `None` if f
-    /// is still larger at `limit` (a slowly decaying tip).
-    #[must_use]
-    pub fn reach_of(value: &dyn Fn(f64) -> f64, level: f64, limit: f64) -> Option<f64> {
-        const RUNGS: u32 = 4096;
-        let at = |k: u32| limit * f64::from(k) / f64::from(RUNGS);
-        let large = |k: &u32| value(at(*k)).abs() > level || value(-at(*k)).abs() > level;
-        match (0..=RUNGS).rev().find(large) {
-            Some(k) if k < RUNGS => Some(at(k + 1)),
-            Some(_) => None,
-            None => Some(at(1)),
         }
     }
 
@@ -151,13 +137,5 @@ mod tests {
             assert!((tail.at(x) - exact).abs() < 2e-15, "tail({x}) = {}", tail.at(x));
         }
         Ok(())
-    }
-
-    #[test]
-    fn the_reach_of_a_gaussian_is_found_and_that_of_a_slow_decay_refused() {
-        let reach = Footprint::reach_of(&gaussian, 1e-17, 40.0);
-        let exact = (2.0 * 17.0 * std::f64::consts::LN_10).sqrt();
-        assert!(reach.is_some_and(|reach| (0.0..=0.02).contains(&(reach - exact))));
-        assert_eq!(Footprint::reach_of(&|x| 1.0 / (1.0 + x * x), 1e-17, 40.0), None);
     }
 }

@@ -8,8 +8,8 @@
 //! the kinetic force. Errors of means come from batches of the force, whose number follows from its correlation length;
 //! that of the peak from the noise of the rows near it.
 
-use crate::interval::Estimate;
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use crate::interval::{Estimate, student};
+use crate::profile::MEDIAN_OF_NORMAL;
 use thiserror::Error;
 
 /// Forces on both ways over the same positions, which ascend; any units.
@@ -147,7 +147,7 @@ impl FrictionLoop {
         }
         // The offset is that of either way, with the other sign on the way back.
         let peak = 0.5 * (peaks[0].height + peaks[1].height);
-        let quantile = quantile((2 * BESIDE) as f64);
+        let quantile = student((2 * BESIDE) as f64);
         let width = quantile * 0.5 * f64::hypot(peaks[0].error, peaks[1].error);
         let [first, second] = [there.rise(&peaks[0], noise), back.rise(&peaks[1], noise)];
         let stiffness = Estimate {
@@ -184,7 +184,7 @@ impl FrictionLoop {
         let rest = (self.x.len() - sliding) as f64;
         let error = f64::hypot(
             (friction.high - friction.low) * length * part,
-            quantile(f64::INFINITY) * noise * spacing * (2.0 * rest).sqrt(),
+            student(f64::INFINITY) * noise * spacing * (2.0 * rest).sqrt(),
         );
         Estimate { value, low: value - error, high: value + error }
     }
@@ -305,7 +305,7 @@ fn mean(values: &[f64]) -> Estimate {
     let middle = means.iter().sum::<f64>() / means.len() as f64;
     let square: f64 = means.iter().map(|m| (m - middle).powi(2)).sum();
     let freedom = means.len() as f64 - 1.0;
-    let error = quantile(freedom) * (square / freedom / means.len() as f64).sqrt();
+    let error = student(freedom) * (square / freedom / means.len() as f64).sqrt();
     Estimate { value, low: value - error, high: value + error }
 }
 
@@ -332,9 +332,5 @@ fn noise(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> =
         values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0)).collect();
     sizes.sort_by(f64::total_cmp);
-    sizes[sizes.len() / 2] / 0.674_489_75
-}
-
-fn quantile(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom.min(1e4)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+    sizes[sizes.len() / 2] / MEDIAN_OF_NORMAL
 }

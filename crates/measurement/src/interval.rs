@@ -1,5 +1,7 @@
 //! A value with its interval.
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 /// An estimate with its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
@@ -72,6 +74,11 @@ impl Estimate {
 
 /// Half of the probability within an interval.
 const HALF: f64 = 0.475;
+
+/// 97.5 % quantile of Student's distribution.
+pub(crate) fn student(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.min(1e4)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+}
 
 /// Quantile of sorted values, interpolated.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {

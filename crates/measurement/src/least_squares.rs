@@ -25,15 +25,25 @@ pub(crate) fn forward(
     step: f64,
 ) -> Option<Vec<Vec<f64>>> {
     let column = |i: usize| {
-        let beside = |step: f64| {
-            let mut parameters = at.to_vec();
-            parameters[i] += step;
-            let there = model.at(&parameters)?;
-            Some(there.iter().zip(here).map(|(a, b)| (a - b) / step).collect::<Vec<f64>>())
-        };
-        beside(step).or_else(|| beside(-step))
+        let one_sided = |by: f64| Some(slope(&beside(model, at, (i, by))?, here, by));
+        one_sided(step).or_else(|| one_sided(-step))
     };
     (0..at.len()).map(column).collect()
+}
+
+/// The residuals where one of the parameters differs by this much.
+fn beside(
+    model: &(impl Residuals + ?Sized),
+    at: &[f64],
+    (i, by): (usize, f64),
+) -> Option<Vec<f64>> {
+    let mut parameters = at.to_vec();
+    parameters[i] += by;
+    model.at(&parameters)
+}
+
+fn slope(a: &[f64], b: &[f64], length: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| (a - b) / length).collect()
 }
 
 /// The end point of a search.
@@ -96,21 +106,11 @@ pub(crate) fn differences(
     (here, at): (&[f64], &[f64]),
     step: f64,
 ) -> Option<Vec<Vec<f64>>> {
-    let column = |i: usize| {
-        let beside = |sign: f64| {
-            let mut parameters = at.to_vec();
-            parameters[i] += sign * step;
-            model.at(&parameters)
-        };
-        let difference = |a: &[f64], b: &[f64], length: f64| {
-            a.iter().zip(b).map(|(a, b)| (a - b) / length).collect::<Vec<f64>>()
-        };
-        match (beside(1.0), beside(-1.0)) {
-            (Some(after), Some(before)) => Some(difference(&after, &before, 2.0 * step)),
-            (Some(after), None) => Some(difference(&after, here, step)),
-            (None, Some(before)) => Some(difference(here, &before, step)),
-            (None, None) => None,
-        }
+    let column = |i: usize| match [step, -step].map(|by| beside(model, at, (i, by))) {
+        [Some(after), Some(before)] => Some(slope(&after, &before, 2.0 * step)),
+        [Some(after), None] => Some(slope(&after, here, step)),
+        [None, Some(before)] => Some(slope(here, &before, step)),
+        [None, None] => None,
     };
     (0..at.len()).map(column).collect()
 }

@@ -129,4 +129,4 @@ impl Profile {
 }
 
 /// Median of the absolute value of a standard normal variable.
-const MEDIAN_OF_NORMAL: f64 = 0.674_489_75;
+pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.674_489_75;

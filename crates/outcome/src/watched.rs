@@ -2,9 +2,7 @@
 
 use crate::{Observer, Outcome, judge};
 use stickslip_tip::state::State;
-use stickslip_tip::{
-    InitialSurface, Run, RunError, Running, Scenario, Step, Trajectory, Work, run,
-};
+use stickslip_tip::{InitialSurface, Run, RunError, Running, Scenario, Step, Trajectory, run};
 
 /// A tip on its way through a scenario, with the last steps, from which its [`Outcome`] follows.
 pub struct Watched<'a> {
@@ -92,28 +90,10 @@ impl<'a> Watched<'a> {
         &self.observer
     }
 
-    /// The last steps, from which the outcome and the corresponding ripple follow; `None` before the first step.
+    /// The run, with its work and its memory.
     #[must_use]
-    pub fn tail(&self) -> Option<Trajectory> {
-        self.observer.tail()
-    }
-
-    /// Work counts so far.
-    #[must_use]
-    pub fn work(&self) -> Work {
-        self.running.work()
-    }
-
-    /// Name of the present memory.
-    #[must_use]
-    pub fn memory(&self) -> &'static str {
-        self.running.memory()
-    }
-
-    /// Reason for the choice of this memory.
-    #[must_use]
-    pub fn memory_reason(&self) -> String {
-        self.running.memory_reason()
+    pub fn running(&self) -> &Running<'a> {
+        &self.running
     }
 }
 

@@ -1,9 +1,9 @@
 //! A run in two coordinates that is classified while it proceeds.
 
 use crate::{Observer, SnakingObserver};
-use stickslip_tip::planar::{Layers, PlanarError, PlanarRunning, PlanarScenario, Step};
+use stickslip_tip::RunError;
+use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Step};
 use stickslip_tip::state::State;
-use stickslip_tip::{RunError, Work};
 
 /// A tip on its way through a scenario in two coordinates, with the data that classify its motion.
 pub struct WatchedAcross<'a> {
@@ -87,21 +87,9 @@ impl<'a> WatchedAcross<'a> {
         &self.across
     }
 
-    /// Work counts so far.
+    /// The run, with its work, its memory and its layers.
     #[must_use]
-    pub fn work(&self) -> Work {
-        self.running.work()
-    }
-
-    /// Name of the memory in use, and the reason for it.
-    #[must_use]
-    pub fn memory(&self) -> (&'static str, String) {
-        self.running.memory()
-    }
-
-    /// Number of layers so far, and their error.
-    #[must_use]
-    pub fn layers(&self) -> Layers {
-        self.running.layers()
+    pub fn running(&self) -> &PlanarRunning<'a> {
+        &self.running
     }
 }

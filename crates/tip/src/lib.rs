@@ -53,8 +53,8 @@ pub use memory::MemoryChoice;
 pub use model::{Model, ModelError};
 pub use relief::{Ground, Noise, Relief};
 pub use run::{
-    Collected, MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, collect_each, run,
-    run_each, run_many, run_observed,
+    MOST_STEPS, Run, RunError, Running, Scenario, Start, TOLERANCES, collect_each, run, run_each,
+    run_many, run_observed,
 };
 pub use series::SeriesError;
 pub use support::{Support, SupportPath};

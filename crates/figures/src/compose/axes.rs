@@ -1,7 +1,9 @@
 //! Labels and ranges of axes: the criterion for a logarithmic axis, and the heights that colours cover.
 
 use crate::axis::extremes;
-use stickslip::HeightMap;
+use stickslip::{
+    ColoursName, CurveDocument, HeightMap, MapDocument, PanelDocument, ScaleName, StyleName,
+};
 
 /// r, (12).
 pub(super) const R: &str = "r = Γv₀/(kσ)";
@@ -55,6 +57,31 @@ pub(super) fn labelled(name: &str, unit: Option<&str>) -> String {
 pub(super) fn residual(of: &str, unit: Option<&str>) -> String {
     let unit = unit.map(|unit| format!(" ({unit})")).unwrap_or_default();
     format!("data − {of}{unit}")
+}
+
+/// A map of the surface; its colours cover these heights, by default all.
+pub(super) fn surface_map(
+    (x, y): (&[f64], &[f64]),
+    u: Vec<Vec<f64>>,
+    z_range: Option<[f64; 2]>,
+) -> MapDocument {
+    let (x, y, z_label) = (x.to_vec(), y.to_vec(), SURFACE.1.into());
+    MapDocument { x, y, z: u, z_label, colours: ColoursName::Cividis, z_range }
+}
+
+/// The differences of pairs of columns over a third, on a logarithmic axis.
+pub(super) fn differences<'a>(
+    labels: (&str, &str),
+    columns: impl Iterator<Item = [&'a [f64]; 3]>,
+) -> PanelDocument {
+    let curve = |[x, a, b]: [&[f64]; 3]| {
+        let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        // Equal values have no place on a logarithmic axis.
+        let shown: Vec<f64> = apart.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
+        CurveDocument::new(StyleName::Line, "", x, &shown)
+    };
+    let (y_scale, curves) = (ScaleName::Logarithmic, columns.map(curve).collect());
+    PanelDocument { y_scale, curves, ..PanelDocument::new("", labels) }
 }
 
 /// The lowest and the highest height away from the ends of the lines.

@@ -1,12 +1,10 @@
 //! Figure of a comparison: both motions, and their difference.
 
-use super::axes::{LAG, LAG_OF_STEADY_SUPPORT};
+use super::axes::{LAG, LAG_OF_STEADY_SUPPORT, differences};
 use super::drawn::{Drawn, View};
 use super::tip::model_name;
 use crate::error::FigureError;
-use stickslip::{
-    CompareDocument, CurveDocument, FigureDocument, PanelDocument, ScaleName, StyleName,
-};
+use stickslip::{CompareDocument, CurveDocument, FigureDocument, PanelDocument, StyleName};
 
 impl Drawn for CompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
@@ -25,14 +23,8 @@ impl Drawn for CompareDocument {
             ]
         };
         motions.curves = curves(&closed, &grid);
-        let apart = |labels, x: &[f64], a: &[f64], b: &[f64]| {
-            // Equal values have no place on a logarithmic axis.
-            let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-            let shown: Vec<f64> = difference.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
-            let mut panel = PanelDocument::new("", labels);
-            panel.y_scale = ScaleName::Logarithmic;
-            panel.curves = vec![CurveDocument::new(StyleName::Line, "", x, &shown)];
-            panel
+        let apart = |labels, x: &Vec<f64>, a: &Vec<f64>, b: &Vec<f64>| {
+            differences(labels, [[&**x, a, b]].into_iter())
         };
         figure.panels = vec![
             motions,

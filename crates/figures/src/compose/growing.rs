@@ -1,13 +1,13 @@
 //! A raster as a scene: the surface line by line with the tip, and the lag along the line.
 
-use super::axes::{LAG, MAP, NATURAL, heights_within};
+use super::axes::{LAG, MAP, NATURAL, heights_within, surface_map};
 use super::dense::shown;
 use super::tip::raster_title;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::scene::{Moment, Scene, Shot};
 use stickslip::{
-    ColourName, ColoursName, CurveDocument, FigureDocument, HeightMap, MapDocument, PanelDocument,
+    ColourName, CurveDocument, FigureDocument, HeightMap, MapDocument, PanelDocument,
     RasterDocument, StyleName,
 };
 use stickslip_raster::{Line, Plan};
@@ -135,14 +135,7 @@ impl Growing {
     }
 
     fn map(&self, z: Vec<Vec<f64>>) -> MapDocument {
-        MapDocument {
-            x: self.whole.x.clone(),
-            y: self.whole.y.clone(),
-            z,
-            z_label: "u (kσ²/a)".into(),
-            colours: ColoursName::Cividis,
-            z_range: self.colours,
-        }
+        surface_map((&self.whole.x, &self.whole.y), z, self.colours)
     }
 }
 

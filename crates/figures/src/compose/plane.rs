@@ -1,12 +1,10 @@
 //! The surface of a run in the plane from above, with the path of the tip on it.
 
-use super::axes::MAP;
+use super::axes::{MAP, surface_map};
 use super::dense::{duration, shown};
 use crate::axis::extremes;
 use crate::error::FigureError;
-use stickslip::{
-    ColourName, ColoursName, CurveDocument, MapDocument, PanelDocument, RunDocument, StyleName,
-};
+use stickslip::{ColourName, CurveDocument, PanelDocument, RunDocument, StyleName};
 use stickslip_surface::SurfaceAcross;
 use stickslip_tip::Support;
 use stickslip_tip::planar::{PlanarScenario, Trajectory};
@@ -72,14 +70,7 @@ impl Plane {
         colours: Option<[f64; 2]>,
     ) -> Result<PanelDocument, FigureError> {
         let mut panel = PanelDocument::new("", MAP);
-        panel.map = Some(MapDocument {
-            x: self.x.clone(),
-            y: self.y.clone(),
-            z: self.surface(t)?,
-            z_label: "u (kσ²/a)".into(),
-            colours: ColoursName::Cividis,
-            z_range: colours,
-        });
+        panel.map = Some(surface_map((&self.x, &self.y), self.surface(t)?, colours));
         let (x, y): (Vec<f64>, Vec<f64>) = self.path(t).into_iter().map(|[x, y]| (x, y)).unzip();
         let mut path = CurveDocument::new(StyleName::Line, "path of the tip", &x, &y);
         path.colour = Some(ColourName::Silver);

@@ -1,6 +1,6 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
-use super::axes::{MAP, SPRING, heights_within};
+use super::axes::{MAP, SPRING, differences, heights_within, surface_map};
 use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 use stickslip::{
     ColourName, ColoursName, ComparedLine, CurveDocument, FigureDocument, HeightMap, MapDocument,
     PanelDocument, PathName, RasterCompareDocument, RasterDocument, RasterSurfaceDocument,
-    ScaleName, StyleName,
+    StyleName,
 };
 
 /// The patch with marked crests: between these fractions of the length, centred at this fraction of the lines and at
@@ -77,17 +77,9 @@ impl Drawn for RasterCompareDocument {
             figure.panels = vec![surface, difference];
         }
         let panel = |label: &str, sides: fn(&ComparedLine) -> Option<[&Vec<f64>; 2]>| {
-            let mut panel = PanelDocument::new("", ("t since the start of a line (Γ/k)", label));
-            panel.y_scale = ScaleName::Logarithmic;
-            let curve = |line: &ComparedLine| {
-                let [closed, grid] = sides(line)?;
-                let pairs = closed.iter().zip(grid).map(|(a, b)| (a - b).abs());
-                // Equal values have no place on a logarithmic axis.
-                let apart: Vec<f64> = pairs.map(|d| if d > 0.0 { d } else { f64::NAN }).collect();
-                Some(CurveDocument::new(StyleName::Line, "", &line.t, &apart))
-            };
-            panel.curves = self.lines.iter().filter_map(curve).collect();
-            panel
+            let columns = |line| sides(line).map(|[a, b]| [&*line.t, a, b]);
+            let labels = ("t since the start of a line (Γ/k)", label);
+            differences(labels, self.lines.iter().filter_map(columns))
         };
         figure.panels.push(panel("|Δx₀| (σ)", |line| Some([&line.closed_x0, &line.grid_x0])));
         if self.max_difference.y0.is_some() {
@@ -152,14 +144,7 @@ fn heading(document: &RasterDocument) -> String {
 }
 
 fn heights(map: HeightMap) -> MapDocument {
-    MapDocument {
-        x: map.x,
-        y: map.y,
-        z: map.u,
-        z_label: "u (kσ²/a)".into(),
-        colours: ColoursName::Cividis,
-        z_range: None,
-    }
+    surface_map((&map.x, &map.y), map.u, None)
 }
 
 /// Crests of the wave with the reported wavelength and angle, in phase with the surface on the patch: straight lines

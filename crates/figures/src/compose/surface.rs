@@ -1,6 +1,6 @@
 //! Figures of surfaces and images.
 
-use super::axes::{MAP, NATURAL, SURFACE};
+use super::axes::{MAP, NATURAL, SURFACE, surface_map};
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
 use super::tip::model_name;
@@ -8,8 +8,7 @@ use crate::axis::extremes;
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
-    ColoursName, CurveDocument, FigureDocument, MapDocument, PanelDocument, StyleName,
-    SurfaceCurve, SurfaceDocument,
+    CurveDocument, FigureDocument, PanelDocument, StyleName, SurfaceCurve, SurfaceDocument,
 };
 
 /// Largest number of surfaces with their own panels; more are overlaid in colours.
@@ -38,14 +37,7 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     let range = range.filter(|(low, high)| low < high).map(|(low, high)| [low, high]);
     let panel = |image: &stickslip::SurfaceImage| {
         let mut panel = PanelDocument::new(&time(image.t), MAP);
-        panel.map = Some(MapDocument {
-            x: image.x.clone(),
-            y: image.y.clone(),
-            z: image.u.clone(),
-            z_label: "u (kσ²/a)".into(),
-            colours: ColoursName::Cividis,
-            z_range: range,
-        });
+        panel.map = Some(surface_map((&image.x, &image.y), image.u.clone(), range));
         panel
     };
     document.images.iter().map(panel).collect()

@@ -152,28 +152,26 @@ impl Data {
         }
     }
 
+    /// The track; `None` for a series.
+    pub(super) fn track(&self) -> Option<&Track> {
+        match self {
+            Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => Some(track),
+            Self::Onsets { .. } | Self::Wavelengths { .. } => None,
+        }
+    }
+
     /// Whether the data determine the size of the motion, and not only its shape.
     pub(super) fn has_gain(&self) -> bool {
-        match self {
-            Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => {
-                track.gain.is_some()
-            }
-            Self::Onsets { .. } | Self::Wavelengths { .. } => true,
-        }
+        self.track().is_none_or(|track| track.gain.is_some())
     }
 
     /// Number of linear parameters, which are projected out: offset, slope, gain.
     pub(super) fn linear(&self) -> usize {
-        match self {
-            Self::Ripple(track) | Self::Friction(track) | Self::Loop(track, _) => {
-                2 + usize::from(track.gain.is_none())
-            }
-            Self::Onsets { .. } | Self::Wavelengths { .. } => 0,
-        }
+        self.track().map_or(0, |track| 2 + usize::from(track.gain.is_none()))
     }
 
     pub(super) fn is_series(&self) -> bool {
-        self.phases() == 0
+        self.track().is_none()
     }
 
     /// The rows by ascending position; if there are more than a few thousand, the means of groups of neighbours.

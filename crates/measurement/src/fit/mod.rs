@@ -28,6 +28,7 @@ pub use rivals::Alternative;
 pub use verdict::Judged;
 
 use crate::least_squares::{Minimum, minimum};
+use crate::profile::MEDIAN_OF_NORMAL;
 use comb::{Rows, by_chance};
 use likelihood::{Around, plain};
 use problem::Problem;
@@ -158,11 +159,7 @@ fn judge_noise(data: &[Data]) -> Result<(), FitError> {
     let mut least: Option<f64> = None;
     let mut tracks = 0.0;
     for data in data {
-        let (Some(rows), Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _)) =
-            (Rows::of(data), data)
-        else {
-            return Ok(());
-        };
+        let Some((rows, track)) = Rows::of(data).zip(data.track()) else { return Ok(()) };
         let Some(length) = start::wavelength(track) else { return Ok(()) };
         let Some(chance) = by_chance(&rows, length, start::trials(track)) else { return Ok(()) };
         least = Some(least.map_or(chance, |least| least.min(chance)));
@@ -258,14 +255,10 @@ fn free(data: &[Data], request: &FitRequest) -> Vec<Name> {
 
 /// An initial scale of the residuals.
 fn first_noise(data: &Data) -> f64 {
-    match data {
-        Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => {
-            let mean = track.y.iter().sum::<f64>() / track.y.len() as f64;
-            let square = track.y.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
-            (square / track.y.len() as f64).sqrt().max(f64::MIN_POSITIVE)
-        }
-        Data::Onsets { .. } | Data::Wavelengths { .. } => 1.0,
-    }
+    let Some(track) = data.track() else { return 1.0 };
+    let mean = track.y.iter().sum::<f64>() / track.y.len() as f64;
+    let square = track.y.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
+    (square / track.y.len() as f64).sqrt().max(f64::MIN_POSITIVE)
 }
 
 /// Sets the noise of each data set from its residuals, and the weights of outliers if requested.
@@ -293,9 +286,6 @@ fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
         problem.noise[i] *= spread;
     }
 }
-
-/// Median of the absolute value of a standard normal variable.
-const MEDIAN_OF_NORMAL: f64 = 0.674_489_75;
 
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
@@ -325,7 +315,7 @@ fn parts(problem: &Problem, best: &Minimum, judged: &[Judged]) -> Vec<Part> {
             }
         };
         let (mut offset, mut slope, mut gain) = (None, None, None);
-        if let Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) = data {
+        if let Some(track) = data.track() {
             let (first, last) = problem::ends(&track.x);
             let per_length = 2.0 * found.coefficients[1] / (last - first);
             slope = Some(per_length);

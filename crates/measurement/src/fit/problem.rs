@@ -160,18 +160,15 @@ impl Problem<'_> {
                 let model = along(&wave, track, width, (phases[0], scan.sign()));
                 Some(track_columns(track, model, width * width))
             }
-            Data::Friction(track) => {
-                let (wave, width) = (waves()?.lag, width?);
-                let model = along(&wave, track, width, (phases[0], scan.sign()));
-                let model = model.into_iter().map(|v| v + wave.mean).collect();
-                Some(track_columns(track, model, width))
-            }
-            Data::Loop(track, back) => {
+            Data::Friction(track) | Data::Loop(track, _) => {
                 let (wave, width) = (waves()?.lag, width?);
                 let there = along(&wave, track, width, (phases[0], scan.sign()));
+                let mut model: Vec<f64> = there.into_iter().map(|v| v + wave.mean).collect();
+                let Data::Loop(_, back) = data else {
+                    return Some(track_columns(track, model, width));
+                };
                 let here = along(&wave, track, width, (phases[1], -scan.sign()));
-                let there = there.into_iter().map(|v| v + wave.mean);
-                let model = there.chain(here.into_iter().map(|v| -v - wave.mean)).collect();
+                model.extend(here.into_iter().map(|v| -v - wave.mean));
                 let both = Track {
                     x: [&*track.x, &track.x].concat(),
                     y: [&*track.y, back].concat(),

@@ -88,10 +88,7 @@ fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
 
 /// The wavelength of the first track, and the number of wavelengths among which it is the strongest.
 pub(super) fn measured(data: &[Data]) -> Option<f64> {
-    data.iter().find_map(|data| match data {
-        Data::Ripple(track) | Data::Friction(track) | Data::Loop(track, _) => wavelength(track),
-        _ => None,
-    })
+    data.iter().filter_map(Data::track).find_map(wavelength)
 }
 
 /// Grid of values of the free parameters.

@@ -13,7 +13,7 @@
 //! wavelength with weights from the transform of the kernel: exact for what the points resolve. Sums of products f have a sum
 //! of such terms.
 
-use super::travelling::{Lines, Travelling, Unknowns};
+use super::travelling::{Lines, Unknowns};
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
 use std::f64::consts::TAU;
 use stickslip_tip::{Across, Layer};
@@ -24,8 +24,11 @@ type Complex64 = Complex<f64>;
 const HARMONICS: usize = 10;
 /// Points of a wavelength.
 const POINTS: usize = 2 * HARMONICS + 1;
-/// Largest number of Newton iterations, and the residual at which they end.
+/// Numbers of both.
+pub(super) const SIZE: (usize, usize) = (HARMONICS, POINTS);
+/// Largest number of iterations for a neutral wave.
 const ITERATIONS: usize = 30;
+/// The residual at which Newton's method ends.
 const ENOUGH: f64 = 1e-10;
 /// Step of q for a derivative.
 const STEP: f64 = 1e-6;
@@ -144,37 +147,21 @@ impl Lines {
         self.nodes.iter().map(term).sum()
     }
 
-    /// The pattern with this r, κ and c_1 = `swing`/(2r), as [`Lines::pattern`] has it.
-    pub(super) fn pattern_across(
+    /// A step of Newton's method; none where the force balances are met.
+    pub(super) fn newton_across(
         &self,
-        (r, kappa, swing, stiffness): (f64, f64, f64, f64),
-        near: Result<&Travelling, f64>,
-    ) -> Option<Travelling> {
-        let mut at = match near {
-            Ok(near) if near.unknowns.across.len() == POINTS => near.unknowns.clone(),
-            Ok(_) => return None,
-            Err(q) => {
-                let alpha = self.neutral_across(q, kappa, stiffness)?.0;
-                let c = vec![Complex64::new(0.0, 0.0); HARMONICS];
-                let mean = 1.0 + alpha * self.tip.value(0.0) / (r * r);
-                Unknowns { alpha, q, mean, slowness: 1.0 / r, c, across: vec![0.0; POINTS] }
-            }
-        };
-        at.slowness = 1.0 / r;
-        at.c[0] = Complex64::new(0.5 * swing / r, 0.0);
+        (r, kappa, stiffness): (f64, f64, f64),
+        at: &Unknowns,
+    ) -> Option<Option<DVector<f64>>> {
         let law = (r, stiffness);
-        for _ in 0..ITERATIONS {
-            let weights = self.weights(at.q, kappa);
-            let here = self.balance(&at, &weights, law)?;
-            if here.amax() < ENOUGH * r.max(1.0) {
-                return self.found_across(at, kappa);
-            }
-            let beside = Unknowns { q: at.q + STEP, ..at.clone() };
-            let by_q = (self.balance(&beside, &self.weights(beside.q, kappa), law)? - &here) / STEP;
-            let step = self.jacobian(&at, &weights, law, &by_q).lu().solve(&here)?;
-            at = at.moved(&step)?;
+        let weights = self.weights(at.q, kappa);
+        let here = self.balance(at, &weights, law)?;
+        if here.amax() < ENOUGH * r.max(1.0) {
+            return Some(None);
         }
-        None
+        let beside = Unknowns { q: at.q + STEP, ..at.clone() };
+        let by_q = (self.balance(&beside, &self.weights(beside.q, kappa), law)? - &here) / STEP;
+        self.jacobian(at, &weights, law, &by_q).lu().solve(&here).map(Some)
     }
 
     fn weights(&self, q: f64, kappa: f64) -> Weights {
@@ -298,7 +285,8 @@ impl Lines {
         all
     }
 
-    fn found_across(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
+    /// Complex amplitudes of the height.
+    pub(super) fn heights_across(&self, at: &Unknowns, kappa: f64) -> Vec<Complex64> {
         let Values { slowness, across } = at.values();
         let height = |k: usize| {
             let k_number = k as f64;
@@ -311,9 +299,7 @@ impl Lines {
             let mean = (0..POINTS).map(point).sum::<Complex64>() / POINTS as f64;
             -mean * (at.alpha / self.pitch * self.layers.iter().map(layer).sum::<f64>())
         };
-        let heights = (1..=HARMONICS).map(height).collect();
-        let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
-        (found.alpha > 0.0 && found.q > 0.0).then_some(found)
+        (1..=HARMONICS).map(height).collect()
     }
 }
 

@@ -3,11 +3,11 @@
 use super::travelling::{Lines, Travelling, crest_angle};
 use super::wave::{HARMONICS, UNKNOWNS, Wave, height, phase};
 use super::{Lag, RippleProfile, Ripples};
-use crate::interval::Estimate;
+use crate::interval::{Estimate, student};
 use crate::least_squares::{Minimum, Residuals, differences, minimum, squares};
 use crate::likelihood::crossing;
 use nalgebra::{Cholesky, Complex, DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::{PI, TAU};
@@ -308,7 +308,7 @@ impl<'a> Around<'a> {
         let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
         let jacobian = DMatrix::from_columns(&columns);
         let covariance = jacobian.tr_mul(&jacobian).try_inverse()?;
-        Some(Self { problem, best, covariance, quantile: quantile(BLOCK_FREEDOM) })
+        Some(Self { problem, best, covariance, quantile: student(BLOCK_FREEDOM) })
     }
 
     /// The quantity with this logarithm, and its interval.
@@ -380,9 +380,4 @@ impl<F: Fn(&[f64]) -> Option<f64>> Residuals for Held<'_, F> {
     fn derivatives(&self, here: &[f64], parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
         differences(self, (here, parameters), STEP)
     }
-}
-
-/// 97.5 % quantile of Student's distribution.
-fn quantile(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
 }

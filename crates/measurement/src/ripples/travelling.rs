@@ -17,6 +17,7 @@
 //! f(x,y) = f(x) h(y); a sum of such products has a sum of second terms. Its first order is the linear theory of rasters. For given r, κ and
 //! c_1 the equation determines α, q and the other harmonics. It holds as long as the tip only moves forward.
 
+use super::across;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::{Footprint, Layer, TipFunction};
@@ -184,30 +185,42 @@ impl Lines {
         swing: f64,
         near: Result<&Travelling, f64>,
     ) -> Option<Travelling> {
-        if let Some(stiffness) = self.stiffness {
-            return self.pattern_across((r, kappa, swing, stiffness), near);
-        }
-        let first = 0.5 * swing / r;
+        let (harmonics, points) =
+            if self.stiffness.is_some() { across::SIZE } else { (HARMONICS, 0) };
         let mut at = match near {
             Ok(near) => near.unknowns.clone(),
             Err(q) => {
                 let alpha = self.neutral(q, kappa)?.0;
-                let c = vec![Complex64::new(0.0, 0.0); HARMONICS];
+                let c = vec![Complex64::new(0.0, 0.0); harmonics];
                 let mean = 1.0 + alpha * self.tip.value(0.0) / (r * r);
-                Unknowns { alpha, q, mean, slowness: 1.0 / r, c, across: vec![] }
+                Unknowns { alpha, q, mean, slowness: 1.0 / r, c, across: vec![0.0; points] }
             }
         };
+        if at.across.len() != points {
+            return None;
+        }
         at.slowness = 1.0 / r;
-        at.c[0] = Complex64::new(first, 0.0);
+        at.c[0] = Complex64::new(0.5 * swing / r, 0.0);
         for _ in 0..ITERATIONS {
-            let (residual, jacobian) = self.linearised(r, kappa, &at)?;
-            if residual.amax() < ENOUGH * r.max(1.0) {
-                return self.found(at, kappa);
+            let step = match self.stiffness {
+                Some(stiffness) => self.newton_across((r, kappa, stiffness), &at)?,
+                None => self.newton_rigid(r, kappa, &at)?,
+            };
+            match step {
+                Some(step) => at = at.moved(&step)?,
+                None => return self.found(at, kappa),
             }
-            let step = jacobian.lu().solve(&residual)?;
-            at = at.moved(&step)?;
         }
         None
+    }
+
+    /// A step of Newton's method; none where the force balance is met.
+    fn newton_rigid(&self, r: f64, kappa: f64, at: &Unknowns) -> Option<Option<DVector<f64>>> {
+        let (residual, jacobian) = self.linearised(r, kappa, at)?;
+        if residual.amax() < ENOUGH * r.max(1.0) {
+            return Some(None);
+        }
+        jacobian.lu().solve(&residual).map(Some)
     }
 
     /// Residual of the force balance by harmonics, and its derivatives by α, q, the mean and the real and imaginary parts of c_2, ….
@@ -292,6 +305,16 @@ impl Lines {
     }
 
     fn found(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
+        let heights = match self.stiffness {
+            Some(_) => self.heights_across(&at, kappa),
+            None => self.heights_rigid(&at, kappa),
+        };
+        let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
+        (found.alpha > 0.0 && found.q > 0.0).then_some(found)
+    }
+
+    /// Complex amplitudes of the height.
+    fn heights_rigid(&self, at: &Unknowns, kappa: f64) -> Vec<Complex64> {
         let height = |(i, c): (usize, &Complex64)| {
             let k = (i + 1) as f64;
             let layer = |layer: &Layer| {
@@ -299,9 +322,7 @@ impl Lines {
             };
             -c * (at.alpha * self.layers.iter().map(layer).sum::<f64>())
         };
-        let heights = at.c.iter().enumerate().map(height).collect();
-        let found = Travelling { alpha: at.alpha, q: at.q, heights, unknowns: at };
-        (found.alpha > 0.0 && found.q > 0.0).then_some(found)
+        at.c.iter().enumerate().map(height).collect()
     }
 }
 

@@ -53,7 +53,8 @@ pub fn became_across(
     seconds: f64,
 ) -> Result<RunEnd, PlanarError> {
     let along = &scenario.along;
-    let work = WorkDocument::of(&running.work(), running.memory(), seconds);
+    let made = running.running();
+    let work = WorkDocument::of(&made.work(), made.memory(), seconds);
     let across = running.across();
     let has_died_out = across.largest_late(LATE) <= DIED_OUT * along.tolerance;
     let swing = across.snaking(along.tolerance).filter(|_| !has_died_out);

@@ -111,8 +111,9 @@ pub fn became(
     running: &Watched,
     seconds: f64,
 ) -> Result<RunEnd, Failure> {
-    let memory = (running.memory(), running.memory_reason());
-    let work = WorkDocument::of(&running.work(), memory, seconds);
+    let made = running.running();
+    let memory = (made.memory(), made.memory_reason());
+    let work = WorkDocument::of(&made.work(), memory, seconds);
     observed(scenario, initial, running.observer(), work)
 }
 

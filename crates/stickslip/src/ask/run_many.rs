@@ -3,7 +3,7 @@
 use super::run_found::{observed, sampled};
 use crate::{Ask, Context, Failure, Run, RunDocument, Times, WorkDocument};
 use stickslip_outcome::Observer;
-use stickslip_tip::{Collected, RunError, Scenario, Step, Trajectory, collect_each};
+use stickslip_tip::{RunError, Scenario, Step, Trajectory, collect_each};
 
 /// A run that can be integrated together with others.
 struct Begun {
@@ -102,12 +102,14 @@ fn begun(question: Run, context: &Context) -> Result<Result<Begun, Run>, Failure
 impl Begun {
     fn document(
         &self,
-        run: Result<Collected<Followed>, RunError>,
+        run: Result<stickslip_tip::Run<Followed>, RunError>,
         seconds: f64,
     ) -> Result<RunDocument, Failure> {
         let Self { question, scenario, times } = self;
         let run = run.map_err(|error| question.refused(&error))?;
-        let Collected { initial_surface, steps: Followed { steps, observer }, .. } = run;
+        let stickslip_tip::Run {
+            initial_surface, trajectory: Followed { steps, observer }, ..
+        } = run;
         let work = WorkDocument::of(&run.work, (run.memory, run.memory_reason), seconds);
         let mut end = observed(scenario, &initial_surface, &observer, work)?;
         end.interrupted = run.interrupted && end.end < scenario.until;

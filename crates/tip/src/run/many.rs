@@ -1,6 +1,6 @@
 //! Many runs, vectorised where possible.
 
-use super::{Collected, MOST_STEPS, Run, RunError, Scenario, Start, collected};
+use super::{MOST_STEPS, Run, RunError, Scenario, Start, collected};
 use crate::integrator::{BeginBeside, EndedBeside, SideBySide, Work};
 use crate::memory::{Fit, MemoryChoice, MemoryReport, Retreat, Sum, accuracy_needed};
 use crate::{Step, TipFunction};
@@ -52,7 +52,7 @@ pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run,
 pub fn collect_each<C: Extend<Step>>(
     scenarios: &[Scenario],
     begin: impl Fn(usize) -> C,
-    ended: impl FnMut(usize, Result<Collected<C>, RunError>),
+    ended: impl FnMut(usize, Result<Run<C>, RunError>),
 ) {
     collect_at_most(u64::MAX, scenarios, begin, ended);
 }
@@ -61,7 +61,7 @@ fn collect_at_most<C: Extend<Step>>(
     most_steps: u64,
     scenarios: &[Scenario],
     begin: impl Fn(usize) -> C,
-    mut ended: impl FnMut(usize, Result<Collected<C>, RunError>),
+    mut ended: impl FnMut(usize, Result<Run<C>, RunError>),
 ) {
     let mut waiting = vec![true; scenarios.len()];
     for group in groups(scenarios) {
@@ -149,19 +149,14 @@ fn begin(number: usize, scenario: &Scenario) -> BeginBeside {
 }
 
 impl Group {
-    fn collected<C>(
-        &self,
-        scenario: &Scenario,
-        steps: C,
-        work: Work,
-    ) -> Result<Collected<C>, RunError> {
+    fn collected<C>(&self, scenario: &Scenario, steps: C, work: Work) -> Result<Run<C>, RunError> {
         let (terms, certificate) = (self.fit.terms().len(), self.fit.certificate());
         let sum = Sum::Modes { terms, certificate, retreats: 0 };
         let report = MemoryReport { choice: scenario.memory, accuracy: self.fit.wanted(), sum };
         let fared = report.fared().unwrap_or_default();
-        Ok(Collected {
+        Ok(Run {
             initial_surface: scenario.initial_surface()?,
-            steps,
+            trajectory: steps,
             work,
             memory: report.name(),
             memory_reason: format!("side by side with other motions; {fared}"),

@@ -13,32 +13,13 @@ use crate::stop;
 use crate::{InitialSurface, Step, Trajectory};
 use std::ops::ControlFlow;
 
-/// A finished run.
+/// A finished run: with its [`Trajectory`], or with a collector of its steps ([`collect_each`]).
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct Run<T = Trajectory> {
     /// Surface u0(x) at the start.
     pub initial_surface: InitialSurface,
-    /// x0(t) at every t of the run.
-    pub trajectory: Trajectory,
-    /// Numbers of steps, iterations and series.
-    pub work: Work,
-    /// Name of the memory in use at the end.
-    pub memory: &'static str,
-    /// Reason for this memory.
-    pub memory_reason: String,
-    /// Whether the observer stopped the run before `until`.
-    pub interrupted: bool,
-    /// Whether the run shared SIMD lanes with other motions: [`run_each`].
-    pub side_by_side: bool,
-}
-
-/// A finished run whose steps were passed to a collector: [`collect_each`].
-#[derive(Debug, Clone)]
-pub struct Collected<C> {
-    /// Surface u0(x) at the start.
-    pub initial_surface: InitialSurface,
-    /// The collector of the steps.
-    pub steps: C,
+    /// x0(t) at every t of the run, or the collector.
+    pub trajectory: T,
     /// Numbers of steps, iterations and series.
     pub work: Work,
     /// Name of the memory in use at the end.
@@ -47,13 +28,13 @@ pub struct Collected<C> {
     pub memory_reason: String,
     /// Whether the run was stopped before `until`.
     pub interrupted: bool,
-    /// Whether the run shared SIMD lanes with other motions.
+    /// Whether the run shared SIMD lanes with other motions: [`run_each`].
     pub side_by_side: bool,
 }
 
-impl Collected<Vec<Step>> {
+impl Run<Vec<Step>> {
     fn into_run(self, scenario: &Scenario) -> Run {
-        let Self { initial_surface, steps, work, memory, memory_reason, .. } = self;
+        let Self { initial_surface, trajectory: steps, work, memory, memory_reason, .. } = self;
         let wider = *scenario.model.wider();
         Run {
             initial_surface,
@@ -100,7 +81,7 @@ fn collected<C>(
     scenario: &Scenario,
     mut steps: C,
     mut take: impl FnMut(&mut C, Step) -> Result<ControlFlow<()>, RunError>,
-) -> Result<Collected<C>, RunError> {
+) -> Result<Run<C>, RunError> {
     scenario.validate()?;
     let initial_surface = scenario.initial_surface()?;
     let mut running = Running::new(scenario, &initial_surface)?;
@@ -111,5 +92,6 @@ fn collected<C>(
     let (work, memory, memory_reason) = (running.work(), running.memory(), running.memory_reason());
     drop(running);
     let side_by_side = false;
-    Ok(Collected { initial_surface, steps, work, memory, memory_reason, interrupted, side_by_side })
+    let trajectory = steps;
+    Ok(Run { initial_surface, trajectory, work, memory, memory_reason, interrupted, side_by_side })
 }

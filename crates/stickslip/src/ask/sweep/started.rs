@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use stickslip_outcome::{Motion, Observer, Regime, judge};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::motion::{Extremum, extrema_within};
-use stickslip_tip::{Collected, Model, Scenario, Step, collect_each};
+use stickslip_tip::{Model, Scenario, Step, collect_each};
 
 /// The run of this model.
 ///
@@ -160,8 +160,10 @@ pub(super) fn each(
 }
 
 /// The point with the result of the run.
-fn ended(point: SweepPoint, scenario: &Scenario, run: Collected<Followed>) -> SweepPoint {
-    let Collected { initial_surface, steps: Followed { observer, mut swing }, .. } = run;
+fn ended(point: SweepPoint, scenario: &Scenario, run: stickslip_tip::Run<Followed>) -> SweepPoint {
+    let stickslip_tip::Run {
+        initial_surface, trajectory: Followed { observer, mut swing }, ..
+    } = run;
     observer.last().iter().for_each(|last| swing.take(last, |t| t <= last.end()));
     let (mean_l, deviation_l) = swing.found();
     let outcome = judge(scenario, &initial_surface, &observer);

@@ -103,7 +103,7 @@ timings: ## time whole commands, processor and memory, into data/commands.json, 
 	benches/commands.py target/release/stickslip data/commands.json
 
 figures: ## the paper's figures, and its numbers beside ours, in target/figures
-	@$(call stickslip,figures --out-dir target/figures)
+	$(CARGO) run --release --locked -p stickslip-cli -- figures --out-dir target/figures
 
 pictures: ## the pictures of the book, drawn anew in docs/figures (minutes); WORD draws those with it in their names
 	$(CARGO) build --release --locked

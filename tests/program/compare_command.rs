@@ -156,7 +156,7 @@ fn unusable_options_are_refused_by_name() {
         ("--pulse 1,2", ["--pulse 1,2", "A,T,W"]),
         ("--noise 1e-3 --noise-spacing 0", ["--noise 0.001 --noise-spacing 0", "above 0"]),
         ("--noise inf", ["--noise inf", "finite"]),
-        ("--noise-spacing 1", ["--noise <A>", "required"]),
+        ("--noise-spacing 1", ["--noise-spacing", "give --noise too"]),
         ("--force-file none.csv", ["--force-file none.csv", "cannot be read"]),
         ("--force-file back.csv", ["--force-file back.csv", "increas"]),
         ("--initial-surface back.csv", ["--initial-surface back.csv", "increas"]),

@@ -62,6 +62,12 @@ impl Failure {
         Self::Input { option: option.into(), message: message.to_string() }
     }
 
+    /// Rejects the first of these options that is given.
+    pub(crate) fn if_given(options: &[(&str, bool)], message: &str) -> Result<(), Self> {
+        let given = options.iter().find(|(_, is_given)| *is_given);
+        given.map_or(Ok(()), |(option, _)| Err(Self::input(*option, message)))
+    }
+
     pub(crate) fn status(&self) -> u8 {
         match self {
             Self::Input { .. } => 2,

@@ -13,16 +13,14 @@ mod arithmetic;
 mod commands;
 mod failure;
 mod files;
-#[cfg(test)]
-mod fuzz;
-#[cfg(test)]
-mod fuzz_documents;
 pub mod hosted;
 mod interrupt;
 mod made;
 mod message;
 mod session;
 mod sign_of_life;
+#[cfg(test)]
+mod tests;
 
 use arguments::{Cli, FIRST_SCREEN};
 use clap::error::ErrorKind as Misread;

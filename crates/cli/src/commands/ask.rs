@@ -164,12 +164,7 @@ pub(crate) fn answered<Q: Ask>(
     place: &AnswerArguments,
     tip: &TipArguments,
 ) -> Result<Document<Q>, Failure> {
-    let context = context(session);
-    let refused = |failure| refusal(failure, tip, &[]);
-    let question = question.resolved(&context).map_err(refused)?;
-    let tip_file = tip.tip_file.as_deref();
-    let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
-    Ok(question.answered(&context).map_err(refused)?.in_units(scales.as_ref()))
+    Ok(answered_into(session, question, place, tip, || Ok(()))?.0)
 }
 
 /// Answers a question, writes and draws the answer, and prints a summary.
@@ -185,13 +180,27 @@ pub(crate) fn answer<Q: Ask>(
 where
     Document<Q>: Product + Drawn,
 {
+    let open = || Job::open(session, Q::FORMAT, &place.outlet, place.plot.as_deref());
+    let (document, job) = answered_into(session, question, place, tip, open)?;
+    job.finish(document)
+}
+
+/// The answer to a question, and its output, which is opened once the question is known to be valid.
+fn answered_into<Q: Ask, T>(
+    session: &Session,
+    question: Q,
+    place: &AnswerArguments,
+    tip: &TipArguments,
+    open: impl FnOnce() -> Result<T, Failure>,
+) -> Result<(Document<Q>, T), Failure> {
     let context = context(session);
     let refused = |failure| refusal(failure, tip, &[]);
     let question = question.resolved(&context).map_err(refused)?;
     let tip_file = tip.tip_file.as_deref();
     let scales = scales(session, &place.in_units, tip_file, question.support_velocity())?;
-    let job = Job::open(session, Q::FORMAT, &place.outlet, place.plot.as_deref())?;
-    job.finish(question.answered(&context).map_err(refused)?.in_units(scales.as_ref()))
+    let output = open()?;
+    let document = question.answered(&context).map_err(refused)?;
+    Ok((document.in_units(scales.as_ref()), output))
 }
 
 /// Answers the question with these values of options; `chosen_by` is the option that selects this question.

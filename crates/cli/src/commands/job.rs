@@ -7,7 +7,7 @@ use super::summary::Summary;
 use crate::arguments::{FieldArguments, Format, OutletArguments};
 use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
-use crate::files::output::{Output, OutputFormat};
+use crate::files::output::{Output, format_of};
 use crate::files::table::{write_csv, write_npz};
 use crate::made::{pictured, plain};
 use crate::session::Session;
@@ -203,11 +203,7 @@ pub(crate) fn format(
     if output == Path::new("-") {
         return Ok(on_standard_output(session));
     }
-    Ok(match OutputFormat::or_also(output, more)? {
-        OutputFormat::Json => Format::Json,
-        OutputFormat::Csv => Format::Csv,
-        OutputFormat::Npz => Format::Npz,
-    })
+    format_of(output, more)
 }
 
 /// The default format on standard output: text on a terminal, JSON otherwise.

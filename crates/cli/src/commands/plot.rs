@@ -24,10 +24,8 @@ pub(crate) fn plot(session: &Session, arguments: &PlotArguments) -> Result<(), F
         ("--seconds", arguments.seconds.is_some()),
         ("--fps", arguments.fps.is_some()),
     ];
-    if let Some((option, _)) = of_animations.into_iter().find(|(_, given)| *given) {
-        let why = "belongs to an animation: name the output .gif, .webp or .apng, or leave it out";
-        return Err(Failure::input(option, why));
-    }
+    let why = "belongs to an animation: name the output .gif, .webp or .apng, or leave it out";
+    Failure::if_given(&of_animations, why)?;
     let size = size(arguments)?;
     let along_x = range("--x-range", arguments.x_range.as_deref())?;
     let along_y = range("--y-range", arguments.y_range.as_deref())?;

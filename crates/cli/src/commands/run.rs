@@ -1,6 +1,5 @@
 //! `stickslip run`.
 
-mod across;
 pub(crate) mod checkpoint;
 pub(crate) mod disturbance;
 mod integration;
@@ -28,7 +27,7 @@ use record::{Record, Sink};
 use serde_json::Value;
 use std::path::Path;
 use stickslip::{Order, RunDocument, RunFormat, RunScenario};
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::{RunError, Scenario};
 use write::Target;
 
@@ -45,19 +44,24 @@ fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
         return walker::run(session, arguments, values);
     }
     let (order, scenario) = order::order(session, arguments, values)?;
-    let scenario = match scenario {
-        RunScenario::Along(scenario) => scenario,
-        RunScenario::Across(scenario) => {
-            return across::start(session, arguments, &order, &scenario);
+    let refused = |failure| refusal(failure, &arguments.options.tip, &order::files(arguments));
+    match &scenario {
+        RunScenario::Along(scenario) => {
+            let refused = |error: RunError| refused(order.parameters.refused(&error));
+            let surface = scenario.initial_surface().map_err(refused)?;
+            let running = Watched::new(scenario, &surface).map_err(refused)?;
+            let (integrated, target) = integrated(session, arguments, &order, scenario, running)?;
+            write::all(session, &order, (scenario, &surface), integrated, target)
         }
-    };
-    let refused = |error: RunError| {
-        refusal(order.parameters.refused(&error), &arguments.options.tip, &order::files(arguments))
-    };
-    let surface = scenario.initial_surface().map_err(refused)?;
-    let running = Watched::new(&scenario, &surface).map_err(refused)?;
-    let (integrated, target) = integrated(session, arguments, &order, &scenario, running)?;
-    write::all(session, &order, &scenario, &surface, integrated, target)
+        RunScenario::Across(scenario) => {
+            let running = WatchedAcross::new(scenario);
+            let running =
+                running.map_err(|error| refused(order.parameters.refused_across(error)))?;
+            let (integrated, target) =
+                integrated(session, arguments, &order, &scenario.along, running)?;
+            write::all(session, &order, scenario, integrated, target)
+        }
+    }
 }
 
 /// The finished run of a motion that is at the start of a scenario, and its output.

@@ -57,7 +57,7 @@ pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(),
     values.insert("width".into(), json!(arguments.width.as_ref().map(Range::values)));
     values.insert("beta".into(), json!(arguments.beta.as_ref().map(Range::values)));
     let question = parameter::question::<Sweep>(values)?;
-    let grid = Sweep { shard: work.shard.map(Into::into), ..question }.grid();
+    let grid = Sweep { shard: work.shard, ..question }.grid();
     let footprint = TipArguments { tip_file: tip_file.clone(), ..TipArguments::default() };
     let grid = grid.map_err(|failure| refusal(failure, &footprint, &[]))?;
     if plot.is_some() {
@@ -73,7 +73,7 @@ fn raster(session: &Session, arguments: &RasterSweepArguments) -> Result<(), Fai
     let place = Place { session, work, in_units, outlet, plot: plot.as_deref() };
     place.judge(&options.files())?;
     let question = parameter::question::<RasterSweep>(options.values(session)?)?;
-    let question = RasterSweep { shard: work.shard.map(Into::into), ..question };
+    let question = RasterSweep { shard: work.shard, ..question };
     let grid = question
         .resolved(&Context::default())
         .map_err(|failure| refusal(failure, &options.tip, &[]))?;

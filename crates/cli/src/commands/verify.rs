@@ -1,8 +1,8 @@
 //! `stickslip verify`, and `stickslip run --verify`.
 
-pub(in crate::commands) mod across;
 pub(in crate::commands) mod claims;
 mod lines;
+mod motion;
 
 use super::job::{Job, on_standard_output};
 use super::progress::Progress;
@@ -11,19 +11,20 @@ use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
-use crate::files::output::OutputFormat;
+use crate::files::output::format_of;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
-use claims::Summary;
+use motion::Motion;
 use std::ops::ControlFlow;
 use std::path::Path;
 use stickslip::{
-    ClaimDocument, LinesDocument, RunDocument, RunScenario, SampleLine, Unusable,
-    VerificationDocument, VerifyDocument,
+    ClaimDocument, LinesDocument, RunDocument, RunScenario, Unusable, VerificationDocument,
+    VerifyDocument,
 };
-use stickslip_tip::{Scenario, Trajectory};
+use stickslip_tip::Scenario;
 use stickslip_verify::{
-    Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_samples,
+    Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_across, verify_samples,
+    verify_samples_across,
 };
 
 pub(crate) fn verify(session: &Session, arguments: &VerifyArguments) -> Result<(), Failure> {
@@ -44,8 +45,8 @@ fn job(session: &Session, outlet: &OutletArguments) -> Result<Job, Failure> {
         Some(format @ (Format::Json | Format::Text)) => format,
         Some(_) => return Err(Failure::input("--format", "must be json or text")),
         None if outlet.output == Path::new("-") => on_standard_output(session),
-        None => match OutputFormat::or_also(&outlet.output, "") {
-            Ok(OutputFormat::Json) => Format::Json,
+        None => match format_of(&outlet.output, "") {
+            Ok(Format::Json) => Format::Json,
             _ => {
                 let option = format!("--output {}", outlet.output.display());
                 return Err(Failure::input(option, "must be .json, or - for standard output"));
@@ -67,34 +68,29 @@ fn of_document(
     let unusable = |error: Unusable| damaged(error.to_string());
     let whole = run.parameters.prepared();
     let whole = whole.map_err(|failure| damaged(failure.described(str::to_owned)))?;
-    let RunScenario::Along(scenario) = &whole else {
-        return across::of_document(session, run, &whole, arguments);
+    let (scenario, memory) = (whole.along(), &run.work.memory);
+    let motion = Motion::of(&run, &whole).map_err(unusable)?;
+    let samples = match &motion {
+        Some(motion) => is_of(scenario, motion.span()).and_then(|()| samples(&run, scenario)),
+        None => samples_alone(&run, scenario),
     };
-    let memory = &run.work.memory;
-    let trajectory =
-        run.history.is_some().then(|| run.trajectory().map_err(unusable)).transpose()?;
-    let samples = match &trajectory {
-        Some(trajectory) => {
-            is_of(scenario, (trajectory.start(), trajectory.end())).map_err(damaged)?;
-            samples(&run, scenario).map_err(damaged)?
-        }
-        None => samples_alone(&run, scenario).map_err(damaged)?,
-    };
-    let first = trajectory.as_ref().map(|trajectory| trajectory.x0(trajectory.start()));
-    begins_as(scenario, first, &samples).map_err(damaged)?;
+    let samples = samples.map_err(damaged)?;
+    begins_as(&whole, motion.as_ref().map(Motion::first), &samples).map_err(damaged)?;
     let job = job(session, &arguments.outlet)?;
-    let verification = match &trajectory {
-        Some(trajectory) => of_history(session, scenario, memory, trajectory)?,
-        None => of_samples(session, scenario, memory, &samples)?,
-    };
-    let (wider, support) = (*scenario.model.wider(), scenario.support());
-    let summary = trajectory.as_ref().map(|along| {
-        let law = (&support, &wider);
-        (along, move |i: usize, t: f64| SampleLine::of(&along.steps()[i], law, t))
-    });
-    let summary = summary.as_ref().map(|(along, sample)| Summary { along, sample });
-    let differences = claims::of_document(session, &run, &whole, summary)?;
-    finish(session, run, job, verification, differences)
+    let found = repeated(session, |observe| match (&whole, &motion) {
+        (RunScenario::Along(scenario), Some(Motion::Along(motion))) => {
+            stickslip_verify::verify(scenario, memory, motion, observe)
+        }
+        (RunScenario::Across(scenario), Some(Motion::Across(motion))) => {
+            verify_across(scenario, motion, observe)
+        }
+        _ => {
+            let until = samples.last().map_or(scenario.until, |last| last.t);
+            of_samples(&whole, memory, || samples.iter().copied(), until, observe)
+        }
+    })?;
+    let differences = claims::of_document(session, &run, &whole, motion.as_ref())?;
+    finish(session, run, job, (&found).into(), differences)
 }
 
 /// Writes the result, and says what is wrong.
@@ -123,16 +119,34 @@ fn failure_of(
     (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
-/// Whether the motion begins as the parameters require; otherwise a repetition is useless.
-fn begins_as(scenario: &Scenario, first: Option<f64>, samples: &[Sample]) -> Result<(), String> {
-    let (start, wanted) = (scenario.start_time(), scenario.start_position - scenario.kick);
-    let sample = samples.first().filter(|sample| sample.t <= start).map(|sample| sample.x0);
-    let Some(found) = first.or(sample) else { return Ok(()) };
-    let allowed = TOLERANCES_ALLOWED * scenario.tolerance + 1e-9 * (1.0 + wanted.abs());
-    if (found - wanted).abs() <= allowed {
-        return Ok(());
+/// Whether the motion, of which the history has x0 and y0 first, begins as the parameters require; otherwise a repetition
+/// is useless.
+fn begins_as(
+    whole: &RunScenario,
+    first: Option<(f64, Option<f64>)>,
+    samples: &[Sample],
+) -> Result<(), String> {
+    let scenario = whole.along();
+    let sample = samples.first().filter(|sample| sample.t <= scenario.start_time());
+    let first = first.or(sample.map(|sample| (sample.x0, sample.y0)));
+    let wanted = scenario.start_position - scenario.kick;
+    let along = first.map(|(x0, _)| ("x0", x0, "start_position - kick", wanted));
+    let across = match whole {
+        RunScenario::Along(_) => None,
+        RunScenario::Across(scenario) => {
+            first.and_then(|(_, y0)| y0).map(|y0| ("y0", y0, "kick_across", scenario.kick_across))
+        }
+    };
+    for (name, found, start, wanted) in along.into_iter().chain(across) {
+        let allowed = TOLERANCES_ALLOWED * scenario.tolerance + 1e-9 * (1.0 + wanted.abs());
+        let is_there = (found - wanted).abs() <= allowed;
+        if !is_there {
+            return Err(format!(
+                "the motion begins at {name} = {found}, the run at {start} = {wanted}"
+            ));
+        }
     }
-    Err(format!("the motion begins at x0 = {found}, the run at start_position - kick = {wanted}"))
+    Ok(())
 }
 
 /// Whether the history begins and ends as the scenario does.
@@ -173,35 +187,22 @@ fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, 
     }
 }
 
-/// Comparison of the dense history of a run with its repetition.
-pub(super) fn of_history(
-    session: &Session,
-    scenario: &Scenario,
+/// Comparison of samples in the order of time, at least one, with the repetition of their run, which had this memory.
+fn of_samples<I: Iterator<Item = Sample>>(
+    whole: &RunScenario,
     memory: &str,
-    trajectory: &Trajectory,
-) -> Result<VerificationDocument, Failure> {
-    let found = repeated(session, |observe| {
-        stickslip_verify::verify(scenario, memory, trajectory, observe)
-    })?;
-    Ok((&found).into())
-}
-
-/// Comparison of samples in the order of time, at least one, with the repetition of their run.
-fn of_samples(
-    session: &Session,
-    scenario: &Scenario,
-    memory: &str,
-    samples: &[Sample],
-) -> Result<VerificationDocument, Failure> {
-    let until = samples.last().map_or(scenario.until, |last| last.t);
-    let each = || samples.iter().copied();
-    let found =
-        repeated(session, |observe| verify_samples(scenario, memory, each, until, observe))?;
-    Ok((&found).into())
+    each: impl Fn() -> I,
+    until: f64,
+    observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Verification, VerificationError> {
+    match whole {
+        RunScenario::Along(scenario) => verify_samples(scenario, memory, each, until, observe),
+        RunScenario::Across(scenario) => verify_samples_across(scenario, each, until, observe),
+    }
 }
 
 /// Repeats the run with progress, until it is finished or interrupted.
-fn repeated(
+pub(super) fn repeated(
     session: &Session,
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {

@@ -4,41 +4,32 @@ use super::place::{Place, place};
 use super::special::is_special;
 use super::temporary::kept_elsewhere;
 use super::temporary::through;
+use crate::arguments::Format;
 use crate::failure::Failure;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The output formats, by the extension of the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum OutputFormat {
-    Json,
-    Csv,
-    Npz,
-}
-
-impl OutputFormat {
-    /// The format for a command that handles further extensions `more`, such as ", .gsf", itself.
-    ///
-    /// # Errors
-    /// No format has this extension.
-    pub(crate) fn or_also(path: &Path, more: &str) -> Result<Self, Failure> {
-        if path == Path::new("-") {
-            return Ok(Self::Json);
-        }
-        match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
-            Some("json") => Ok(Self::Json),
-            Some("csv") => Ok(Self::Csv),
-            Some("npz") => Ok(Self::Npz),
-            _ if is_special(path) => Ok(Self::Json),
-            _ => Err(Failure::input(
-                format!("--output {}", path.display()),
-                format!(
-                    "the extension gives the format: it must be .json, .csv{more} or .npz, or - for JSON on \
-                     standard output"
-                ),
-            )),
-        }
+/// The format of an output by its extension, for a command that handles further extensions `more`, such as ", .gsf", itself.
+///
+/// # Errors
+/// No format has this extension.
+pub(crate) fn format_of(path: &Path, more: &str) -> Result<Format, Failure> {
+    if path == Path::new("-") {
+        return Ok(Format::Json);
+    }
+    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("json") => Ok(Format::Json),
+        Some("csv") => Ok(Format::Csv),
+        Some("npz") => Ok(Format::Npz),
+        _ if is_special(path) => Ok(Format::Json),
+        _ => Err(Failure::input(
+            format!("--output {}", path.display()),
+            format!(
+                "the extension gives the format: it must be .json, .csv{more} or .npz, or - for JSON on \
+                 standard output"
+            ),
+        )),
     }
 }
 

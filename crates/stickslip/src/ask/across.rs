@@ -2,8 +2,7 @@
 
 use super::run_found::{RunEnd, RunFound, SampleLine, Samples};
 use crate::{
-    Context, History, RegimeName, SteadyState, SwingDocument, Times, TransientDocument,
-    WorkDocument,
+    Context, RegimeName, SteadyState, SwingDocument, Times, TransientDocument, WorkDocument,
 };
 use stickslip_outcome::{Observer, Outcome, WatchedAcross, judge};
 use stickslip_stability::Snaking;
@@ -39,7 +38,7 @@ pub(super) fn found(
     let trajectory = Trajectory::under(*along.model.wider(), along.support(), steps);
     let samples = samples(&trajectory, times, along);
     let (steady_state, remarks) = (SteadyState::of(&along.model), ended.remarks.clone());
-    let history = Some(history_across(&trajectory, along.model.wider()));
+    let history = Some((&trajectory).into());
     Ok(Some((RunFound::new(steady_state, samples, history, ended), remarks)))
 }
 
@@ -128,16 +127,4 @@ pub fn sample_across(step: &Step, of: (&Support, &Wider), t: f64) -> SampleLine 
     let [_, velocity_y] = step.velocity(t);
     let along = SampleLine::of(&step.along, of, t);
     SampleLine { y0: Some(step.y0(t)), velocity_y: Some(velocity_y), ..along }
-}
-
-/// The history of the motion along the scan, together with y0.
-pub fn history_across(trajectory: &Trajectory, wider: &Wider) -> History {
-    let steps = trajectory.steps();
-    let along = steps.iter().map(|step| step.along).collect();
-    let support = trajectory.support().clone();
-    let along = stickslip_tip::Trajectory::under(*wider, support, along);
-    let y0 = steps.iter().map(|step| {
-        [step.y].into_iter().chain(step.across.map(|across| step.y + across)).collect()
-    });
-    History { y0: Some(y0.collect()), ..(&along).into() }
 }

@@ -48,7 +48,7 @@ pub(crate) mod walker;
 pub(crate) mod walker_motion;
 pub(crate) mod walking;
 
-pub use across::{became_across, history_across, sample_across};
+pub use across::{became_across, sample_across};
 pub use boundary::{
     Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
     SpacingName,

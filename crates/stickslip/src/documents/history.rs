@@ -41,12 +41,28 @@ pub struct History {
 
 impl From<&Trajectory> for History {
     fn from(trajectory: &Trajectory) -> Self {
-        let steps = trajectory.steps();
+        Self::of(trajectory.steps())
+    }
+}
+
+impl From<&planar::Trajectory> for History {
+    /// The history of the motion along the scan, together with y0.
+    fn from(trajectory: &planar::Trajectory) -> Self {
+        let along: Vec<Step> = trajectory.steps().iter().map(|step| step.along).collect();
+        let y0 = trajectory.steps().iter().map(|step| {
+            [step.y].into_iter().chain(step.across.map(|across| step.y + across)).collect()
+        });
+        Self { y0: Some(y0.collect()), ..Self::of(&along) }
+    }
+}
+
+impl History {
+    fn of(steps: &[Step]) -> Self {
         let (nodes, weights) = nodes_and_weights();
         Self {
             nodes: nodes.to_vec(),
             weights: weights.to_vec(),
-            t: steps.iter().map(|s| s.t).chain([trajectory.end()]).collect(),
+            t: steps.iter().map(|s| s.t).chain(steps.last().map(Step::end)).collect(),
             extension: steps.iter().map(|s| s.extension).collect(),
             displacement: steps.iter().map(|s| s.displacement.to_vec()).collect(),
             height: steps.iter().map(|s| s.height.map(row)).collect(),

@@ -1,7 +1,7 @@
 //! The integration, step by step to the end or to a signal.
 
 use super::checkpoint::Checkpoints;
-use super::motion::{Motion, Recorded};
+use super::motion::Motion;
 use super::record::Record;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
@@ -61,7 +61,7 @@ impl<R: Motion> Integration<R> {
         {
             let interrupt = &self.interrupt;
             is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
-            let end = step.along().end();
+            let end = step.as_ref().end();
             progress.counted(end, || format!("t = {end:.6}"));
             signal = self.interrupt.signal();
             // Of a step whose samples were not all taken there is none: the last one is before it.

@@ -19,9 +19,7 @@ pub(crate) fn order_of(session: &Session, arguments: &RunArguments) -> Result<Or
         ("--checkpoint", arguments.checkpoint.is_some()),
         ("--resume", arguments.resume.is_some()),
     ];
-    if let Some((option, _)) = written.into_iter().find(|(_, given)| *given) {
-        return Err(Failure::input(option, "is not available for several runs at once"));
-    }
+    Failure::if_given(&written, "is not available for several runs at once")?;
     Ok(order::order(session, arguments, arguments.options.values(session)?)?.0)
 }
 
@@ -38,11 +36,7 @@ pub(crate) fn runs(session: &Session, orders: Vec<Order>) -> Vec<Result<Made, Fa
 
 fn summary(order: &Order, run: RunDocument) -> Made {
     let mut document = run.in_units(order.scales.as_ref());
-    let summary = if document.parameters.stiffness_across.is_some() {
-        summary::of_across(&document)
-    } else {
-        summary::of_run(&document, &RunEnd::from(&document))
-    };
+    let summary = summary::of_run(&document, &RunEnd::from(&document));
     let summary = summary.in_units(document.physical.as_ref());
     document.history.take_if(|_| !order.history);
     summary.of(pictured(document))

@@ -1,19 +1,30 @@
 //! A run in progress in one coordinate or in two, as far as its record and its checkpoints are concerned.
 
+use crate::commands::verify;
+use crate::failure::Failure;
 use crate::files::rows::Rows;
+use crate::session::Session;
 use std::fmt::Display;
 use std::io;
 use std::path::Path;
-use stickslip::{Mark, SampleLine, sample_across};
+use stickslip::{
+    History, Mark, RunEnd, RunFound, SampleLine, VerificationDocument, became, became_across,
+    sample_across,
+};
 use stickslip_outcome::{Watched, WatchedAcross};
-use stickslip_tip::planar::{self, PlanarError};
+use stickslip_tip::planar::{self, PlanarError, PlanarScenario};
 use stickslip_tip::state::State;
-use stickslip_tip::{RunError, STAGES, STEP_NUMBERS, Step, Support, Wider};
+use stickslip_tip::{
+    InitialSurface, RunError, STAGES, STEP_NUMBERS, Scenario, Step, Support, Trajectory, Wider,
+};
+use stickslip_verify::verify_across;
 
 /// A tip in motion.
 pub(super) trait Motion {
     type Step: Recorded;
     type Error: Display;
+    /// What defines the run.
+    type Origin: Copy;
 
     /// The next step; `None` at the end of the scenario.
     fn step(&mut self) -> Result<Option<Self::Step>, Self::Error>;
@@ -23,15 +34,27 @@ pub(super) trait Motion {
     fn t(&self) -> f64;
     /// The state from which it can be resumed.
     fn save(&self) -> State;
+    /// The result of the run, which took this many seconds.
+    fn became(&self, origin: Self::Origin, seconds: f64) -> Result<RunEnd, Failure>;
+
+    /// The motion as a document has it.
+    fn history(whole: &Trajectory<Self::Step>) -> History;
+    /// The answer with what follows from the whole motion.
+    fn completed(found: RunFound, whole: &Trajectory<Self::Step>) -> RunFound;
+    /// Comparison of the motion, which had this memory, with its repetition.
+    fn verified(
+        session: &Session,
+        origin: Self::Origin,
+        memory: &str,
+        whole: &Trajectory<Self::Step>,
+    ) -> Result<VerificationDocument, Failure>;
 }
 
 /// A step that can be recorded.
-pub(super) trait Recorded: Copy {
+pub(super) trait Recorded: Copy + AsRef<Step> {
     /// Numbers per step and per sample in a journal.
     const NUMBERS: [usize; 2];
 
-    /// The motion along the scan.
-    fn along(&self) -> &Step;
     /// The motion at a time within the step.
     fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine;
     /// Writes the step as a row of a journal,
@@ -44,9 +67,10 @@ pub(super) trait Recorded: Copy {
     fn read_samples(path: &Path, mark: Mark) -> io::Result<(Rows, Vec<SampleLine>)>;
 }
 
-impl Motion for Watched<'_> {
+impl<'a> Motion for Watched<'a> {
     type Step = Step;
     type Error = RunError;
+    type Origin = (&'a Scenario, &'a InitialSurface);
 
     fn step(&mut self) -> Result<Option<Step>, RunError> {
         Watched::step(self)
@@ -63,11 +87,36 @@ impl Motion for Watched<'_> {
     fn save(&self) -> State {
         Watched::save(self)
     }
+
+    fn became(&self, (scenario, initial): Self::Origin, seconds: f64) -> Result<RunEnd, Failure> {
+        Ok(became(scenario, initial, self, seconds)?)
+    }
+
+    fn history(whole: &Trajectory) -> History {
+        whole.into()
+    }
+
+    fn completed(found: RunFound, whole: &Trajectory) -> RunFound {
+        found.along_path(whole)
+    }
+
+    fn verified(
+        session: &Session,
+        (scenario, _): Self::Origin,
+        memory: &str,
+        whole: &Trajectory,
+    ) -> Result<VerificationDocument, Failure> {
+        let found = verify::repeated(session, |observe| {
+            stickslip_verify::verify(scenario, memory, whole, observe)
+        })?;
+        Ok((&found).into())
+    }
 }
 
-impl Motion for WatchedAcross<'_> {
+impl<'a> Motion for WatchedAcross<'a> {
     type Step = planar::Step;
     type Error = PlanarError;
+    type Origin = &'a PlanarScenario;
 
     fn step(&mut self) -> Result<Option<planar::Step>, PlanarError> {
         WatchedAcross::step(self)
@@ -84,6 +133,31 @@ impl Motion for WatchedAcross<'_> {
     fn save(&self) -> State {
         WatchedAcross::save(self)
     }
+
+    fn became(&self, scenario: Self::Origin, seconds: f64) -> Result<RunEnd, Failure> {
+        if self.last().is_none() {
+            return Err(Failure::Run("the run has no steps".into()));
+        }
+        became_across(scenario, self, seconds).map_err(|error| Failure::Run(error.to_string()))
+    }
+
+    fn history(whole: &planar::Trajectory) -> History {
+        whole.into()
+    }
+
+    fn completed(found: RunFound, _: &planar::Trajectory) -> RunFound {
+        found
+    }
+
+    fn verified(
+        session: &Session,
+        scenario: Self::Origin,
+        _: &str,
+        whole: &planar::Trajectory,
+    ) -> Result<VerificationDocument, Failure> {
+        let found = verify::repeated(session, |observe| verify_across(scenario, whole, observe))?;
+        Ok((&found).into())
+    }
 }
 
 const SAMPLE_NUMBERS: usize = 7;
@@ -92,10 +166,6 @@ const STEP_NUMBERS_ACROSS: usize = STEP_NUMBERS + 1 + STAGES;
 
 impl Recorded for Step {
     const NUMBERS: [usize; 2] = [STEP_NUMBERS, SAMPLE_NUMBERS];
-
-    fn along(&self) -> &Step {
-        self
-    }
 
     fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine {
         SampleLine::of(self, of, t)
@@ -122,10 +192,6 @@ impl Recorded for Step {
 
 impl Recorded for planar::Step {
     const NUMBERS: [usize; 2] = [STEP_NUMBERS_ACROSS, SAMPLE_NUMBERS_ACROSS];
-
-    fn along(&self) -> &Step {
-        &self.along
-    }
 
     fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine {
         sample_across(self, of, t)

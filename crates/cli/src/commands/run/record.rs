@@ -8,7 +8,7 @@ use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};
 use stickslip::{Mark, RunLine, Samples, Times};
-use stickslip_tip::{MOST_STEPS, Scenario, Step, Support, Wider};
+use stickslip_tip::{MOST_STEPS, Scenario, Step, Support, Trajectory, Wider};
 
 /// The record of a run.
 pub(super) struct Record<S = Step> {
@@ -48,6 +48,12 @@ impl<S: Recorded> Record<S> {
         Self { support, wider, times, places, taken: 0, samples, steps, sink }
     }
 
+    /// The whole motion, if the history is kept.
+    pub(super) fn whole(&mut self) -> Option<Trajectory<S>> {
+        let steps = self.steps.take()?;
+        Some(Trajectory::under(self.wider, self.support.clone(), steps))
+    }
+
     /// Records a step, and returns whether all its samples were taken before a signal.
     pub(super) fn take(
         &mut self,
@@ -56,7 +62,7 @@ impl<S: Recorded> Record<S> {
     ) -> Result<bool, Failure> {
         if let Some(steps) = &mut self.steps {
             if steps.len() == MOST_STEPS {
-                return Err(history_too_long(step.along().t));
+                return Err(history_too_long(step.as_ref().t));
             }
             steps.push(*step);
             if let Sink::Journal(path, journal) = &mut self.sink {
@@ -64,14 +70,14 @@ impl<S: Recorded> Record<S> {
             }
         }
         // A time at which one step ends is the next one's.
-        let end = step.along().end();
+        let end = step.as_ref().end();
         self.sample(step, |t| t < end, is_stopped)
     }
 
     /// Takes the samples at the very end of the last step, unless they were taken.
     pub(super) fn end(&mut self, last: Option<&S>) -> Result<(), Failure> {
         if let Some(last) = last {
-            let end = last.along().end();
+            let end = last.as_ref().end();
             self.sample(last, |t| t <= end, || false)?;
         }
         if !self.places.is_empty() {
@@ -131,7 +137,7 @@ impl<S: Recorded> Record<S> {
         };
         let rows = if self.steps.is_some() {
             let (rows, steps) = S::read(path, mark).map_err(unusable)?;
-            let along: Vec<Step> = steps.iter().map(|step| *step.along()).collect();
+            let along: Vec<Step> = steps.iter().map(|step| *step.as_ref()).collect();
             if !follow_each_other(&along, t) {
                 return Err(unusable(io::Error::other(OTHER_ROWS)));
             }

@@ -5,7 +5,7 @@ use super::integration::{Integrated, Integration};
 use super::motion::Motion;
 use super::record::Sink;
 use super::write::{self, Target};
-use super::{across, file, job, record};
+use super::{file, job, record};
 use crate::arguments::RunArguments;
 use crate::commands::fields::Fields;
 use crate::failure::Failure;
@@ -37,20 +37,21 @@ pub(super) fn resume(
     let scenario = parameters.prepared();
     let scenario = scenario.map_err(|error| named(error.described(str::to_owned)))?;
     let place = Place { checkpoint, before, arguments };
-    let scenario = match scenario {
-        RunScenario::Along(scenario) => scenario,
+    match &scenario {
+        RunScenario::Along(scenario) => {
+            let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
+            let running = Watched::resumed(scenario, &surface, &state);
+            let running = running.map_err(|error| named(error.to_string()))?;
+            let (integrated, target) = resumed(session, &head, place, scenario, running)?;
+            write::all(session, &head.order, (scenario, &surface), integrated, target)
+        }
         RunScenario::Across(scenario) => {
-            let running = WatchedAcross::resumed(&scenario, &state);
+            let running = WatchedAcross::resumed(scenario, &state);
             let running = running.map_err(|error| named(error.to_string()))?;
             let (integrated, target) = resumed(session, &head, place, &scenario.along, running)?;
-            return across::write(session, &head.order, &scenario, integrated, target);
+            write::all(session, &head.order, scenario, integrated, target)
         }
-    };
-    let surface = scenario.initial_surface().map_err(|error| named(error.to_string()))?;
-    let running = Watched::resumed(&scenario, &surface, &state);
-    let running = running.map_err(|error| named(error.to_string()))?;
-    let (integrated, target) = resumed(session, &head, place, &scenario, running)?;
-    write::all(session, &head.order, &scenario, &surface, integrated, target)
+    }
 }
 
 /// The checkpoint of a run and the file that it wrote before.

@@ -64,10 +64,6 @@ fn judge(arguments: &RunArguments, format: RunFormat) -> Result<(), Failure> {
         ("--checkpoint", arguments.checkpoint.is_some()),
         ("--format jsonl", format == RunFormat::Jsonl),
     ];
-    match unavailable.into_iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((option, _)) => {
-            Err(Failure::input(option, "is not available with --walker: leave one of them out"))
-        }
-    }
+    let message = "is not available with --walker: leave one of them out";
+    Failure::if_given(&unavailable, message)
 }

@@ -1,6 +1,7 @@
 //! Output of a run.
 
 use super::integration::Integrated;
+use super::motion::Motion;
 use super::record::{Record, Sink};
 use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
@@ -12,10 +13,9 @@ use serde::Serialize;
 use std::path::Path;
 use stickslip::{
     Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead, RunLine,
-    SteadyState, Tabular, became,
+    SteadyState, Tabular,
 };
-use stickslip_outcome::Watched;
-use stickslip_tip::{InitialSurface, Scenario, Trajectory, stop};
+use stickslip_tip::{Scenario, stop};
 
 /// The output of a run.
 pub(super) enum Target {
@@ -41,27 +41,15 @@ pub(super) fn head<S>(
     }
 }
 
-/// The result of the run.
-fn end(
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    integrated: &Integrated<Watched>,
-) -> Result<RunEnd, Failure> {
-    let Integrated { running, seconds, interrupt, .. } = integrated;
-    let found =
-        stop::where_asked_by(interrupt.flag(), || became(scenario, initial, running, *seconds));
-    Ok(RunEnd { interrupted: interrupt.signal().is_some(), ..found? })
-}
-
 /// Prints the remarks of a run whose document goes to standard output; beside a file they are printed with the result.
-pub(super) fn print_remarks(session: &Session, order: &Order, end: &RunEnd) {
+fn print_remarks(session: &Session, order: &Order, end: &RunEnd) {
     if order.output == Path::new("-") && order.format != RunFormat::Text && !session.has_host() {
         end.remarks.iter().for_each(|text| session.remark(format_args!("remark: {text}")));
     }
 }
 
 /// Writes the last line, and prints the summary and the requested fields.
-pub(super) fn finish_lines(
+fn finish_lines(
     session: &Session,
     order: &Order,
     sink: Sink,
@@ -75,70 +63,68 @@ pub(super) fn finish_lines(
 }
 
 /// Writes the whole document, or the last line; and the figure.
-pub(super) fn all(
+pub(super) fn all<R: Motion>(
     session: &Session,
     order: &Order,
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    mut integrated: Integrated<Watched>,
+    origin: R::Origin,
+    mut integrated: Integrated<R>,
     target: Target,
 ) -> Result<(), Failure> {
-    let end = end(scenario, initial, &integrated)?;
-    let signal = integrated.interrupt.signal().filter(|_| end.interrupted);
-    let reached = signal.map(|_| end.end);
+    let Integrated { running, seconds, interrupt, .. } = &integrated;
+    let found = stop::where_asked_by(interrupt.flag(), || running.became(origin, *seconds));
+    let end = RunEnd { interrupted: interrupt.signal().is_some(), ..found? };
+    let signal = interrupt.signal().filter(|_| end.interrupted);
     print_remarks(session, order, &end);
-    let steps = integrated.record.steps.take();
-    let (wider, support) = (*scenario.model.wider(), scenario.support());
-    let trajectory = steps.map(|steps| Trajectory::under(wider, support, steps));
-    let mut failure = None;
-    match target {
+    let interrupted = signal.map(Failure::Interrupted);
+    let job = match target {
+        Target::Document(job) => job,
         Target::Lines(fields) => {
             finish_lines(session, order, integrated.record.sink, &fields, &end)?;
+            return interrupted.map_or(Ok(()), Err);
         }
-        Target::Document(job) => {
-            let samples = std::mem::take(&mut integrated.record.samples);
-            let history = trajectory.as_ref().filter(|_| order.history).map(Into::into);
-            let mut document = order.parameters.clone().document(samples, history, end.clone());
-            if let Some(trajectory) = &trajectory {
-                document.answer = document.answer.along_path(trajectory);
-            }
-            let asked = trajectory.as_ref().filter(|_| order.verify && signal.is_none());
-            // What was computed is written even if a signal ends its verification.
-            let found = asked
-                .map(|t| verify::of_history(session, scenario, &end.work.memory, t))
-                .transpose();
-            document.verification = found.as_ref().ok().cloned().flatten();
-            // From here on nothing is computed that would be lost: a signal ends the program.
-            let interrupt = integrated.interrupt;
-            let _keeps = interrupt.signal().is_some().then_some(interrupt);
-            let mut document = document.in_units(order.scales.as_ref());
-            let summary = summary::of_run(&document, &end).in_units(document.physical.as_ref());
-            let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
-            if let (Some(figure), Some(trajectory)) = (figure, &trajectory) {
-                // Drawn from the history, whether or not it is written.
-                document.history = Some(trajectory.into());
-                figure.draw(&document)?;
-                document.history.take_if(|_| !order.history);
-            }
-            session.give(|| summary.of(pictured(document)));
-            failure = match found {
-                Err(failure) => Some(failure),
-                Ok(found) => found.and_then(|found| verify::broken(&found, scenario.tolerance)),
-            };
-        }
+    };
+    let whole = integrated.record.whole();
+    let samples = std::mem::take(&mut integrated.record.samples);
+    let history = whole.as_ref().filter(|_| order.history).map(R::history);
+    let mut document = order.parameters.clone().document(samples, history, end.clone());
+    if let Some(whole) = &whole {
+        document.answer = R::completed(document.answer, whole);
     }
-    let interrupted = signal.map(Failure::Interrupted);
+    let asked = whole.as_ref().filter(|_| order.verify && signal.is_none());
+    // What was computed is written even if a signal ends its verification.
+    let found = asked.map(|whole| R::verified(session, origin, &end.work.memory, whole));
+    let found = found.transpose();
+    document.verification = found.as_ref().ok().cloned().flatten();
+    // From here on nothing is computed that would be lost: a signal ends the program.
+    let interrupt = integrated.interrupt;
+    let _keeps = interrupt.signal().is_some().then_some(interrupt);
+    let mut document = document.in_units(order.scales.as_ref());
+    let summary = summary::of_run(&document, &end).in_units(document.physical.as_ref());
+    let reached = signal.map(|_| end.end);
+    let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
+    if let (Some(figure), Some(whole)) = (figure, &whole) {
+        // Drawn from the history, whether or not it is written.
+        document.history = Some(R::history(whole));
+        figure.draw(&document)?;
+        document.history.take_if(|_| !order.history);
+    }
+    let tolerance = document.parameters.tolerance;
+    session.give(|| summary.of(pictured(document)));
+    let failure = match found {
+        Err(failure) => Some(failure),
+        Ok(found) => found.and_then(|found| verify::broken(&found, tolerance)),
+    };
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 
 /// A document for output. An incomplete one is marked as such in every format, in JSON by `interrupted`.
 #[derive(Serialize)]
 #[serde(transparent)]
-pub(super) struct Written<'a> {
-    pub(super) document: &'a RunDocument,
+struct Written<'a> {
+    document: &'a RunDocument,
     /// Time at which a signal ended the run.
     #[serde(skip)]
-    pub(super) reached: Option<f64>,
+    reached: Option<f64>,
 }
 
 impl Tabular for Written<'_> {

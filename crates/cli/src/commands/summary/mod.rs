@@ -8,7 +8,7 @@ mod raster;
 mod run;
 mod walker;
 
-pub(in crate::commands) use run::{of_across, of_lines, of_run};
+pub(in crate::commands) use run::{of_lines, of_run};
 
 use crate::made::{Document, Made};
 use crate::message::harmless;

@@ -11,6 +11,9 @@ use stickslip::{
 
 /// The summary of a run with the result `end`.
 pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summary {
+    if document.parameters.stiffness_across.is_some() {
+        return of_across(document);
+    }
     let verified = document.verification.as_ref().map_or(String::new(), kept);
     let summary = Summary::new(summary(end) + &verified);
     let summary = summary.row("α, r", parameters(&document.parameters.model_parameters()));
@@ -49,7 +52,7 @@ fn peak_after(hold: &HoldDocument) -> String {
 }
 
 /// The summary of a run in two coordinates.
-pub(in crate::commands) fn of_across(document: &RunDocument) -> Summary {
+fn of_across(document: &RunDocument) -> Summary {
     let work = &document.work;
     let swing = document.snaking.as_ref();
     let motion = document.oscillation.as_ref();

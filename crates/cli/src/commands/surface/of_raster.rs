@@ -100,11 +100,7 @@ fn refuse_of_runs(arguments: &SurfaceArguments) -> Result<(), Failure> {
         ("--far-behind", arguments.far_behind),
         ("--width-y", arguments.width_y.is_some()),
     ];
-    match given.iter().find(|(_, given)| *given) {
-        None => Ok(()),
-        Some((option, _)) => Err(Failure::input(
-            *option,
-            "a raster is shown after its last line, with its own footprint: leave the option out",
-        )),
-    }
+    let message =
+        "a raster is shown after its last line, with its own footprint: leave the option out";
+    Failure::if_given(&given, message)
 }

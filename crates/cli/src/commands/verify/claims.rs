@@ -4,6 +4,7 @@
 //! Samples are evaluated from the dense history, or from a repetition of the run if none was kept; the result of the
 //! run is recomputed from that repetition.
 
+use super::motion::Motion;
 use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -17,7 +18,7 @@ use stickslip::{
     RunFound, RunScenario, SampleLine, SteadyState, became, became_across, sample_across,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
-use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider, stop};
+use stickslip_tip::{Scenario, Step, Support, Wider, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
 /// Largest relative difference of values of a polynomial whose coefficients were rounded when the document was
@@ -290,21 +291,23 @@ impl Claims {
     }
 
     /// Checks values that follow from the history of a document, and their conversions to other units.
-    fn of_document(&mut self, run: &RunDocument, trajectory: Option<&Trajectory>) {
+    fn of_document(&mut self, run: &RunDocument, motion: Option<&Motion>) {
         let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
-        if let Some(trajectory) = trajectory {
-            let steps = trajectory.steps().len();
+        if let Some(motion) = motion {
+            let steps = motion.count();
             self.judge("work.steps", &json!(run.work.steps), &json!(steps), &|_, _| 0.0);
-            let is_held_on_line = run.parameters.stiffness_across.is_none();
-            let (loops, holds) =
-                if is_held_on_line { RunFound::of_path(trajectory) } else { (None, None) };
+            let (loops, holds) = match motion {
+                Motion::Along(trajectory) => RunFound::of_path(trajectory),
+                Motion::Across(_) => (None, None),
+            };
             self.judge_if("loops", run.loops.as_ref(), loops.as_ref(), &digits);
             // Older documents have none.
             if run.holds.is_some() {
                 self.judge_if("holds", run.holds.as_ref(), holds.as_ref(), &digits);
             }
-            let ended = trajectory.end() < run.parameters.until * (1.0 - DIGITS);
-            let ended = ended && run.parameters.until - trajectory.end() > DIGITS;
+            let (_, end) = motion.span();
+            let ended = end < run.parameters.until * (1.0 - DIGITS);
+            let ended = ended && run.parameters.until - end > DIGITS;
             self.judge("interrupted", &json!(run.interrupted), &json!(ended), &digits);
         }
         if let Some(physical) = &run.physical {
@@ -386,13 +389,6 @@ fn cut(scenario: &Scenario, until: f64, reached: f64) -> Arc<AtomicBool> {
     Arc::new(AtomicBool::new(until < scenario.until && reached < scenario.until))
 }
 
-/// The dense history of a run: the motion along the scan, and all of it at a time within the step of an index.
-#[derive(Clone, Copy)]
-pub(super) struct Summary<'a> {
-    pub(super) along: &'a Trajectory,
-    pub(super) sample: &'a dyn Fn(usize, f64) -> SampleLine,
-}
-
 /// Checks a document.
 ///
 /// # Errors
@@ -401,26 +397,25 @@ pub(super) fn of_document(
     session: &Session,
     run: &RunDocument,
     whole: &RunScenario,
-    history: Option<Summary<'_>>,
+    history: Option<&Motion>,
 ) -> Result<Vec<ClaimDocument>, Failure> {
     let scenario = whole.along();
     let mut claims = Claims::default();
     claims.of_parameters(&run.parameters.model_parameters(), scenario, run.steady_state.as_ref());
-    claims.of_document(run, history.map(|history| history.along));
+    claims.of_document(run, history);
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();
     samples.sort_by(|a, b| a.t.total_cmp(&b.t));
-    if let Some(Summary { along, sample: found }) = history {
-        let steps = along.steps();
+    if let Some(motion) = history {
+        let law = (&scenario.support(), scenario.model.wider());
         for sample in samples.drain(..) {
-            let after = steps.partition_point(|step| step.t <= sample.t);
-            let i = after.max(1) - 1;
-            columns.of_history(&sample, &found(i, sample.t), &steps[i]);
+            let (step, found) = motion.at(law, sample.t);
+            columns.of_history(&sample, &found, step);
         }
     }
     let last = samples.last().map(|sample| sample.t);
     let until = match history {
-        Some(history) => history.along.end(),
+        Some(history) => history.span().1,
         None if run.interrupted => last.unwrap_or(scenario.until),
         None => scenario.until,
     };
@@ -433,7 +428,8 @@ pub(super) fn of_document(
     claims.0.extend(columns.worst());
     // Of a run that was stopped, and of which no history says when, only the samples can be judged.
     if history.is_some() || !run.interrupted {
-        claims.of_end(&end_of(run), &computed, scenario.tolerance);
+        let claimed = RunEnd { end: run.parameters.until, ..run.into() };
+        claims.of_end(&claimed, &computed, scenario.tolerance);
     }
     Ok(claims.0)
 }
@@ -471,22 +467,6 @@ pub(super) fn of_lines(
         }
     }
     Ok(claims.0)
-}
-
-/// The result of a run according to its document.
-fn end_of(run: &RunDocument) -> RunEnd {
-    RunEnd {
-        end: run.parameters.until,
-        regime: run.regime,
-        oscillation: run.oscillation.clone(),
-        snaking: run.snaking.clone(),
-        creep: run.creep.clone(),
-        drifting: run.drifting.clone(),
-        transient: run.transient.clone(),
-        remarks: run.remarks.clone(),
-        interrupted: run.interrupted,
-        work: run.work.clone(),
-    }
 }
 
 /// A line for each value that differs, and a list of their names.

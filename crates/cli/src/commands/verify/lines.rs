@@ -1,6 +1,6 @@
 //! Verification of a run written as lines: the file is read twice, and not kept in memory.
 
-use super::{claims, job, repeated, said_of};
+use super::{claims, job, of_samples, repeated, said_of};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
@@ -14,7 +14,7 @@ use stickslip::{
     VerifyDocument,
 };
 use stickslip_tip::{MemoryChoice, Running, Scenario};
-use stickslip_verify::{ComparedSamples, Sample, verify_samples, verify_samples_across};
+use stickslip_verify::{ComparedSamples, Sample};
 
 /// Number of the line with the first sample.
 const FIRST: u64 = 2;
@@ -38,15 +38,8 @@ pub(super) fn verify(
             Some(_) => ControlFlow::Break(()),
             None => observe(part),
         };
-        match &surveyed {
-            RunScenario::Along(scenario) => {
-                let memory = memory(scenario, &extent);
-                verify_samples(scenario, &memory, || samples.read(), until, observe)
-            }
-            RunScenario::Across(scenario) => {
-                verify_samples_across(scenario, || samples.read(), until, observe)
-            }
-        }
+        let memory = memory(scenario, &extent);
+        of_samples(&surveyed, &memory, || samples.read(), until, observe)
     });
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));

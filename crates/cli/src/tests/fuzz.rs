@@ -130,7 +130,7 @@ fn texts(corpus: &str) -> impl Strategy<Value = String> {
 }
 
 /// Processor time of this thread if the system measures it, otherwise wall-clock time.
-pub(crate) fn spent(clock: &Instant) -> Duration {
+pub(super) fn spent(clock: &Instant) -> Duration {
     let measured = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = measured.and_then(|text| text.split_whitespace().next()?.parse().ok());
     nanoseconds.map_or_else(|| clock.elapsed(), Duration::from_nanos)

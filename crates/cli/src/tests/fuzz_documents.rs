@@ -7,8 +7,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::print_stdout, reason = "counts are printed also when all is well")]
 
+use super::fuzz::spent;
 use crate::commands::sweep::divided::Divided;
-use crate::fuzz::spent;
 use crate::hosted::{Host, Supply, call};
 use allocation_counter::measure;
 use chacha20::ChaCha8Rng;

@@ -1,0 +1,64 @@
+//! The dense history of a run, in one coordinate or in two.
+
+use stickslip::{RunDocument, RunScenario, SampleLine, Unusable, sample_across};
+use stickslip_tip::{Step, Support, Trajectory, Wider, planar};
+
+/// The dense history of a run.
+pub(super) enum Motion {
+    Along(Trajectory),
+    Across(planar::Trajectory),
+}
+
+impl Motion {
+    /// The history in a document; `None` if it was left out.
+    ///
+    /// # Errors
+    /// The history is invalid.
+    pub(super) fn of(run: &RunDocument, whole: &RunScenario) -> Result<Option<Self>, Unusable> {
+        if run.history.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(match whole {
+            RunScenario::Along(_) => Self::Along(run.trajectory()?),
+            RunScenario::Across(_) => Self::Across(run.trajectory_across()?.1),
+        }))
+    }
+
+    /// Its start and its end.
+    pub(super) fn span(&self) -> (f64, f64) {
+        match self {
+            Self::Along(motion) => (motion.start(), motion.end()),
+            Self::Across(motion) => (motion.start(), motion.end()),
+        }
+    }
+
+    /// x0 and y0 at its start.
+    pub(super) fn first(&self) -> (f64, Option<f64>) {
+        match self {
+            Self::Along(motion) => (motion.x0(motion.start()), None),
+            Self::Across(motion) => (motion.x0(motion.start()), Some(motion.y0(motion.start()))),
+        }
+    }
+
+    /// Number of steps.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Along(motion) => motion.steps().len(),
+            Self::Across(motion) => motion.steps().len(),
+        }
+    }
+
+    /// The motion at a time, and along the scan the step with this time, of which the end is the next one's.
+    pub(super) fn at(&self, law: (&Support, &Wider), t: f64) -> (&Step, SampleLine) {
+        match self {
+            Self::Along(motion) => {
+                let step = motion.step_at(t);
+                (step, SampleLine::of(step, law, t))
+            }
+            Self::Across(motion) => {
+                let step = motion.step_at(t);
+                (&step.along, sample_across(step, law, t))
+            }
+        }
+    }
+}

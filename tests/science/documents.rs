@@ -3,8 +3,8 @@
 use serde_json::Value;
 use std::io::{self, Read};
 use stickslip::{
-    Dimension, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, SampleLine, Samples, SweepDocument,
-    WorkDocument, dimension, read, read_from,
+    Dimension, Indentation, RegimeName, Run, RunDocument, RunEnd, SCHEMAS, SampleLine, Samples,
+    SweepDocument, Tip, WorkDocument, dimension, read, read_from,
 };
 use stickslip_tip::{Model, Scenario, TipFunction, run};
 
@@ -139,7 +139,9 @@ fn a_run_comes_back_from_its_document() {
         },
     };
     let history = Some((&done.trajectory).into());
-    let document = Run::of(&scenario, &[], None).document(Samples::default(), history, end);
+    let question = Run::new(Tip::default(), Indentation::given(1.2), 1.0, 40.0);
+    let question = Run { kick: 0.05, ..question };
+    let document = question.document(Samples::default(), history, end);
     let text = serde_json::to_string(&document).unwrap();
     let back: RunDocument = read(&text, RunDocument::FORMAT).unwrap();
     let again = run(&back.parameters.scenario().unwrap()).unwrap();

@@ -1,6 +1,7 @@
 //! A document of a raster is the raster: plan and lines come back from its text.
 
-use stickslip::{KeptLine, ModelParameters, Raster, RasterDocument, read};
+use serde_json::json;
+use stickslip::{KeptLine, PathName, Raster, RasterDocument, Tip, read};
 use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
@@ -18,13 +19,29 @@ fn plan(path: Path) -> Plan {
     Plan::new(footprint, model, path, 0.7, 5, 20.0)
 }
 
+/// The question with this plan.
+fn question(plan: &Plan) -> Raster {
+    let (model, free) = (&plan.law.model, plan.free.as_ref());
+    let path = match plan.path {
+        Path::OneWay => PathName::OneWay,
+        Path::Zigzag => PathName::Zigzag,
+        Path::Repeat => PathName::Repeat,
+    };
+    let values = json!({
+        "tip": Tip(model.tip().clone()), "alpha": model.alpha(), "r": model.r(), "width_y": 1.3, "path": path,
+        "depth_limit": model.wider().depth_limit, "healing_time": model.wider().healing_time,
+        "pitch": plan.area.pitch(plan.path), "lines": plan.lines(), "length": plan.area.longest(),
+        "stiffness_across": free.map(|free| free.stiffness), "kick_across": free.map(|free| free.kick),
+    });
+    serde_json::from_value(values).unwrap()
+}
+
 fn document(path: Path) -> (Plan, Vec<Line>, RasterDocument) {
     let plan = plan(path);
     let mut scanning = Scanning::new(&plan).unwrap();
     while scanning.next_line().unwrap().is_some() {}
     let lines = scanning.into_lines();
-    let model = ModelParameters::of(&plan.law.model, None);
-    let parameters = Raster::of(&plan, &model, Some(1.3)).unwrap();
+    let parameters = question(&plan);
     let document = parameters.document(&plan, &lines, &[0.0, 10.0, 20.0]);
     (plan, lines, document)
 }
@@ -84,8 +101,7 @@ fn free_lines_come_back_too() {
     let mut scanning = Scanning::new(&plan).unwrap();
     while scanning.next_line().unwrap().is_some() {}
     let lines = scanning.into_lines();
-    let model = ModelParameters::of(&plan.law.model, None);
-    let parameters = Raster::of(&plan, &model, Some(1.3)).unwrap();
+    let parameters = question(&plan);
     assert_eq!((parameters.stiffness_across, parameters.kick_across), (Some(0.9), Some(0.3)));
     let mut document = parameters.document(&plan, &lines, &[0.0, 10.0, 20.0]);
     let samples = &document.lines[2].samples;

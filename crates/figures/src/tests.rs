@@ -2,8 +2,8 @@
 
 use crate::{FigureFormat, Size, View, draw, of, svg};
 use stickslip::{
-    CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, MapDocument,
-    ModelParameters, PanelDocument, Run, RunDocument, ScaleName, StyleName,
+    CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, Indentation,
+    MapDocument, ModelParameters, PanelDocument, Run, RunDocument, ScaleName, StyleName, Tip,
 };
 use stickslip_tip::{Model, TipFunction};
 
@@ -212,7 +212,16 @@ fn document(
     scenario: &stickslip_tip::Scenario,
     trajectory: &stickslip_tip::Trajectory,
 ) -> RunDocument {
-    let parameters = Run::of(scenario, &[], None);
+    let parameters = Run {
+        start_position: scenario.start_position,
+        kick: scenario.kick,
+        ..Run::new(
+            Tip(scenario.model.tip().clone()),
+            Indentation::given(scenario.model.alpha()),
+            scenario.model.r(),
+            scenario.until,
+        )
+    };
     let model: ModelParameters = parameters.model_parameters();
     let text = serde_json::json!({
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},

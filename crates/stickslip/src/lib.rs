@@ -38,6 +38,7 @@ mod document;
 mod documents;
 pub mod parameter;
 pub mod schema;
+mod twins;
 
 pub use stickslip_convolution as convolution;
 pub use stickslip_cycles as cycles;

@@ -275,8 +275,7 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
             return Err(Refused::whole(name.clone(), "is no parameter here: leave it out"));
         };
         if let Some(why) = mistaken(&property.kind, value) {
-            let value = Some(typed(value));
-            return Err(Refused { parameter: name.clone().into(), value, why });
+            return Err(Refused::word(name.clone(), typed(value), why));
         }
     }
     let is_missing = |(name, property): &(&String, &Property)| {

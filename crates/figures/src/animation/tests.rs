@@ -7,8 +7,11 @@ use crate::scene::Shot;
 use crate::sheet::Sheet;
 use crate::size::Width;
 use crate::{FigureError, colours, scene_of};
+use serde_json::json;
 use std::io::Cursor;
-use stickslip::{Ask, Context, KnownScales, Raster, RasterDocument, Run, RunDocument};
+use stickslip::{
+    Ask, Context, Indentation, KnownScales, PathName, Raster, RasterDocument, Run, RunDocument, Tip,
+};
 use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Trajectory, Wider};
@@ -126,9 +129,19 @@ fn scenario() -> Scenario {
 }
 
 fn run_document(scenario: &Scenario, trajectory: &Trajectory) -> RunDocument {
+    let parameters = Run {
+        start_position: scenario.start_position,
+        kick: scenario.kick,
+        ..Run::new(
+            Tip(scenario.model.tip().clone()),
+            Indentation::given(scenario.model.alpha()),
+            scenario.model.r(),
+            scenario.until,
+        )
+    };
     let text = serde_json::json!({
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},
-        "parameters": Run::of(scenario, &[], None),
+        "parameters": parameters,
         "steady_state": {"l": scenario.model.steady_l(), "lag": 0.0, "surface_behind": null},
         "samples": {"t": [0.0], "l": [0.0], "x0": [0.0], "velocity": [0.0]},
         "history": stickslip::History::from(trajectory), "regime": "transient", "oscillation": null,
@@ -309,13 +322,28 @@ fn plan(path: Path, healing_time: Option<f64>) -> Plan {
     Plan::new(footprint, model, path, 0.7, 8, 14.0)
 }
 
+/// The question with this plan.
+fn question(plan: &Plan) -> Raster {
+    let (model, free) = (&plan.law.model, plan.free.as_ref());
+    let path = match plan.path {
+        Path::OneWay => PathName::OneWay,
+        Path::Zigzag => PathName::Zigzag,
+        Path::Repeat => PathName::Repeat,
+    };
+    let values = json!({
+        "tip": Tip(model.tip().clone()), "alpha": model.alpha(), "r": model.r(), "width_y": 1.3, "path": path,
+        "depth_limit": model.wider().depth_limit, "healing_time": model.wider().healing_time,
+        "pitch": plan.area.pitch(plan.path), "lines": plan.lines(), "length": plan.area.longest(),
+        "stiffness_across": free.map(|free| free.stiffness), "kick_across": free.map(|free| free.kick),
+    });
+    serde_json::from_value(values).unwrap()
+}
+
 fn scanned(plan: &Plan) -> (Vec<Line>, RasterDocument) {
     let mut scanning = Scanning::new(plan).unwrap();
     while scanning.next_line().unwrap().is_some() {}
     let lines = scanning.into_lines();
-    let model = stickslip::ModelParameters::of(&plan.law.model, None);
-    let question = Raster::of(plan, &model, Some(1.3)).unwrap();
-    let document = question.document(plan, &lines, &[]);
+    let document = question(plan).document(plan, &lines, &[]);
     (lines, document)
 }
 

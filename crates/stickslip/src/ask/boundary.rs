@@ -3,6 +3,7 @@
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
     OnsetKindName, Question, Refused, Tip, Typed,
@@ -201,8 +202,7 @@ pub(crate) fn refused_range(
     why: impl ToString,
 ) -> Refused {
     let [low, high] = ends.map(Typed);
-    let value = Some(format!("{low}:{high}:{points}"));
-    Refused { parameter: name.into(), value, why: why.to_string() }
+    Refused::word(name, format!("{low}:{high}:{points}"), why.to_string())
 }
 
 impl Question for Boundary {
@@ -329,13 +329,6 @@ pub struct BranchDocument {
 }
 
 impl OnsetColumns {
-    /// The small oscillation at each of these points of the boundary.
-    pub fn along(tip: &TipFunction, boundary: &[Critical]) -> Self {
-        let mut columns = Self::default();
-        boundary.iter().for_each(|at| columns.push(tip, at));
-        columns
-    }
-
     /// Columns of null for the given number of points.
     #[must_use]
     pub fn unknown(points: usize) -> Self {
@@ -357,12 +350,7 @@ impl OnsetColumns {
     }
 }
 
-impl From<BoundaryBranch> for BranchDocument {
-    fn from(branch: BoundaryBranch) -> Self {
-        let BoundaryBranch { wave_number, r, alpha } = branch;
-        Self { wave_number, r, alpha }
-    }
-}
+twins!(BoundaryBranch => BranchDocument { wave_number, r, alpha });
 
 impl Tabular for BoundaryFound {
     /// The boundary as a table, with a row for each r.

@@ -1,8 +1,9 @@
 //! The question `continue`: a branch of cycles, and the branches of doubled period.
 
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Cycle, CycleDocument, Document, Failure, Indentation, Law, ModelParameters,
     Question, Refused, Tip, Unusable, digits,
@@ -148,11 +149,7 @@ impl Continue {
     }
 
     fn settings(&self) -> Result<Continuation, Refused> {
-        let positive = |name: &'static str, value: f64| {
-            let is_positive = value.is_finite() && value > 0.0;
-            let refused = || Refused::number(name, value, "must be a finite number above 0");
-            is_positive.then_some(value).ok_or_else(refused)
-        };
+        let positive = Refused::positive;
         let nowhere = match self.over {
             OverName::Alpha => f64::INFINITY,
             OverName::R => 0.0,
@@ -444,41 +441,12 @@ impl SpecialDocument {
     }
 }
 
-impl From<OverName> for Parameter {
-    fn from(name: OverName) -> Self {
-        match name {
-            OverName::Alpha => Self::Alpha,
-            OverName::R => Self::R,
-        }
-    }
-}
-
-impl From<End> for EndName {
-    fn from(end: End) -> Self {
-        match end {
-            End::Reached => Self::Reached,
-            End::LongPeriod => Self::LongPeriod,
-            End::Steady => Self::Steady,
-            End::Halved => Self::Halved,
-            End::ManyPoints => Self::ManyPoints,
-            End::Lost => Self::Lost,
-            End::Interrupted => Self::Interrupted,
-        }
-    }
-}
-
-impl From<SpecialKind> for SpecialName {
-    fn from(kind: SpecialKind) -> Self {
-        match kind {
-            SpecialKind::Hopf => Self::Hopf,
-            SpecialKind::Fold => Self::Fold,
-            SpecialKind::PeriodDoubling => Self::PeriodDoubling,
-            SpecialKind::PeriodHalving => Self::PeriodHalving,
-            SpecialKind::BranchPoint => Self::BranchPoint,
-            SpecialKind::Torus => Self::Torus,
-        }
-    }
-}
+twins!(OverName => Parameter: Alpha | R);
+twins!(End => EndName: Reached | LongPeriod | Steady | Halved | ManyPoints | Lost | Interrupted);
+twins!(
+    SpecialKind => SpecialName:
+    Hopf | Fold | PeriodDoubling | PeriodHalving | BranchPoint | Torus
+);
 
 impl Tabular for ContinueFound {
     /// The cycles of all branches, in one table.
@@ -509,9 +477,7 @@ impl Tabular for ContinueFound {
 
     /// Arrays of the branches; a branch that was interrupted is marked as such.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let columns = self.columns().into_iter();
-        let columns = columns.filter_map(|(name, column)| Some((name, column.array()?)));
         let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
-        columns.chain(mark).collect()
+        as_arrays(self.columns()).chain(mark).collect()
     }
 }

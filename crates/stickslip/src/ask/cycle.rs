@@ -131,9 +131,7 @@ impl Cycle {
     fn judged(&self) -> Result<(), Refused> {
         Self::judge_tolerance(self.tolerance)?;
         if matches!(self.tip.0, TipFunction::Bessel) {
-            let value = Some("bessel".into());
-            let why = CycleError::NeverFades.to_string();
-            return Err(Refused { parameter: "tip".into(), value, why });
+            return Err(Refused::word("tip", "bessel", CycleError::NeverFades));
         }
         if !(1..=MOST_POINTS).contains(&self.points) {
             let why = format!("must be from 1 to {MOST_POINTS}");

@@ -36,8 +36,8 @@ pub fn failed(error: &StabilityError, advice: &str) -> Failure {
     match error {
         StabilityError::Stopped => Failure::Cancelled,
         StabilityError::TooFarApart { alpha, r } => {
-            let value = Some(format!("{} and {}", Typed(*alpha), Typed(*r)));
-            Refused { parameter: "alpha and r".into(), value, why: error.to_string() }.into()
+            let values = format!("{} and {}", Typed(*alpha), Typed(*r));
+            Refused::word("alpha and r", values, error).into()
         }
         error => Failure::Failed(format!("{error}; {advice}")),
     }

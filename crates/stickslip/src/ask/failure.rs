@@ -41,6 +41,23 @@ impl Refused {
         Self { parameter: parameter.into(), value, why: why.to_string() }
     }
 
+    /// The rejection of a word as value of a parameter.
+    pub fn word(
+        parameter: impl Into<Cow<'static, str>>,
+        value: impl Into<String>,
+        why: impl Display,
+    ) -> Self {
+        Self { parameter: parameter.into(), value: Some(value.into()), why: why.to_string() }
+    }
+
+    /// A number, if it is finite and above 0.
+    pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Self> {
+        if value.is_finite() && value > 0.0 {
+            return Ok(value);
+        }
+        Err(Self::number(parameter, value, "must be a finite number above 0"))
+    }
+
     /// The rejection of a parameter, without its value.
     pub fn whole(parameter: impl Into<Cow<'static, str>>, why: impl Display) -> Self {
         Self { parameter: parameter.into(), value: None, why: why.to_string() }

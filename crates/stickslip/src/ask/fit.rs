@@ -3,6 +3,7 @@
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Document, EstimateDocument, Failure, GaussianDocument, Question, Refused, Tip,
 };
@@ -239,35 +240,14 @@ impl Measured {
                 (source, Data::Wavelengths { velocity, load, wavelength })
             }
         };
-        let refused = |error| Refused {
-            parameter: "data".into(),
-            value: Some(source.clone()),
-            why: format!("{error}"),
-        };
+        let refused = |error| Refused::word("data", &source, error);
         let data = data.reduced().map_err(refused)?;
         Ok((source, data))
     }
 }
 
-impl From<FreeName> for Name {
-    fn from(name: FreeName) -> Self {
-        match name {
-            FreeName::Beta => Self::Beta,
-            FreeName::DepthLimit => Self::DepthLimit,
-            FreeName::HealingTime => Self::HealingTime,
-            FreeName::Inertia => Self::Inertia,
-        }
-    }
-}
-
-impl From<ScanName> for Scan {
-    fn from(scan: ScanName) -> Self {
-        match scan {
-            ScanName::Right => Self::Right,
-            ScanName::Left => Self::Left,
-        }
-    }
-}
+twins!(FreeName => Name: Beta | DepthLimit | HealingTime | Inertia);
+twins!(ScanName => Scan: Right | Left);
 
 /// A warning about a fit without a given footprint.
 const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
@@ -302,11 +282,7 @@ impl Fit {
         let mut known = Values::default();
         for name in Name::ALL {
             let Some(value) = self.known(name.word()) else { continue };
-            if !(value.is_finite() && value > 0.0) {
-                let why = "must be a finite number above 0";
-                return Err(Refused::number(name.word(), value, why));
-            }
-            known.set(name, value);
+            known.set(name, Refused::positive(name.word(), value)?);
         }
         Ok(known)
     }
@@ -389,11 +365,7 @@ impl Fit {
     /// The refusal of all data together.
     fn refused(&self, error: &FitError) -> Refused {
         let sources: Vec<&str> = self.data.iter().map(Measured::source).collect();
-        Refused {
-            parameter: "data".into(),
-            value: Some(sources.join(", ")),
-            why: error.to_string(),
-        }
+        Refused::word("data", sources.join(", "), error)
     }
 }
 
@@ -403,12 +375,7 @@ impl Ask for Fit {
             && self.tip.as_ref().is_some_and(|tip| beta(&tip.0).is_none())
         {
             let why = "β is that of the triple Gaussian: leave {tip} out";
-            return Err(Refused {
-                parameter: "free".into(),
-                value: Some("beta".into()),
-                why: why.into(),
-            }
-            .into());
+            return Err(Refused::word("free", "beta", why).into());
         }
         self.tip.iter().try_for_each(|tip| tip.judge_even("a fit"))?;
         let heals = self.all_known()?.get(Name::HealingTime).is_some();

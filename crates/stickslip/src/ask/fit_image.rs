@@ -1,9 +1,10 @@
 //! The question `fit-image`: α and r that explain an image of ripples.
 
 use super::lines::footprint;
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Document, EstimateDocument, Failure, MeasuredImage, Question, Refused, ScanName,
     Tip,
@@ -252,14 +253,14 @@ impl FitImage {
     /// σ.
     fn sigma(&self) -> Result<f64, Refused> {
         let why = "σ of the tip is needed: the ripples contain lengths only in relation to it";
-        positive("width", self.width.ok_or_else(|| Refused::whole("width", why))?)
+        Refused::positive("width", self.width.ok_or_else(|| Refused::whole("width", why))?)
     }
 
     /// The distance of the lines.
     fn distance(&self) -> Result<f64, Refused> {
         let y = &self.image.y;
         match self.pitch {
-            Some(pitch) => positive("pitch", pitch),
+            Some(pitch) => Refused::positive("pitch", pitch),
             None => Ok((y[y.len() - 1] - y[0]) / (y.len() - 1) as f64),
         }
     }
@@ -282,7 +283,7 @@ impl FitImage {
             }
             (length, Some(gain)) => Ok(Some(Lateral {
                 image,
-                length: length.or(Some(1.0 / positive("force_gain", gain)?)),
+                length: length.or(Some(1.0 / Refused::positive("force_gain", gain)?)),
             })),
             (length, None) => Ok(Some(Lateral { image, length })),
         }
@@ -324,7 +325,7 @@ impl FitImage {
     }
 
     fn request(&self) -> Result<RippleRequest, Refused> {
-        let one = |name, value: Option<f64>| value.map(|v| positive(name, v)).transpose();
+        let one = |name, value: Option<f64>| value.map(|v| Refused::positive(name, v)).transpose();
         Ok(RippleRequest {
             stiffness: one("stiffness_across", self.stiffness_across)?,
             frees_stiffness: self.free_stiffness_across,
@@ -349,13 +350,6 @@ fn heights(name: &'static str, image: &MeasuredImage) -> Result<Image, Refused> 
         return Err(Refused::whole(name, why));
     }
     Image::new(x, y, rows).map_err(|error| Refused::whole(name, error))
-}
-
-fn positive(name: &'static str, value: f64) -> Result<f64, Refused> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(value);
-    }
-    Err(Refused::number(name, value, "must be a finite number above 0"))
 }
 
 fn is_even(at: &[f64]) -> bool {
@@ -486,12 +480,7 @@ impl FitImageFound {
     }
 }
 
-impl From<RippleProfile> for RippleProfileDocument {
-    fn from(profile: RippleProfile) -> Self {
-        let RippleProfile { distance, height, error, model } = profile;
-        Self { distance, height, error, model }
-    }
-}
+twins!(RippleProfile => RippleProfileDocument { distance, height, error, model });
 
 impl Tabular for FitImageFound {
     /// The mean ripple.
@@ -507,9 +496,7 @@ impl Tabular for FitImageFound {
 
     /// The columns, and the levelled image.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let columns = self.columns().into_iter();
-        let mut arrays: Vec<_> =
-            columns.filter_map(|(name, column)| Some((name, column.array()?))).collect();
+        let mut arrays: Vec<_> = as_arrays(self.columns()).collect();
         let MeasuredImage { x, y, rows } = &self.levelled;
         arrays.extend([
             ("x", Array::vector(x)),

@@ -121,11 +121,9 @@ impl Friction {
             return Ok(None);
         }
         let one = |unit: &String| {
-            Unit::Length.one(unit).map(|one| NANO * one).ok_or_else(|| Refused {
-                parameter: "unit".into(),
-                value: Some(unit.clone()),
-                why: "must be m, mm, um, nm, pm or Å (angstrom)".into(),
-            })
+            let why = "must be m, mm, um, nm, pm or Å (angstrom)";
+            let one = Unit::Length.one(unit).map(|one| NANO * one);
+            one.ok_or_else(|| Refused::word("unit", unit, why))
         };
         self.unit.as_ref().map(one).transpose()
     }
@@ -133,10 +131,8 @@ impl Friction {
     /// The factor of the forces to nN, if it is known.
     fn nanonewtons(&self) -> Result<Option<f64>, Refused> {
         let of_unit = self.force_unit.as_deref().and_then(|unit| Unit::Force.one(unit));
-        match (self.sensitivity, of_unit) {
-            (Some(sensitivity), _) if !(sensitivity.is_finite() && sensitivity > 0.0) => {
-                Err(Refused::number("sensitivity", sensitivity, "must be a finite number above 0"))
-            }
+        let positive = |value| Refused::positive("sensitivity", value);
+        match (self.sensitivity.map(positive).transpose()?, of_unit) {
             (Some(sensitivity), Some(_)) => Err(Refused::number(
                 "sensitivity",
                 sensitivity,

@@ -50,11 +50,9 @@ fn common_width(tip: &TipFunction) -> Option<f64> {
 pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     match (length, law.healing_time) {
         (None, None) => Ok(1.0),
-        (Some(length), Some(_)) if length.is_finite() && length > 0.0 => {
-            Ok(law.left_after(length / r))
-        }
         (Some(length), Some(_)) => {
-            Err(Refused::number("length", length, "must be a finite number above 0"))
+            let length = Refused::positive("length", length)?;
+            Ok(law.left_after(length / r))
         }
         (None, Some(_)) => Err(Refused::whole(
             "length",
@@ -96,11 +94,7 @@ pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) ->
         StabilityError::NoSupport => Refused::whole("no_spring", error),
         StabilityError::Corner => Refused::whole("depth_limit", error),
         StabilityError::Wider(error) => (*error).into(),
-        StabilityError::HealingZigzag => Refused {
-            parameter: "path".into(),
-            value: Some("zigzag".into()),
-            why: error.to_string(),
-        },
+        StabilityError::HealingZigzag => Refused::word("path", "zigzag", error),
         StabilityError::PapersLawOnly(_)
         | StabilityError::EvenOnly(_)
         | StabilityError::NoRipples => Refused::whole("tip", error),

@@ -155,9 +155,7 @@ impl Question for LoadMap {
 impl LoadMap {
     fn judged(&self) -> Result<(), Refused> {
         for (name, value) in [("alpha", self.alpha), ("r", self.r), ("load", self.load)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Refused::number(name, value, "must be a finite number above 0"));
-            }
+            Refused::positive(name, value)?;
         }
         if !(0.0..=MOST_GROWTH).contains(&self.width_exponent) {
             let why = format!("must be from 0, a constant width, to {MOST_GROWTH}; 0.333 by Hertz");

@@ -190,18 +190,14 @@ impl MeasuredTip {
     /// The unit of the positions in m, if it is known.
     fn metres(&self) -> Result<Option<f64>, Refused> {
         let one = |unit: &String| {
-            Unit::Length.one(unit).ok_or_else(|| Refused {
-                parameter: "unit".into(),
-                value: Some(unit.clone()),
-                why: "must be m, mm, um, nm, pm or Å (angstrom)".into(),
-            })
+            let why = "must be m, mm, um, nm, pm or Å (angstrom)";
+            Unit::Length.one(unit).ok_or_else(|| Refused::word("unit", unit, why))
         };
         self.unit.as_ref().map(one).transpose()
     }
 
     /// Rejects numbers out of their range.
     fn judged(&self) -> Result<(), Refused> {
-        let is_beyond = |value: &f64| !(value.is_finite() && *value > 0.0);
         if let Some(centre) = self.centre.filter(|centre| !centre.is_finite()) {
             return Err(Refused::number("centre", centre, "must be a finite number"));
         }
@@ -210,9 +206,7 @@ impl MeasuredTip {
             return Err(Refused::whole("half and centre", why));
         }
         for (name, value) in [("sigma", self.sigma), ("r", Some(self.r))] {
-            if let Some(value) = value.filter(is_beyond) {
-                return Err(Refused::number(name, value, "must be a finite number above 0"));
-            }
+            value.map(|value| Refused::positive(name, value)).transpose()?;
         }
         if self.terms == Some(0) {
             return Err(Refused::number("terms", 0.0, "must be 1 or more"));

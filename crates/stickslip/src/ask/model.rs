@@ -2,6 +2,7 @@
 
 use crate::parameter::{NOTHING_DRAGS, option};
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{Refused, Unusable};
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{
@@ -53,17 +54,8 @@ pub struct GaussianDocument {
     pub width: f64,
 }
 
-impl From<&GaussianDocument> for Gaussian {
-    fn from(g: &GaussianDocument) -> Self {
-        Self { amplitude: g.amplitude, center: g.center, width: g.width }
-    }
-}
-
-impl From<&Gaussian> for GaussianDocument {
-    fn from(g: &Gaussian) -> Self {
-        Self { amplitude: g.amplitude, center: g.center, width: g.width }
-    }
-}
+twins!(&GaussianDocument => Gaussian { amplitude, center, width });
+twins!(&Gaussian => GaussianDocument { amplitude, center, width });
 
 impl From<&TipFunction> for TipDocument {
     fn from(tip: &TipFunction) -> Self {
@@ -193,11 +185,7 @@ impl Law {
     pub(crate) fn fading(self, tip: &TipFunction) -> Result<(), Refused> {
         if *tip == TipFunction::Cosine && self.healing_time.is_none() {
             let why = "never decays, so that the groove integral of steady motion diverges: give {healing_time}";
-            return Err(Refused {
-                parameter: "tip".into(),
-                value: Some("cosine".into()),
-                why: why.into(),
-            });
+            return Err(Refused::word("tip", "cosine", why));
         }
         Ok(())
     }

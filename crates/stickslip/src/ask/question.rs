@@ -63,10 +63,8 @@ impl NamedTip {
         if let Some((width, name)) = self.width.zip(endless) {
             return unused("width", width, name);
         }
-        let (b, w) = (self.beta.unwrap_or(1.0), self.width.unwrap_or(1.0));
-        if !(w.is_finite() && w > 0.0) {
-            return Err(Refused::number("width", w, "must be a finite number above 0"));
-        }
+        let b = self.beta.unwrap_or(1.0);
+        let w = Refused::positive("width", self.width.unwrap_or(1.0))?;
         let width = |error| Refused::number("width", w, error);
         match name {
             TipName::Bessel => Ok(TipFunction::Bessel),

@@ -4,6 +4,7 @@ use super::lines::footprint;
 use crate::documents::table::Array;
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Document, Failure, HeightMap, Indentation, Law, MemoryName, ModelParameters,
     PulseParameters, Question, RasterFound, Refused, Sampling, Tip, Typed, Unusable,
@@ -155,38 +156,6 @@ impl AreaDocument {
 }
 
 impl Raster {
-    /// The question that corresponds to a plan.
-    ///
-    /// # Errors
-    /// The footprint is invalid.
-    pub fn of(
-        plan: &Plan,
-        model: &ModelParameters,
-        width_y: Option<f64>,
-    ) -> Result<Self, Unusable> {
-        Ok(Self {
-            tip: Tip(model.tip.tip()?),
-            indentation: Indentation { alpha: Some(model.alpha), alpha_above: model.alpha_above },
-            r: model.r,
-            law: model.law,
-            width_y,
-            path: plan.path.into(),
-            pitch: plan.area.pitch(plan.path),
-            lines: plan.lines(),
-            length: plan.area.longest(),
-            area: match &plan.area {
-                Area::Lines(lines) => Some(AreaDocument::of(lines)),
-                Area::Rectangle { .. } => None,
-            },
-            pulses: plan.disturbance.pulses().iter().copied().map(Into::into).collect(),
-            tolerance: plan.law.tolerance,
-            memory: plan.law.memory.into(),
-            stiffness_across: plan.free.as_ref().map(|free| free.stiffness),
-            kick_across: plan.free.as_ref().map(|free| free.kick).filter(|kick| kick.abs() > 0.0),
-            sampling: Sampling::default(),
-        })
-    }
-
     /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
@@ -266,10 +235,7 @@ impl Raster {
             RasterError::AreaLine { .. }
             | RasterError::Extent { .. }
             | RasterError::Crowded { .. } => Refused::whole("area", error),
-            RasterError::RepeatedArea => {
-                let value = Some("repeat".into());
-                Refused { parameter: "path".into(), value, why: error.to_string() }
-            }
+            RasterError::RepeatedArea => Refused::word("path", "repeat", error),
             RasterError::NoSpring => Refused::whole("no_spring", error),
             RasterError::NeverFades | RasterError::Section => Refused::whole("tip", error),
             RasterError::Line { error: RunError::Tolerance(tolerance), .. } => {
@@ -277,8 +243,7 @@ impl Raster {
             }
             RasterError::Line { error: RunError::Modes(error), .. }
             | RasterError::Free { error: PlanarError::Fit(error), .. } => {
-                let value = Some("modes".into());
-                Refused { parameter: "memory".into(), value, why: error.to_string() }
+                Refused::word("memory", "modes", error)
             }
             RasterError::Line { .. } => of_area("length", self.length),
             RasterError::Free { error: PlanarError::Kick(kick), .. } => {
@@ -326,9 +291,8 @@ impl Raster {
                 Refused::number("sample_every", every, format!("{why}; take {least:.3e} or more"))
             }
             None => {
-                let value = Some(format!("with {} times", Typed(each)));
-                let why = format!("{why}; take at most {most}");
-                Refused { parameter: "sample_at".into(), value, why }
+                let value = format!("with {} times", Typed(each));
+                Refused::word("sample_at", value, format!("{why}; take at most {most}"))
             }
         }
     }
@@ -407,22 +371,4 @@ impl Document<Raster> {
     }
 }
 
-impl From<Path> for PathName {
-    fn from(path: Path) -> Self {
-        match path {
-            Path::OneWay => Self::OneWay,
-            Path::Zigzag => Self::Zigzag,
-            Path::Repeat => Self::Repeat,
-        }
-    }
-}
-
-impl From<PathName> for Path {
-    fn from(name: PathName) -> Self {
-        match name {
-            PathName::OneWay => Self::OneWay,
-            PathName::Zigzag => Self::Zigzag,
-            PathName::Repeat => Self::Repeat,
-        }
-    }
-}
+twins!(PathName => Path: OneWay | Zigzag | Repeat);

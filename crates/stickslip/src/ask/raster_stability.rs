@@ -5,6 +5,7 @@ use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Document, Failure, Indentation, Law, ModelParameters, PathName, Question,
     Refused, Tip,
@@ -117,8 +118,7 @@ impl RasterStability {
             (PathName::Repeat, None) if !law.is_papers() => {
                 let why = "linear theory of a repeated line covers the basic model only: leave out {depth_limit}, \
                            {healing_time} and {inertia}";
-                let value = Some("repeat".into());
-                return Err(Refused { parameter: "path".into(), value, why: why.into() }.into());
+                return Err(Refused::word("path", "repeat", why).into());
             }
             // That of no other line.
             (PathName::Repeat, None) => 1e6,
@@ -317,23 +317,10 @@ impl RasterKindName {
     }
 }
 
-impl From<RasterKind> for RasterKindName {
-    fn from(kind: RasterKind) -> Self {
-        match kind {
-            RasterKind::Ripples => Self::Ripples,
-            RasterKind::Bunching => Self::Bunching,
-            RasterKind::Snaking => Self::Snaking,
-        }
-    }
-}
-
-impl From<&RasterCertificate> for RasterCertificateDocument {
-    fn from(certificate: &RasterCertificate) -> Self {
-        let RasterCertificate { tolerance, cells, margin, growing_below, growing_above } =
-            *certificate;
-        Self { tolerance, cells, margin, growing_below, growing_above }
-    }
-}
+twins!(RasterKind => RasterKindName: Ripples | Bunching | Snaking);
+twins!(
+    &RasterCertificate => RasterCertificateDocument { tolerance, cells, margin, growing_below, growing_above }
+);
 
 impl Tabular for RasterStabilityFound {
     /// The growth as a table over wave numbers; without α the critical ripple, or the thresholds of all kinds.

@@ -1,6 +1,6 @@
 //! The question `raster-sweep`: the pattern that a raster writes, over a grid of pitch and α.
 
-use super::lines::footprint;
+use super::lines::{footprint, raster};
 use super::points::{Points, all_points};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use stickslip_raster::{
     Free, Line, LineRegime, Path, Plan, RasterError, Scanning, line_regime, pattern,
 };
-use stickslip_stability::{Raster, RasterPath};
+use stickslip_stability::RasterPath;
 use stickslip_tip::{Model, RunError, Wider};
 
 const MOST_POINTS: usize = 100_000;
@@ -87,12 +87,8 @@ impl Ask for RasterSweep {
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
         if self.path == PathName::Repeat {
-            return Err(Refused {
-                parameter: "path".into(),
-                value: Some("repeat".into()),
-                why: "a repeated line has no pitch: take one-way or zigzag".into(),
-            }
-            .into());
+            let why = "a repeated line has no pitch: take one-way or zigzag";
+            return Err(Refused::word("path", "repeat", why).into());
         }
         for (name, values) in [("pitch", &self.pitch), ("alpha", &self.alpha)] {
             if values.is_empty() {
@@ -179,11 +175,10 @@ impl RasterSweep {
             (RasterError::Line { error: tolerance @ RunError::Tolerance(_), .. }, _) => {
                 Refused::number("tolerance", self.tolerance, tolerance)
             }
-            _ => Refused {
-                parameter: "pitch and alpha and r".into(),
-                value: Some([pitch, alpha, self.r].map(|v| Typed(v).to_string()).join(" and ")),
-                why: error.to_string(),
-            },
+            _ => {
+                let values = [pitch, alpha, self.r].map(|v| Typed(v).to_string());
+                Refused::word("pitch and alpha and r", values.join(" and "), error)
+            }
         })?;
         Ok(plan)
     }
@@ -217,11 +212,8 @@ impl RasterSweep {
         let law: Wider = self.law.into();
         let left = law.left_after(self.length / self.r);
         let (footprint, _) = footprint(self.width_y, &self.tip.0).ok()?;
-        let held = Raster::new(&footprint, law, (self.r, pitch), left).ok()?;
-        let raster = match self.stiffness_across {
-            None => held,
-            Some(stiffness) => held.with_stiffness_across(stiffness).ok()?,
-        };
+        let across = (left, self.stiffness_across);
+        let raster = raster(&footprint, law, (self.r, pitch), across).ok()?;
         Some(raster.critical(path).ok()?.alpha)
     }
 }

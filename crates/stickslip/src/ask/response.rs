@@ -1,7 +1,7 @@
 //! The question `response`: the effect of weak pulses on steady motion, to first order.
 
 use super::exponents::{failed, judge_count, remarks};
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
@@ -295,8 +295,6 @@ impl Tabular for ResponseFound {
 
     /// The samples and the modes, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let samples = self.columns().into_iter();
-        let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
         let of = |name, of: fn(&ModeDocument) -> f64| {
             (name, Array::vector(self.modes.iter().map(of).collect::<Vec<_>>()))
         };
@@ -306,6 +304,6 @@ impl Tabular for ResponseFound {
             of("residue_re", |m| m.residue.re),
             of("residue_im", |m| m.residue.im),
         ];
-        samples.chain(modes).collect()
+        as_arrays(self.columns()).chain(modes).collect()
     }
 }

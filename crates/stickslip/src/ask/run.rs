@@ -5,6 +5,7 @@ use super::lines::footprint;
 use super::run_found::{RunFound, became, sampled};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     Ask, Context, Document, FARTHEST, Failure, History, Indentation, Law, ModelParameters,
     Question, Refused, RunEnd, Samples, Sampling, SteadyState, Tip, Typed, Unusable,
@@ -333,28 +334,6 @@ impl Run {
         }
     }
 
-    /// The question that corresponds to a scenario; its force is given as its components, pulses and a table (t,
-    /// force).
-    pub fn of(scenario: &Scenario, pulses: &[Pulse], force: Option<(Vec<f64>, Vec<f64>)>) -> Self {
-        let model = &scenario.model;
-        let (tip, alpha) = (Tip(model.tip().clone()), Indentation::given(model.alpha()));
-        Self {
-            law: (*model.wider()).into(),
-            start: Some(scenario.start.into()),
-            start_position: scenario.start_position,
-            kick: scenario.kick,
-            support_path: scenario.path.as_ref().map(Into::into),
-            start_velocity: scenario.start_velocity,
-            noise: scenario.noise.map(Into::into),
-            initial_surface: scenario.profile.clone().map(|(x, u)| Profile { x, u }),
-            pulses: pulses.iter().copied().map(Into::into).collect(),
-            force: force.map(|(t, force)| ForceTable { t, force }),
-            tolerance: scenario.tolerance,
-            memory: scenario.memory.into(),
-            ..Self::new(tip, alpha, model.r(), scenario.until)
-        }
-    }
-
     /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
         ModelParameters::asked(&self.tip, self.indentation, self.r.unwrap_or(f64::NAN), self.law)
@@ -418,7 +397,7 @@ impl Run {
         let Some(hold) = &self.hold else { return Ok(self) };
         let refused = |why: String| {
             let value: Vec<String> = hold.iter().map(|time| Typed(*time).to_string()).collect();
-            Refused { parameter: "hold".into(), value: Some(value.join(",")), why }
+            Refused::word("hold", value.join(","), why)
         };
         let [slide, held] = match **hold {
             [slide, held] if [slide, held].iter().all(|t| t.is_finite() && *t > 0.0) => {
@@ -570,10 +549,7 @@ impl Run {
             PlanarError::Products(_) | PlanarError::NeverFades => {
                 Refused::whole("tip", error).into()
             }
-            PlanarError::Fit(_) => {
-                let value = Some("modes".into());
-                Refused { parameter: "memory".into(), value, why: error.to_string() }.into()
-            }
+            PlanarError::Fit(_) => Refused::word("memory", "modes", error).into(),
             error => Failure::Failed(error.to_string()),
         }
     }
@@ -622,10 +598,7 @@ impl Run {
     /// The rejection of the parameter that caused this error; or the failure.
     pub fn refused(&self, error: &RunError) -> Failure {
         let number = |name: &'static str, value: f64| Refused::number(name, value, error);
-        let named = |name: &'static str, value: &str| {
-            let value = Some(value.into());
-            Refused { parameter: name.into(), value, why: error.to_string() }
-        };
+        let named = |name: &'static str, value: &str| Refused::word(name, value, error);
         let refused = match error {
             RunError::TooFar { .. } if self.start_position.abs() > 1e3 => {
                 number("start_position", self.start_position)
@@ -749,13 +722,6 @@ impl Ask for Run {
     }
 }
 
-impl From<&SupportPath> for SupportPathParameters {
-    fn from(path: &SupportPath) -> Self {
-        let (t, displacement) = path.knots();
-        Self { t: t.to_vec(), displacement: displacement.to_vec() }
-    }
-}
-
 impl SupportPathParameters {
     pub(crate) fn path(&self) -> Result<SupportPath, RunError> {
         SupportPath::new(self.t.clone(), self.displacement.clone()).map_err(RunError::from)
@@ -773,38 +739,9 @@ impl SurfaceTable {
     }
 }
 
-impl From<Pulse> for PulseParameters {
-    fn from(pulse: Pulse) -> Self {
-        Self { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
-    }
-}
-
-impl From<&PulseParameters> for Pulse {
-    fn from(pulse: &PulseParameters) -> Self {
-        Self { amplitude: pulse.amplitude, time: pulse.time, width: pulse.width }
-    }
-}
-
-impl From<Noise> for NoiseParameters {
-    fn from(noise: Noise) -> Self {
-        Self { amplitude: noise.amplitude, spacing: noise.spacing, seed: noise.seed }
-    }
-}
-
-impl From<&NoiseParameters> for Noise {
-    fn from(noise: &NoiseParameters) -> Self {
-        Self { amplitude: noise.amplitude, spacing: noise.spacing, seed: noise.seed }
-    }
-}
-
-impl From<Start> for StartName {
-    fn from(start: Start) -> Self {
-        match start {
-            Start::Steady => Self::Steady,
-            Start::Flat => Self::Flat,
-        }
-    }
-}
+twins!(Pulse => PulseParameters { amplitude, time, width });
+twins!(&PulseParameters => Pulse { amplitude, time, width });
+twins!(&NoiseParameters => Noise { amplitude, spacing, seed });
 
 impl From<StartName> for Start {
     fn from(name: StartName) -> Self {
@@ -816,24 +753,4 @@ impl From<StartName> for Start {
     }
 }
 
-impl From<MemoryChoice> for MemoryName {
-    fn from(memory: MemoryChoice) -> Self {
-        match memory {
-            MemoryChoice::Auto => Self::Auto,
-            MemoryChoice::Direct => Self::Direct,
-            MemoryChoice::Fft => Self::Fft,
-            MemoryChoice::Modes => Self::Modes,
-        }
-    }
-}
-
-impl From<MemoryName> for MemoryChoice {
-    fn from(name: MemoryName) -> Self {
-        match name {
-            MemoryName::Auto => Self::Auto,
-            MemoryName::Direct => Self::Direct,
-            MemoryName::Fft => Self::Fft,
-            MemoryName::Modes => Self::Modes,
-        }
-    }
-}
+twins!(MemoryName => MemoryChoice: Auto | Direct | Fft | Modes);

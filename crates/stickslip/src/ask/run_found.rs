@@ -1,7 +1,8 @@
 //! The result of a run.
 
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{
     CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
     SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
@@ -151,7 +152,7 @@ pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Samples {
 }
 
 /// l, x0 and x0' at one time.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleLine {
     /// Time, in Γ/k.
@@ -194,8 +195,7 @@ impl SampleLine {
             velocity: step.velocity(t),
             height,
             weight: height.map(|height| wider.weight(height)),
-            y0: None,
-            velocity_y: None,
+            ..Self::default()
         }
     }
 }
@@ -267,11 +267,7 @@ pub struct LoopDocument {
     pub work: f64,
 }
 
-impl From<Loop> for LoopDocument {
-    fn from(Loop { from, to, work }: Loop) -> Self {
-        Self { from, to, work }
-    }
-}
+twins!(Loop => LoopDocument { from, to, work });
 
 /// A rest of the support.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -455,8 +451,6 @@ impl Tabular for RunFound {
 
     /// The samples, and the history if it is present, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let samples = self.columns().into_iter();
-        let samples = samples.filter_map(|(name, column)| Some((name, column.array()?)));
-        samples.chain(self.history.iter().flat_map(History::arrays)).collect()
+        as_arrays(self.columns()).chain(self.history.iter().flat_map(History::arrays)).collect()
     }
 }

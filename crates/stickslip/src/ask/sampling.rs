@@ -57,16 +57,14 @@ impl Sampling {
                 Ok(Times::Every { start, every, end, intervals: DEFAULT_INTERVALS })
             }
             (None, Some(every)) => {
-                let refused = |why: String| Err(Refused::number("sample_every", every, why));
-                if !(every.is_finite() && every > 0.0) {
-                    return refused("must be a finite number above 0".into());
-                }
+                let every = Refused::positive("sample_every", every)?;
                 let count = (end - start) / every;
                 if count > most(are_kept) {
                     let least = (end - start) / most(are_kept);
-                    return refused(format!(
+                    let why = format!(
                         "would make {count:.1e} samples, more than fit in memory; take {least:.3e} or more"
-                    ));
+                    );
+                    return Err(Refused::number("sample_every", every, why));
                 }
                 Ok(Times::Every { start, every, end, intervals: intervals(count) })
             }

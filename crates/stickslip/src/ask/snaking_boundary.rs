@@ -155,9 +155,7 @@ impl SnakingBoundary {
         }
         let (parameter, value) = fixed;
         let fixed = value.ok_or_else(|| Refused::whole(parameter, "is needed: its fixed value"))?;
-        if !(fixed.is_finite() && fixed > 0.0) {
-            return Err(Refused::number(parameter, fixed, "must be a finite number above 0"));
-        }
+        let fixed = Refused::positive(parameter, fixed)?;
         Ok(Line { name, ends, over_stiffness, fixed })
     }
 

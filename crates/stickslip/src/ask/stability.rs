@@ -145,11 +145,7 @@ impl Stability {
         }
         if !law.is_papers() {
             let why = "rc(α) is available for the basic model only: give {r}, for αc(r)";
-            return Err(Refused {
-                parameter: "solve_for".into(),
-                value: Some("r".into()),
-                why: why.into(),
-            });
+            return Err(Refused::word("solve_for", "r", why));
         }
         match self.indentation.alpha_above {
             Some(above) => {

@@ -6,6 +6,7 @@ use super::exponents::failed;
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{FORMAT_VERSION, Failure, Indentation, Refused, Software, Tip};
 use serde::{Deserialize, Serialize};
 use solve::{Given, INDENTATION_RATE, QUANTITIES, QUANTITIES_TOGETHER, is_allowed};
@@ -270,29 +271,10 @@ pub struct CriticalUnits {
     pub velocity: Option<f64>,
 }
 
-impl From<&Physical> for PhysicalDocument {
-    fn from(physical: &Physical) -> Self {
-        Self {
-            damping: physical.damping,
-            stiffness: physical.stiffness,
-            tip_width: physical.tip_width,
-            indentation_rate: physical.indentation_rate,
-            slope_force: physical.slope_force,
-            velocity: physical.velocity,
-        }
-    }
-}
-
-impl From<Scales> for ScalesDocument {
-    fn from(scales: Scales) -> Self {
-        Self {
-            length: scales.length,
-            time: scales.time,
-            height: scales.height,
-            force: scales.force,
-        }
-    }
-}
+twins!(
+    &Physical => PhysicalDocument { damping, stiffness, tip_width, indentation_rate, slope_force, velocity }
+);
+twins!(Scales => ScalesDocument { length, time, height, force });
 
 impl UnitsDocument {
     /// All quantities: name, value if there is one, and unit.

@@ -349,17 +349,8 @@ fn remarks(question: &Walker, scenario: &WalkerScenario) -> Vec<String> {
 
 fn sample(trajectory: &WalkerTrajectory, t: f64) -> SampleLine {
     let ([x, y], [u, v]) = (trajectory.position(t), trajectory.velocity(t));
-    SampleLine {
-        t,
-        l: None,
-        lag: None,
-        x0: x,
-        velocity: u,
-        height: None,
-        weight: None,
-        y0: Some(y),
-        velocity_y: Some(v),
-    }
+    let (y0, velocity_y) = (Some(y), Some(v));
+    SampleLine { t, x0: x, velocity: u, y0, velocity_y, ..SampleLine::default() }
 }
 
 impl OrbitDocument {

@@ -78,7 +78,7 @@ pub struct FigureParameters {
 }
 
 /// Axes with curves, a map or cells.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PanelDocument {
     /// Heading above the axes; may be empty.
@@ -127,17 +127,8 @@ impl PanelDocument {
             heading: heading.into(),
             x_label: x_label.into(),
             y_label: y_label.into(),
-            curves: vec![],
-            map: None,
-            y_range: None,
-            x_range: None,
-            x_scale: ScaleName::Linear,
-            y_scale: ScaleName::Linear,
-            cells: None,
-            notes: vec![],
-            shades: vec![],
-            natural: None,
             span: 1,
+            ..Self::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The regime at the end of a run, as stored in documents.
 
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime, Snaking};
 use stickslip_surface::Ripple;
@@ -23,17 +24,7 @@ pub enum RegimeName {
     Transient,
 }
 
-impl From<Regime> for RegimeName {
-    fn from(regime: Regime) -> Self {
-        match regime {
-            Regime::Steady => Self::Steady,
-            Regime::StickSlip => Self::StickSlip,
-            Regime::Trapped => Self::Trapped,
-            Regime::Drifting => Self::Drifting,
-            Regime::Transient => Self::Transient,
-        }
-    }
-}
+twins!(Regime => RegimeName: Steady | StickSlip | Trapped | Drifting | Transient);
 
 impl std::fmt::Display for RegimeName {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -110,11 +101,7 @@ pub struct CreepDocument {
     pub attracting: f64,
 }
 
-impl From<Creeping> for CreepDocument {
-    fn from(Creeping { rate, attracting }: Creeping) -> Self {
-        Self { rate, attracting }
-    }
-}
+twins!(Creeping => CreepDocument { rate, attracting });
 
 /// The velocity of a tip without a spring.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -126,11 +113,7 @@ pub struct DriftDocument {
     pub velocity_error: f64,
 }
 
-impl From<Drift> for DriftDocument {
-    fn from(Drift { velocity, velocity_error }: Drift) -> Self {
-        Self { velocity, velocity_error }
-    }
-}
+twins!(Drift => DriftDocument { velocity, velocity_error });
 
 /// The periodic motion of a tip that oscillates across the scan. Amplitudes are half peak-to-peak. The limit of the
 /// motion lies within the error of each number, provided that its changes from period to period decay geometrically.

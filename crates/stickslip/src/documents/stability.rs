@@ -2,6 +2,7 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use serde::{Deserialize, Deserializer, Serialize};
 use stickslip_stability::{
     Certificate, Creep, Critical, Criticality, Onset, OnsetKind, SnakingCritical,
@@ -214,14 +215,7 @@ impl CriticalDocument {
     }
 }
 
-impl From<OnsetKind> for OnsetKindName {
-    fn from(kind: OnsetKind) -> Self {
-        match kind {
-            OnsetKind::Smooth => Self::Smooth,
-            OnsetKind::NonSmooth => Self::NonSmooth,
-        }
-    }
-}
+twins!(OnsetKind => OnsetKindName: Smooth | NonSmooth);
 
 impl From<&Certificate> for CertificateDocument {
     fn from(certificate: &Certificate) -> Self {
@@ -238,21 +232,8 @@ impl From<&Certificate> for CertificateDocument {
     }
 }
 
-impl From<Criticality> for CriticalityName {
-    fn from(criticality: Criticality) -> Self {
-        match criticality {
-            Criticality::Supercritical => Self::Supercritical,
-            Criticality::Subcritical => Self::Subcritical,
-        }
-    }
-}
-
-impl From<SnakingCritical> for SnakingDocument {
-    fn from(critical: SnakingCritical) -> Self {
-        let SnakingCritical { alpha, omega, wavelength, .. } = critical;
-        Self { alpha, omega, wavelength }
-    }
-}
+twins!(Criticality => CriticalityName: Supercritical | Subcritical);
+twins!(SnakingCritical => SnakingDocument { alpha, omega, wavelength });
 
 impl From<&Onset> for OnsetDocument {
     fn from(onset: &Onset) -> Self {

@@ -5,7 +5,7 @@ mod ensemble;
 mod point;
 mod points;
 
-use crate::documents::table::{Array, Column, Named, Rows, Tabular};
+use crate::documents::table::{Array, Column, Named, Rows, Tabular, as_arrays};
 use crate::schema::JsonSchema;
 use crate::{Document, InUnits, Law, Question, StartName, Tip};
 pub use axis::{AxisDocument, AxisName};
@@ -172,8 +172,7 @@ impl Tabular for SweepDocument {
     }
 
     fn each_array(&self) -> Box<dyn Iterator<Item = (&'static str, Array<'_>)> + '_> {
-        let columns = self.columns().into_iter();
-        Box::new(columns.filter_map(|(name, column)| Some((name, column.array()?))))
+        Box::new(as_arrays(self.columns()))
     }
 }
 

@@ -100,14 +100,20 @@ pub trait Tabular {
 
     /// The arrays; by default the columns.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let columns = self.columns();
-        columns.into_iter().filter_map(|(name, column)| Some((name, column.array()?))).collect()
+        as_arrays(self.columns()).collect()
     }
 
     /// The same arrays, of which a document with many rows makes one at a time.
     fn each_array(&self) -> Box<dyn Iterator<Item = (&'static str, Array<'_>)> + '_> {
         Box::new(self.arrays().into_iter())
     }
+}
+
+/// The columns as arrays, without words that have no numbers.
+pub(crate) fn as_arrays(
+    columns: Vec<Named<'_>>,
+) -> impl Iterator<Item = (&'static str, Array<'_>)> {
+    columns.into_iter().filter_map(|(name, column)| Some((name, column.array()?)))
 }
 
 impl<'a> Column<'a> {

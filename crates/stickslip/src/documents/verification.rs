@@ -1,6 +1,7 @@
 //! Comparison of a run with a repetition.
 
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use serde::{Deserialize, Serialize};
 use stickslip_verify::{Difference, Verification};
 
@@ -91,9 +92,4 @@ impl From<&Verification> for VerificationDocument {
     }
 }
 
-impl From<&Difference> for LargestDifferenceDocument {
-    fn from(difference: &Difference) -> Self {
-        let Difference { largest, at, allowed } = *difference;
-        Self { largest, at, allowed }
-    }
-}
+twins!(&Difference => LargestDifferenceDocument { largest, at, allowed });

@@ -1,6 +1,6 @@
 //! `stickslip/raster-compare`.
 
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::schema::JsonSchema;
 use crate::{DifferenceDocument, Document, GridName, GridWork, Question, Raster};
 use serde::{Deserialize, Serialize};
@@ -185,9 +185,7 @@ impl Tabular for RasterCompareFound {
 
     /// Motions one after the other, and both surfaces, as arrays.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
-        let columns = self.columns().into_iter();
-        let mut arrays: Vec<_> =
-            columns.filter_map(|(name, column)| Some((name, column.array()?))).collect();
+        let mut arrays: Vec<_> = as_arrays(self.columns()).collect();
         arrays.extend([
             ("x", Array::vector(&self.x)),
             ("y", Array::vector(&self.y)),

@@ -2,6 +2,7 @@
 
 use crate::documents::table::Array;
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use crate::{History, Unusable};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -338,12 +339,4 @@ fn step(numbers: &[f64; 3 + STAGES]) -> Step {
     Step { t, h, extension, displacement, height: None }
 }
 
-impl From<LineRegime> for LineRegimeName {
-    fn from(regime: LineRegime) -> Self {
-        match regime {
-            LineRegime::Steady => Self::Steady,
-            LineRegime::StickSlip => Self::StickSlip,
-            LineRegime::StuckAtTheEdge => Self::StuckAtTheEdge,
-        }
-    }
-}
+twins!(LineRegime => LineRegimeName: Steady | StickSlip | StuckAtTheEdge);

@@ -1,6 +1,7 @@
 //! The pattern of a raster.
 
 use crate::schema::JsonSchema;
+use crate::twins::twins;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Pattern, Regime};
 
@@ -102,19 +103,10 @@ impl From<Pattern> for PatternDocument {
     }
 }
 
-impl From<Regime> for RasterRegimeName {
-    fn from(regime: Regime) -> Self {
-        match regime {
-            Regime::Steady => Self::Steady,
-            Regime::Ripples => Self::Ripples,
-            Regime::Bunched => Self::Bunched,
-            Regime::Pits => Self::Pits,
-            Regime::Disordered => Self::Disordered,
-            Regime::StuckAtTheEdge => Self::StuckAtTheEdge,
-            Regime::Unknown => Self::Unknown,
-        }
-    }
-}
+twins!(
+    Regime => RasterRegimeName:
+    Steady | Ripples | Bunched | Pits | Disordered | StuckAtTheEdge | Unknown
+);
 
 impl std::fmt::Display for RasterRegimeName {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -22,7 +22,7 @@ pub struct RasterSweepFound {
 }
 
 /// One raster of the grid.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterSweepPoint {
     /// Index in the grid.
@@ -50,17 +50,7 @@ impl RasterSweepPoint {
     /// A point without results.
     #[must_use]
     pub fn at(index: usize, (pitch, alpha): (f64, f64), critical_alpha: Option<f64>) -> Self {
-        Self {
-            index,
-            pitch,
-            alpha,
-            critical_alpha,
-            regime: None,
-            pattern: None,
-            stuck_lines: None,
-            remarks: vec![],
-            error: None,
-        }
+        Self { index, pitch, alpha, critical_alpha, ..Self::default() }
     }
 
     /// The point with its results.

@@ -29,7 +29,7 @@ impl std::fmt::Display for SourceName {
 }
 
 /// One point of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepPoint {
     /// Index in the grid.
@@ -100,32 +100,7 @@ pub struct SweepPoint {
 impl SweepPoint {
     /// A point without results: its index, β, r and α.
     pub fn at(index: usize, beta: Option<f64>, r: f64, alpha: Option<f64>) -> Self {
-        Self {
-            index,
-            width: None,
-            beta,
-            r,
-            alpha,
-            at: vec![],
-            critical_alpha: None,
-            regime: None,
-            source: None,
-            period: None,
-            period_error: None,
-            wavelength: None,
-            wavelength_error: None,
-            amplitude_x0: None,
-            amplitude_x0_error: None,
-            amplitude_u: None,
-            amplitude_u_error: None,
-            mean_l: None,
-            deviation_l: None,
-            slip_distance: None,
-            slip_distance_error: None,
-            slips: None,
-            multiplier: None,
-            error: None,
-        }
+        Self { index, beta, r, alpha, ..Self::default() }
     }
 
     /// Adds the motion that the tip settles into at this point.

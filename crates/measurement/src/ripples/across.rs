@@ -13,19 +13,13 @@
 //! wavelength with weights from the transform of the kernel: exact for what the points resolve. Sums of products f have a sum
 //! of such terms.
 
-use super::travelling::{Lines, Unknowns};
+use super::travelling::{HARMONICS_ACROSS as HARMONICS, Lines, POINTS_ACROSS as POINTS, Unknowns};
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
 use std::f64::consts::TAU;
 use stickslip_tip::{Across, Layer};
 
 type Complex64 = Complex<f64>;
 
-/// Harmonics of s and Y.
-const HARMONICS: usize = 10;
-/// Points of a wavelength.
-const POINTS: usize = 2 * HARMONICS + 1;
-/// Numbers of both.
-pub(super) const SIZE: (usize, usize) = (HARMONICS, POINTS);
 /// Largest number of iterations for a neutral wave.
 const ITERATIONS: usize = 30;
 /// The residual at which Newton's method ends.

@@ -17,7 +17,6 @@
 //! f(x,y) = f(x) h(y); a sum of such products has a sum of second terms. Its first order is the linear theory of rasters. For given r, κ and
 //! c_1 the equation determines α, q and the other harmonics. It holds as long as the tip only moves forward.
 
-use super::across;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::{Footprint, Layer, TipFunction};
@@ -28,6 +27,9 @@ type Complex64 = Complex<f64>;
 const HARMONICS: usize = 16;
 /// Points of a wavelength: the product with θ' of 1/θ' is free of aliasing well beyond the harmonics kept.
 const POINTS: usize = 4 * HARMONICS;
+/// Harmonics of s and Y of a tip that gives way across the lines, and points of a wavelength.
+pub(super) const HARMONICS_ACROSS: usize = 10;
+pub(super) const POINTS_ACROSS: usize = 2 * HARMONICS_ACROSS + 1;
 /// Points of a wavelength for the lag as a function of the position of the support.
 const LAG_POINTS: usize = 256;
 /// Largest number of Newton iterations, and the residual at which they end.
@@ -185,8 +187,11 @@ impl Lines {
         swing: f64,
         near: Result<&Travelling, f64>,
     ) -> Option<Travelling> {
-        let (harmonics, points) =
-            if self.stiffness.is_some() { across::SIZE } else { (HARMONICS, 0) };
+        let (harmonics, points) = if self.stiffness.is_some() {
+            (HARMONICS_ACROSS, POINTS_ACROSS)
+        } else {
+            (HARMONICS, 0)
+        };
         let mut at = match near {
             Ok(near) => near.unknowns.clone(),
             Err(q) => {

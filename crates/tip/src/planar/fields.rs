@@ -3,9 +3,8 @@
 //! It is valid for motion in both directions and for any g. A change of the center applies T to the densities of all layers,
 //! cell by cell.
 
+use super::layered::{Integrals, Layered};
 use super::layers::{LANES, Lanes, recenter};
-use super::modes::Integrals;
-use super::past::Layered;
 use super::visits::{restore_steady, save_steady};
 use crate::TipFunction;
 use crate::memory::{Fading, Fft, SteadyPast};

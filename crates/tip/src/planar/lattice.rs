@@ -11,9 +11,8 @@
 //! directions. They cost more than exponentials, which are valid on one side only, and yield no series.
 
 use super::earlier::{self, NOTHING, Reading, RowLattice, reach};
+use super::layered::{Integrals, Layered};
 use super::layers::{LANES, Lanes, add_all, recenter, resized};
-use super::modes::Integrals;
-use super::past::Layered;
 use crate::TipFunction;
 use crate::elementary::exp;
 use crate::memory::SteadyPast;

@@ -27,6 +27,7 @@ mod history;
 mod integrator;
 mod jet;
 mod lattice;
+mod layered;
 mod layers;
 mod modes;
 mod part;

@@ -9,8 +9,8 @@
 //! The case n = 0 evaluates g itself, whose error is at most the [area](crate::memory::FitCertificate::area) of the
 //! fit.
 
+use super::layered::{Integrals, Layered};
 use super::layers::{self, LANES, Lanes, add_all, resized};
-use super::past::Layered;
 use crate::elementary::{complex_exp, inverse_factorials};
 use crate::exponential::of_lanes;
 use crate::memory::{ExpandedPart, Fit, HIGHEST_DEGREE, Prepared, SteadyPast, TERMS, Terms};
@@ -33,9 +33,6 @@ pub(super) struct Modes {
     /// Scratch space for moments of visits.
     moments: Vec<Lanes>,
 }
-
-/// For each layer the integrals over g, g' and g'', `∫ w φ_m(η') g(x - x') dt'` and so on.
-pub(super) type Integrals<'a> = [&'a mut [Lanes]; 3];
 
 impl Modes {
     /// An empty memory.

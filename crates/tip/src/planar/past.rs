@@ -1,49 +1,11 @@
 //! The memory of the layers of one product: exponentials, with a lattice for retreats beyond their range of validity; or a
 //! memory without exponentials.
 
+use super::layered::{Integrals, Layered};
 use super::layers::Lanes;
-use super::modes::{Integrals, Modes};
+use super::modes::Modes;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
-
-/// A memory of layers that is valid for motion in both directions.
-pub(super) trait Layered {
-    /// Number of groups of lanes that contain the layers.
-    fn groups(&self) -> usize;
-
-    /// Changes the number of layers; new layers are 0.
-    fn resize(&mut self, groups: usize);
-
-    /// Moves the center of the layers by a number of widths.
-    fn recenter(&mut self, distance: f64);
-
-    /// Multiplies the whole past by a factor.
-    fn fade(&mut self, factor: f64);
-
-    /// Adds a steady past on a line with these layers.
-    fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]);
-
-    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
-    /// layers of each node multiplied by its weight.
-    fn remember(&mut self, position: &[f64], weighted: &[Lanes]);
-
-    /// The integrals of each layer over g, g' and g'' at a displacement from the tip.
-    fn at(&self, displacement: f64, jet: &mut Integrals<'_>);
-
-    /// Largest allowed distance of the tip behind its farthest point.
-    fn retreat(&self) -> f64;
-
-    /// Distance of the tip behind its farthest point.
-    fn behind(&self) -> f64;
-
-    /// Number of real numbers in the memory.
-    fn size(&self) -> usize;
-
-    fn save(&self, state: &mut State);
-
-    /// `groups` is the number of groups of exponentials with the same past, if there are any.
-    fn restore(&mut self, state: &mut Reader, groups: Option<usize>) -> Result<(), Damaged>;
-}
 
 /// Exponentials and, if there is one, another memory with the same past; or one without exponentials.
 pub(super) struct Past {

@@ -102,20 +102,20 @@ impl Count {
         self.sets += 1;
         let mut line = String::new();
         for (name, value) in truths {
-            let told = found.numbers.iter().find(|n| n.name == *name).unwrap().estimate;
+            let estimate = found.numbers.iter().find(|n| n.name == *name).unwrap().estimate;
             if !self.held.iter().any(|(other, ..)| other == name) {
                 self.held.push((*name, 0, vec![]));
             }
             let counted = self.held.iter_mut().find(|(other, ..)| other == name).unwrap();
-            counted.1 += usize::from(told.holds(*value));
-            let miss = if told.holds(*value) { "" } else { " MISSED" };
-            if told.low > 0.0 && told.high.is_finite() {
-                counted.2.push((told.value / value).ln() / (told.high / told.low).ln());
+            counted.1 += usize::from(estimate.holds(*value));
+            let miss = if estimate.holds(*value) { "" } else { " MISSED" };
+            if estimate.low > 0.0 && estimate.high.is_finite() {
+                counted.2.push((estimate.value / value).ln() / (estimate.high / estimate.low).ln());
             }
             let word = name.word();
             line += &format!(
                 " {word} {:.4} [{:.4}, {:.4}] for {value:.4}{miss}",
-                told.value, told.low, told.high
+                estimate.value, estimate.low, estimate.high
             );
         }
         line
@@ -163,13 +163,13 @@ fn beyond(data: &[Data], found: &Fit, truths: &[(Name, f64)], freed: Option<Name
     let held = fit(data, &FitRequest { known, ..request(freed) }).ok()?;
     let each = data.iter().zip(&found.parts).zip(&held.parts);
     let more = each.map(|((data, found), held)| {
-        let told = match data {
+        let measured = match data {
             Data::Ripple(track) | Data::Friction(track) => track.y.clone(),
             Data::Loop(track, back) => [&*track.y, back].concat(),
             _ => vec![],
         };
         let left = |part: &Part| -> f64 {
-            told.iter().zip(&part.model).map(|(y, m)| (y - m).powi(2)).sum()
+            measured.iter().zip(&part.model).map(|(y, m)| (y - m).powi(2)).sum()
         };
         (left(held) - left(found)) / held.residual.powi(2)
     });
@@ -251,8 +251,8 @@ fn a_known_depth_limit_leads_to_motions_above_its_own_onset() {
     let found = fit(&data, &FitRequest { shape, known, ..request(None) }).unwrap();
     assert!(found.explained);
     for (name, value) in [(Name::Alpha, truth.alpha()), (Name::R, truth.r)] {
-        let told = found.numbers.iter().find(|n| n.name == name).unwrap().estimate;
-        assert!(told.holds(value), "{} {told:?} for {value}", name.word());
+        let estimate = found.numbers.iter().find(|n| n.name == name).unwrap().estimate;
+        assert!(estimate.holds(value), "{} {estimate:?} for {value}", name.word());
     }
 }
 

@@ -208,20 +208,22 @@ fn a_run_is_drawn_from_its_history_and_not_from_its_samples() {
     assert!(detail.panels[0].curves[0].x.iter().all(|t| (1400.0..=1440.0).contains(t)));
 }
 
+/// The question with this scenario.
+pub(crate) fn question(scenario: &stickslip_tip::Scenario) -> Run {
+    let model = &scenario.model;
+    let (tip, alpha) = (Tip(model.tip().clone()), Indentation::given(model.alpha()));
+    Run {
+        start_position: scenario.start_position,
+        kick: scenario.kick,
+        ..Run::new(tip, alpha, model.r(), scenario.until)
+    }
+}
+
 fn document(
     scenario: &stickslip_tip::Scenario,
     trajectory: &stickslip_tip::Trajectory,
 ) -> RunDocument {
-    let parameters = Run {
-        start_position: scenario.start_position,
-        kick: scenario.kick,
-        ..Run::new(
-            Tip(scenario.model.tip().clone()),
-            Indentation::given(scenario.model.alpha()),
-            scenario.model.r(),
-            scenario.until,
-        )
-    };
+    let parameters = question(scenario);
     let model: ModelParameters = parameters.model_parameters();
     let text = serde_json::json!({
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},

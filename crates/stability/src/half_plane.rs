@@ -205,7 +205,7 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
         return HalfPlane::counted(h, left)?.spectrum(h);
     }
     let count = h.degree().map_or(count, |degree| count.min(degree));
-    let mut left = -2.0 / h.length();
+    let mut left = (-2.0 / h.length()).max(h.leftmost());
     let further = |left: f64| (left - 1.0 / h.length()).max(h.leftmost());
     let known = first_zeros(h, count);
     let seen = |left: f64| total(known.iter().filter(|z| z.re >= left));
@@ -219,7 +219,6 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
         }
     }
     loop {
-        left = left.max(h.leftmost());
         let half_plane = HalfPlane::counted(h, left)?;
         if half_plane.count >= count || left <= h.leftmost() {
             return half_plane.spectrum_with(h, &known);

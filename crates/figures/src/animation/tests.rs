@@ -10,7 +10,7 @@ use crate::{FigureError, colours, scene_of};
 use serde_json::json;
 use std::io::Cursor;
 use stickslip::{
-    Ask, Context, Indentation, KnownScales, PathName, Raster, RasterDocument, Run, RunDocument, Tip,
+    Ask, Context, KnownScales, PathName, Raster, RasterDocument, Run, RunDocument, Tip,
 };
 use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
 use stickslip_surface::Surface;
@@ -129,19 +129,9 @@ fn scenario() -> Scenario {
 }
 
 fn run_document(scenario: &Scenario, trajectory: &Trajectory) -> RunDocument {
-    let parameters = Run {
-        start_position: scenario.start_position,
-        kick: scenario.kick,
-        ..Run::new(
-            Tip(scenario.model.tip().clone()),
-            Indentation::given(scenario.model.alpha()),
-            scenario.model.r(),
-            scenario.until,
-        )
-    };
     let text = serde_json::json!({
         "format": "stickslip/run", "format_version": 1, "software": {"name": "", "version": ""},
-        "parameters": parameters,
+        "parameters": crate::tests::question(scenario),
         "steady_state": {"l": scenario.model.steady_l(), "lag": 0.0, "surface_behind": null},
         "samples": {"t": [0.0], "l": [0.0], "x0": [0.0], "velocity": [0.0]},
         "history": stickslip::History::from(trajectory), "regime": "transient", "oscillation": null,

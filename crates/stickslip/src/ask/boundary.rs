@@ -10,6 +10,7 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use std::fmt::Display;
 use stickslip_stability::{
     self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, memory_length, onset_at,
 };
@@ -100,7 +101,7 @@ impl Boundary {
         judge_points(self.points)
     }
 
-    fn refused(&self, why: impl ToString) -> Refused {
+    fn refused(&self, why: impl Display) -> Refused {
         refused_range("r_range", self.r_range, self.points, why)
     }
 
@@ -199,10 +200,10 @@ pub(crate) fn refused_range(
     name: &'static str,
     ends: [f64; 2],
     points: usize,
-    why: impl ToString,
+    why: impl Display,
 ) -> Refused {
     let [low, high] = ends.map(Typed);
-    Refused::word(name, format!("{low}:{high}:{points}"), why.to_string())
+    Refused::word(name, format!("{low}:{high}:{points}"), why)
 }
 
 impl Question for Boundary {

@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 use stickslip_cycles::CycleError;
 use stickslip_stability::StabilityError;
 use stickslip_tip::{ModelError, TipFunctionError, WiderError};
+use stickslip_units::Unit;
 use thiserror::Error;
 
 /// The reason why a question has no answer.
@@ -56,6 +57,12 @@ impl Refused {
             return Ok(value);
         }
         Err(Self::number(parameter, value, "must be a finite number above 0"))
+    }
+
+    /// The value of a unit of lengths, in m.
+    pub(crate) fn metres(parameter: &'static str, unit: &str) -> Result<f64, Self> {
+        let why = "must be m, mm, um, nm, pm or Å (angstrom)";
+        Unit::Length.one(unit).ok_or_else(|| Self::word(parameter, unit, why))
     }
 
     /// The rejection of a parameter, without its value.

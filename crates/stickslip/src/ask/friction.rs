@@ -120,12 +120,8 @@ impl Friction {
         if self.is_of_model() {
             return Ok(None);
         }
-        let one = |unit: &String| {
-            let why = "must be m, mm, um, nm, pm or Å (angstrom)";
-            let one = Unit::Length.one(unit).map(|one| NANO * one);
-            one.ok_or_else(|| Refused::word("unit", unit, why))
-        };
-        self.unit.as_ref().map(one).transpose()
+        let metres = self.unit.as_deref().map(|unit| Refused::metres("unit", unit)).transpose()?;
+        Ok(metres.map(|metres| NANO * metres))
     }
 
     /// The factor of the forces to nN, if it is known.

@@ -10,7 +10,6 @@ use stickslip_measurement::{
     sides, tip,
 };
 use stickslip_tip::Gaussian;
-use stickslip_units::Unit;
 
 /// A footprint from a measured profile. The document is also a tip file: `gaussians` is f with f(0) = 1, lengths in
 /// σ.
@@ -189,11 +188,7 @@ impl MeasuredTip {
 
     /// The unit of the positions in m, if it is known.
     fn metres(&self) -> Result<Option<f64>, Refused> {
-        let one = |unit: &String| {
-            let why = "must be m, mm, um, nm, pm or Å (angstrom)";
-            Unit::Length.one(unit).ok_or_else(|| Refused::word("unit", unit, why))
-        };
-        self.unit.as_ref().map(one).transpose()
+        self.unit.as_deref().map(|unit| Refused::metres("unit", unit)).transpose()
     }
 
     /// Rejects numbers out of their range.

@@ -118,14 +118,14 @@ impl RowLattice {
     /// The factor of a row in h, at this distance from the row.
     #[must_use]
     pub fn height(&self, across: Across, distance: f64) -> f64 {
-        jet(&self.readings(across), distance)[0]
+        jet(self.readings(across), distance)[0]
     }
 
     /// h as a sum over rows.
-    fn readings(&self, Across { center, width }: Across) -> Vec<Reading> {
+    fn readings(&self, Across { center, width }: Across) -> impl Iterator<Item = Reading> {
         let twin = (center > 0.0).then_some(-center);
-        let of = |center| self.reading(Gaussian { amplitude: 1.0, center, width });
-        std::iter::once(center).chain(twin).map(of).collect()
+        let of = move |center| self.reading(Gaussian { amplitude: 1.0, center, width });
+        std::iter::once(center).chain(twin).map(of)
     }
 
     /// A Gaussian as a sum over rows.
@@ -149,7 +149,7 @@ pub(super) fn reach(readings: &[Reading]) -> f64 {
 }
 
 /// Value and two derivatives of a sum at a distance from a row.
-pub(super) fn jet(readings: &[Reading], distance: f64) -> [f64; 3] {
+pub(super) fn jet(readings: impl Iterator<Item = Reading>, distance: f64) -> [f64; 3] {
     let mut jet = [0.0; 3];
     for Reading { center, width: q, scale } in readings {
         let z = (distance - center) / q;
@@ -175,8 +175,9 @@ impl EarlierGrooves {
         (y, wide): (f64, f64),
         along: (f64, bool),
     ) -> Self {
-        let layer =
-            |layer: GrooveRows| (lattice.readings(layer.across), layer.heights, layer.slopes);
+        let layer = |layer: GrooveRows| {
+            (lattice.readings(layer.across).collect(), layer.heights, layer.slopes)
+        };
         let layers = layers.into_iter().map(layer).collect();
         let sign = if along.1 { -1.0 } else { 1.0 };
         Self { lattice, first, layers, origin: along.0, sign, y, wide }
@@ -211,7 +212,8 @@ impl EarlierGrooves {
         jet: &mut Jet,
     ) {
         let (x, y) = at;
-        let (low, high) = (y - reach(readings), y + reach(readings));
+        let reach = reach(readings);
+        let (low, high) = (y - reach, y + reach);
         let place = |row: i64| usize::try_from(row - self.first).unwrap_or(0).min(heights.count());
         let end = place(self.lattice.row_above(high));
         let mut from = place(self.lattice.row_above(low));
@@ -223,7 +225,7 @@ impl EarlierGrooves {
             slopes.read(x, from, slope, curvature);
             for j in 0..count {
                 let row = self.lattice.y(self.first + (from + j) as i64);
-                let [factor, steep, bent] = self::jet(readings, y - row);
+                let [factor, steep, bent] = self::jet(readings.iter().copied(), y - row);
                 jet.height += factor * value[j];
                 jet.slope[0] += factor * slope[j];
                 jet.slope[1] += steep * value[j];

@@ -184,9 +184,9 @@ impl Layered for Lattice {
         let nodes = self.nodes.chunks_exact(self.groups).enumerate().skip(from);
         for (j, node) in nodes.take(index(2.0 * self.reach / self.spacing) + 2) {
             let distance = displacement - (self.first + j as f64 * self.spacing);
-            let sums = earlier::jet(&self.terms, distance);
-            for (told, sum) in jet.iter_mut().zip(sums) {
-                add_all(told, node, sum);
+            let sums = earlier::jet(self.terms.iter().copied(), distance);
+            for (integral, sum) in jet.iter_mut().zip(sums) {
+                add_all(integral, node, sum);
             }
         }
     }

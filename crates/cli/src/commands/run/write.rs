@@ -104,7 +104,7 @@ pub(super) fn all<R: Motion>(
     let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
     if let (Some(figure), Some(whole)) = (figure, &whole) {
         // Drawn from the history, whether or not it is written.
-        document.history = Some(R::history(whole));
+        document.history.get_or_insert_with(|| R::history(whole));
         figure.draw(&document)?;
         document.history.take_if(|_| !order.history);
     }

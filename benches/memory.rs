@@ -7,7 +7,7 @@
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use stickslip_tip::memory::{Groove, Memory, Policy, Retreat};
+use stickslip_tip::memory::{Groove, Policy, Retreat};
 use stickslip_tip::{MemoryChoice, STAGES, TipFunction, nodes_and_weights};
 
 /// A memory with this many nodes within reach, spread over a fifth of a width about the tip.

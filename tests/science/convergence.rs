@@ -5,8 +5,11 @@
 use crate::acceptance::{largest_difference, observed_order};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_tip::memory::{Groove, Memory, Policy};
-use stickslip_tip::{Force, InitialSurface, Integrator, Model, STAGES, TipFunction, Trajectory};
+use stickslip_tip::memory::Policy;
+use stickslip_tip::{
+    Force, InitialSurface, Integrator, Model, STAGES, Step, TipFunction, Trajectory,
+    nodes_and_weights,
+};
 
 const X: f64 = 14.0;
 const DURATION: f64 = 12.0;
@@ -49,7 +52,17 @@ fn manufactured_force(model: &Model) -> Force {
 }
 
 /// Errors at step ends and anywhere, with n equal steps.
-fn errors(model: &Model, force: &Force, memory: impl Memory, n: u32) -> (f64, f64) {
+fn errors(model: &Model, force: &Force, memory: Policy, n: u32) -> (f64, f64) {
+    errors_after(model, force, (memory, f64::INFINITY), n)
+}
+
+/// The same of a memory that forgets what is older than an age.
+fn errors_after(
+    model: &Model,
+    force: &Force,
+    (memory, oldest): (Policy, f64),
+    n: u32,
+) -> (f64, f64) {
     let surface = InitialSurface::steady(model, X);
     let t1 = (X + model.steady_lag()) / model.r();
     let start = (t1, model.steady_lag());
@@ -59,6 +72,9 @@ fn errors(model: &Model, force: &Force, memory: impl Memory, n: u32) -> (f64, f6
     let mut steps = vec![];
     while integrator.t() < end {
         steps.push(integrator.step(end).unwrap());
+        if oldest.is_finite() {
+            *integrator.memory_mut() = cut(model, &steps, oldest);
+        }
     }
     let exact = |t: f64| extension(model, t - t1) - model.r();
     let trajectory = Trajectory::new(model.r(), steps);
@@ -95,37 +111,29 @@ fn order_11_at_step_ends_and_7_within_for_both_memories() {
     }
 }
 
+/// The memory of the last steps, of at most this duration together.
+fn cut(model: &Model, steps: &[Step], oldest: f64) -> Policy {
+    let mut memory = Policy::direct(model.tip().clone());
+    let (_, b) = nodes_and_weights();
+    let mut age = 0.0;
+    let recent = steps.iter().rev().take_while(|step| {
+        age += step.h;
+        age <= oldest
+    });
+    let recent: Vec<&Step> = recent.collect();
+    for step in recent.into_iter().rev() {
+        memory.remember(&step.displacement, &b.map(|b| b * step.h));
+    }
+    memory
+}
+
 /// Negative control: a memory that forgets what is older than four time units.
 #[test]
 fn a_memory_cut_by_time_does_not_converge() {
-    struct Forgetful(Policy, Vec<(f64, Vec<f64>, Vec<f64>)>, TipFunction);
-    impl Memory for Forgetful {
-        fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
-            self.0.groove(at, groove);
-        }
-        fn fade(&mut self, _: f64) {
-            unreachable!("nothing heals");
-        }
-        fn remember(&mut self, position: &[f64], weight: &[f64]) {
-            self.1.push((weight.iter().sum(), position.to_vec(), weight.to_vec()));
-            let mut age = 0.0;
-            let recent = self.1.iter().rev().take_while(|(h, ..)| {
-                age += h;
-                age <= 4.0
-            });
-            let mut kept: Vec<_> = recent.cloned().collect();
-            kept.reverse();
-            self.0 = Policy::direct(self.2.clone());
-            for (_, position, weight) in &kept {
-                self.0.remember(position, weight);
-            }
-        }
-    }
     let model = model();
     let force = manufactured_force(&model);
-    let tip = model.tip().clone();
-    let forgetful = Forgetful(Policy::direct(tip.clone()), vec![], tip);
-    let (at_ends, _) = errors(&model, &force, forgetful, 30);
+    let forgetful = (Policy::direct(model.tip().clone()), 4.0);
+    let (at_ends, _) = errors_after(&model, &force, forgetful, 30);
     println!("cut by time: {at_ends:.2e}");
     assert!(at_ends > 1e-3);
 }

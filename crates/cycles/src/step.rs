@@ -322,7 +322,7 @@ fn times(
 mod tests {
     use super::super::past::{Numbers, Past};
     use super::*;
-    use stickslip_tip::memory::{Groove, Memory, Policy};
+    use stickslip_tip::memory::{Groove, Policy};
     use stickslip_tip::step::{Equations, Law};
     use stickslip_tip::{Model, TipFunction};
 

@@ -60,17 +60,6 @@ impl State<f64> for Unknowns {
         atol: &Tolerance<f64>,
         rtol: &Tolerance<f64>,
     ) -> f64 {
-        let largest = self.error_norm_inf(after, error, atol, rtol);
-        largest * largest * self.0.len() as f64
-    }
-
-    fn error_norm_inf(
-        &self,
-        after: &Self,
-        error: &Self,
-        atol: &Tolerance<f64>,
-        rtol: &Tolerance<f64>,
-    ) -> f64 {
         let (atol, rtol) = (atol[0], rtol[0]);
         let relative = |((before, after), error): ((&f64, &f64), &f64)| {
             error.abs() / (atol + rtol * before.abs().max(after.abs()))
@@ -78,6 +67,8 @@ impl State<f64> for Unknowns {
         // `max` would swallow a NaN.
         let total: f64 = error.0.iter().sum();
         let unknowns = self.0.iter().zip(&after.0).zip(&error.0);
-        if total.is_nan() { total } else { unknowns.map(relative).fold(0.0, f64::max) }
+        let largest =
+            if total.is_nan() { total } else { unknowns.map(relative).fold(0.0, f64::max) };
+        largest * largest * self.0.len() as f64
     }
 }

@@ -3,10 +3,9 @@
 use super::Integrator;
 use super::stage_equations::Unknowns;
 use crate::collocation::{RADAU, Stages};
-use crate::memory::Memory;
 use crate::step;
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
     pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
         Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }

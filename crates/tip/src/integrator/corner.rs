@@ -146,7 +146,7 @@ impl Corner {
     }
 }
 
-impl<M: crate::memory::Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// As [`Corner::turn`].
     pub(super) fn turn(&mut self) -> bool {
         self.corner.as_mut().is_some_and(Corner::turn)

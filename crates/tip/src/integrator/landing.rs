@@ -2,7 +2,6 @@
 
 use super::Integrator;
 use crate::initial_surface::Stretch;
-use crate::memory::Memory;
 use crate::roots::zero_between;
 
 /// Largest extension of a step, in roundings of t, that lets it end at a required time.
@@ -32,7 +31,7 @@ pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
     (h > least).then_some(h)
 }
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// Latest end of the next step.
     pub(super) fn next_end(&self, until: f64) -> f64 {
         let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));

@@ -17,7 +17,7 @@ use crate::collocation::{RADAU, Stages};
 use crate::elementary::exp;
 use crate::history::{Heights, Step};
 use crate::initial_surface::Stretch;
-use crate::memory::{Memory, longest_look};
+use crate::memory::{Policy, longest_look};
 use crate::step;
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model, Support};
@@ -45,14 +45,14 @@ pub struct Work {
 }
 
 /// The state of a tip in motion, and all forces on it.
-pub struct Integrator<'a, M> {
+pub struct Integrator<'a> {
     model: &'a Model,
     /// Expansion of f about its apex, computed when collocation first needs it.
     apex: OnceCell<Apex>,
     surface: &'a InitialSurface,
     force: &'a Force,
     support: Support,
-    memory: M,
+    memory: Policy,
     control: Control,
     t: f64,
     /// Start time.
@@ -83,14 +83,14 @@ pub(crate) const ENOUGH: f64 = 0.01;
 /// M times as much.
 pub(crate) const COASTING: f64 = 10.0;
 
-impl<'a, M: Memory> Integrator<'a, M> {
+impl<'a> Integrator<'a> {
     /// A tip that starts at time t with the extension `extension` = rt - x0 of its spring, and no past except that of
     /// `memory`. With inertia its initial velocity is r.
     pub fn new(
         model: &'a Model,
         surface: &'a InitialSurface,
         force: &'a Force,
-        memory: M,
+        memory: Policy,
         start: (f64, f64),
         tolerance: f64,
     ) -> Self {
@@ -184,8 +184,13 @@ impl<'a, M: Memory> Integrator<'a, M> {
 
     /// The memory in use.
     #[must_use]
-    pub fn memory(&self) -> &M {
+    pub fn memory(&self) -> &Policy {
         &self.memory
+    }
+
+    /// The same, to be replaced by one of another past.
+    pub fn memory_mut(&mut self) -> &mut Policy {
+        &mut self.memory
     }
 
     /// Makes one step. It ends at `until` at the latest, except for one rounding of t.

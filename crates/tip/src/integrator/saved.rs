@@ -1,11 +1,10 @@
 //! Saved states of the integrator between two steps.
 
 use super::{Integrator, Work};
-use crate::memory::Memory;
 use crate::state::{Damaged, Reader, Saved, State};
 
 /// Contains all data that determine the next steps, except the arguments of [`Integrator::new`].
-impl<M: Memory + Saved> Saved for Integrator<'_, M> {
+impl Saved for Integrator<'_> {
     fn save(&self, state: &mut State) {
         let (slope, force) = self.limits_from_before;
         for number in [self.t, self.extension, self.velocity, self.curvature, slope, force] {

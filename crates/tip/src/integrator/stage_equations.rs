@@ -3,7 +3,7 @@
 
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
-use crate::memory::{Groove, Memory};
+use crate::memory::{Groove, Policy};
 use crate::step::{
     Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove,
     OwnHeight,
@@ -143,7 +143,7 @@ impl<'a> StageEquations<'a> {
     /// displacement exceeds `most`. The Jacobian is kept as long as this requires no additional iteration.
     pub(super) fn solve(
         &self,
-        memory: &mut impl Memory,
+        memory: &mut Policy,
         guess: Unknowns,
         enough: f64,
         most: f64,
@@ -214,7 +214,7 @@ impl<'a> StageEquations<'a> {
     }
 
     #[inline]
-    fn look(&self, memory: &mut impl Memory, (d, height): (&Stages, &Stages), look: &mut Look) {
+    fn look(&self, memory: &mut Policy, (d, height): (&Stages, &Stages), look: &mut Look) {
         let Look { known, own, own_height, missed } = look;
         self.know(memory, d, known);
         *own = OwnGroove::near(self.apex, self.model.tip(), d);
@@ -229,7 +229,7 @@ impl<'a> StageEquations<'a> {
 
     /// Evaluates memory and surface at these displacements.
     #[inline]
-    fn know(&self, memory: &mut impl Memory, d: &Stages, known: &mut Known) {
+    fn know(&self, memory: &mut Policy, d: &Stages, known: &mut Known) {
         let mut groove = Groove::new(&mut known.past_slope, &mut known.past_curvature);
         if self.depth.is_some() {
             groove = groove.with_height(&mut known.past_height);

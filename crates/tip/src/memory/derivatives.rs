@@ -6,7 +6,7 @@ use crate::TipFunction;
 pub const ROOM: usize = 32;
 
 /// Derivatives of the groove at the tip, n = 0, 1, …: the result of
-/// [`Memory::derivatives`](super::Memory::derivatives).
+/// [`Policy::derivatives`](crate::memory::Policy::derivatives).
 #[derive(Debug, Clone)]
 pub struct Derivatives {
     /// Derivatives of f at 0, on the side of the past: the contribution to `past` of a unit of time just spent at the

@@ -93,7 +93,7 @@ impl Fft {
         fft
     }
 
-    /// As [`Memory::remember`](super::groove::Memory::remember).
+    /// As [`Policy::remember`](crate::memory::Policy::remember).
     pub(crate) fn remember(&mut self, position: &[f64], weight: &[f64]) -> Lattice {
         let Some(moved) = position.last() else { return Lattice::Same };
         let here = self.position;
@@ -103,7 +103,7 @@ impl Fft {
         if self.pending.len() >= self.most_pending || strayed { self.fold() } else { Lattice::Same }
     }
 
-    /// As [`Memory::groove`](super::groove::Memory::groove).
+    /// As [`Policy::groove`](crate::memory::Policy::groove).
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         let told = groove.slope.iter_mut().zip(groove.curvature.iter_mut());
         for (at, (slope, curvature)) in at.iter().zip(told) {

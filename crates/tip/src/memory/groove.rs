@@ -1,26 +1,6 @@
-//! Operations of a memory: it stores positions, multiplies their weights by a factor, and evaluates the groove.
+//! The groove as a memory evaluates it.
 
-use super::derivatives::{Derivatives, SteadyPast};
 use crate::TipFunction;
-
-/// Memory of the past of the tip. Positions are displacements from the present position of the tip.
-pub trait Memory {
-    /// Adds nodes to the history: the tip spent the time `weight[j]` at `position[j]`, and is now at the last of
-    /// these positions. The weights may contain the relative indentation rate.
-    fn remember(&mut self, position: &[f64], weight: &[f64]);
-
-    /// Multiplies all weights by this factor, at most 1, for a surface that heals.
-    fn fade(&mut self, factor: f64);
-
-    /// Evaluates the groove at the points x = tip + `at`, each at most [`longest_look`] from the tip.
-    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>);
-
-    /// Computes `count` derivatives of the groove at the tip, including those of a steady past before the first node;
-    /// false if no series is valid at every point that the next step may reach.
-    fn derivatives(&self, _: Option<&SteadyPast>, _count: usize, _: &mut Derivatives) -> bool {
-        false
-    }
-}
 
 /// Results of a memory: integrals over the past, one number for each requested point.
 #[derive(Debug)]

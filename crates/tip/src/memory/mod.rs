@@ -1,6 +1,6 @@
 //! Memories: algorithms for the groove, the history integral of the footprint.
 //!
-//! A `Memory` has two main operations. `remember` adds positions of the tip with the time spent at each. `groove`
+//! A memory has two main operations. `remember` adds positions of the tip with the time spent at each. `groove`
 //! evaluates height, slope and curvature of ∫ f(x - x0(t'))dt' at points near the tip. If the surface heals, `fade`
 //! multiplies all weights by a factor. The groove depends on distances, not on ages: positions beyond the reach of f
 //! have no effect, and positions within it count at any age.
@@ -23,7 +23,7 @@ pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use derivatives::{Derivatives, ROOM, SteadyPast};
 pub(crate) use fading::Fading;
 pub(crate) use fft::Fft;
-pub use groove::{Groove, Memory, longest_look};
+pub use groove::{Groove, longest_look};
 pub(crate) use modes::{
     ExpandedPart, HIGHEST_DEGREE, LOWEST_DEGREE, Prepared, TERMS, Terms, expansion_lengths,
 };

@@ -8,7 +8,7 @@ use super::derivatives::{Derivatives, SteadyPast};
 use super::direct;
 use super::fading::Fading;
 use super::fft::{Fft, Lattice};
-use super::groove::{Groove, Memory, range};
+use super::groove::{Groove, range};
 use super::modes::{Fit, FitError, Modes, Retreat};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
@@ -161,9 +161,7 @@ impl Policy {
             Err(why) => with_fft(&self.tip, past, Some(why)),
         })
     }
-}
 
-impl Policy {
     /// Adds nodes with weights in the scale of the algorithm in use.
     fn remember_scaled(&mut self, position: &[f64], weight: &[f64]) {
         if let Some(record) = &mut self.record {
@@ -208,9 +206,7 @@ impl Policy {
             (Now::Direct | Now::Modes(..), None) => unreachable!("they have a record"),
         }
     }
-}
 
-impl Policy {
     /// All sums times a factor.
     #[cold]
     fn scale(&mut self, factor: f64) {
@@ -226,8 +222,11 @@ impl Policy {
     }
 }
 
-impl Memory for Policy {
-    fn remember(&mut self, position: &[f64], weight: &[f64]) {
+/// Positions are displacements from the present position of the tip.
+impl Policy {
+    /// Adds nodes to the history: the tip spent the time `weight[j]` at `position[j]`, and is now at the last of
+    /// these positions. The weights may contain the relative indentation rate.
+    pub fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(left) = self.fading.left() else { return self.remember_scaled(position, weight) };
         let mut measured = std::mem::take(&mut self.measured);
         measured.clear();
@@ -236,20 +235,25 @@ impl Memory for Policy {
         self.measured = measured;
     }
 
-    fn fade(&mut self, factor: f64) {
+    /// Multiplies all weights by this factor, at most 1, for a surface that heals.
+    pub fn fade(&mut self, factor: f64) {
         if let Some(scale) = self.fading.by(factor) {
             self.scale(scale);
         }
     }
 
-    fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
+    /// Evaluates the groove at the points x = tip + `at`, each at most [`longest_look`](super::longest_look) from the
+    /// tip.
+    pub fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         self.groove_scaled(at, groove);
         if let Some(left) = self.fading.left() {
             groove.scale(left);
         }
     }
 
-    fn derivatives(
+    /// Computes `count` derivatives of the groove at the tip, including those of a steady past before the first node;
+    /// false if no series is valid at every point that the next step may reach.
+    pub fn derivatives(
         &self,
         steady: Option<&SteadyPast>,
         count: usize,

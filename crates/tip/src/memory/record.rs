@@ -94,7 +94,7 @@ impl Record {
         self.nodes.push((self.position + position, weight));
     }
 
-    /// As [`Memory::remember`](super::groove::Memory::remember).
+    /// As [`Policy::remember`](crate::memory::Policy::remember).
     pub(crate) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(moved) = position.last() else { return };
         match &self.kept {

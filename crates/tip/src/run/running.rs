@@ -2,14 +2,14 @@
 
 use super::{RunError, Scenario};
 use crate::integrator::{IntegrationError, Integrator, Work};
-use crate::memory::{MemoryReport, Policy};
+use crate::memory::MemoryReport;
 use crate::state::{Damaged, Reader, Saved, State};
 use crate::{InitialSurface, Step};
 
 /// A tip in motion through a scenario. Of its history only the data of the memory are kept.
 pub struct Running<'a> {
     scenario: &'a Scenario,
-    integrator: Integrator<'a, Policy>,
+    integrator: Integrator<'a>,
 }
 
 impl<'a> Running<'a> {

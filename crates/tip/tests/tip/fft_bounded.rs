@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use stickslip_tip::memory::{Groove, Memory, Policy};
+use stickslip_tip::memory::{Groove, Policy};
 use stickslip_tip::state::{Saved, State};
 use stickslip_tip::{STAGES, Stages, TipFunction, nodes_and_weights};
 

@@ -5,7 +5,7 @@
 
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_tip::memory::{Groove, Memory, Policy, Retreat};
+use stickslip_tip::memory::{Groove, Policy, Retreat};
 use stickslip_tip::{MemoryChoice, STAGES, TipFunction, nodes_and_weights};
 
 const CHOICES: [MemoryChoice; 4] =

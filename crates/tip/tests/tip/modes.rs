@@ -8,7 +8,7 @@
 
 use chacha20::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use stickslip_tip::memory::{Fit, FitError, Groove, Memory, Policy, Retreat, Sum, accuracy_needed};
+use stickslip_tip::memory::{Fit, FitError, Groove, Policy, Retreat, Sum, accuracy_needed};
 use stickslip_tip::{
     Force, Gaussian, MemoryChoice, Model, Pulse, Run, RunError, STAGES, Scenario, Stages, Start,
     TipFunction, Wider, nodes_and_weights, run,

@@ -2,9 +2,9 @@
 
 use super::super::Integrator;
 use super::chain::Acting;
-use crate::memory::{Memory, ROOM, SteadyPast};
+use crate::memory::{ROOM, SteadyPast};
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// The series from here on; false where there is none.
     pub(super) fn look_ahead(&mut self) -> bool {
         let order = self.taylor.order;

@@ -9,7 +9,6 @@ use super::{length, visits};
 use crate::collocation::STAGES;
 use crate::elementary::exp;
 use crate::history::Heights;
-use crate::memory::Memory;
 
 /// Heights as polynomials are wanted to the tolerance itself, of which an error of a series is allowed a small part.
 const SHARE_OF_DENSE: f64 = 0.05;
@@ -24,7 +23,7 @@ pub(crate) enum AtCorner {
     OtherSide,
 }
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// w now and σ/b, from the series as it starts.
     pub(super) fn weight_now(&mut self) -> Option<(f64, f64)> {
         let corner = self.corner.as_mut()?;

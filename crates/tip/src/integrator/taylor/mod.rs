@@ -18,7 +18,7 @@ use super::Integrator;
 use crate::collocation::STAGES;
 use crate::elementary::exp;
 use crate::history::Step;
-use crate::memory::{Derivatives, Memory};
+use crate::memory::Derivatives;
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
 use chain::Chain;
@@ -99,7 +99,7 @@ impl Taylor {
     }
 }
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// Takes the next piece of a step by series, or of a new step; false if collocation must make the step.
     #[inline]
     pub(super) fn step_by_series(&mut self, until: f64) -> bool {

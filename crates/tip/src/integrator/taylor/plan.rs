@@ -5,7 +5,6 @@ use super::pieces::{self, MOST_PIECES};
 use super::series::{MOST_ORDER, Series};
 use super::values::Outlook;
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
-use crate::memory::Memory;
 use crate::step;
 
 /// A planned step by series.
@@ -58,7 +57,7 @@ pub(crate) fn count(length: f64, piece: f64) -> usize {
     whole.saturating_add(begun).clamp(1, MOST_PIECES)
 }
 
-impl<M: Memory> Integrator<'_, M> {
+impl Integrator<'_> {
     /// Length of a step, and number of its pieces; `None` if a step of collocation is longer.
     pub(super) fn plan(&mut self, end: f64) -> Option<Plan> {
         let series = self.taylor.chain.displacement();

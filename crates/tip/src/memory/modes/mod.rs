@@ -83,7 +83,7 @@ impl Modes {
         self.farthest = self.farthest.max(position);
     }
 
-    /// As [`Memory::remember`](super::groove::Memory::remember).
+    /// As [`Policy::remember`](crate::memory::Policy::remember).
     pub(super) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         self.pass(position);
         self.bank.advance(position, weight);
@@ -109,7 +109,7 @@ impl Modes {
         visits.for_each(|(position, weight)| self.bank.add(position, weight));
     }
 
-    /// As [`Memory::groove`](super::groove::Memory::groove), where the sum is valid.
+    /// As [`Policy::groove`](crate::memory::Policy::groove), where the sum is valid.
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         if !self.groove.holds(at) {
             let (low, high) = range(at);
@@ -139,7 +139,7 @@ impl Modes {
         }
     }
 
-    /// As [`Memory::derivatives`](super::groove::Memory::derivatives), with the state multiplied by `left`.
+    /// As [`Policy::derivatives`](crate::memory::Policy::derivatives), with the state multiplied by `left`.
     pub(super) fn derivatives(
         &self,
         steady: Option<&SteadyPast>,

@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 use std::io;
+use std::path::Path;
 use thiserror::Error;
 
 pub(crate) use stickslip::Typed;
@@ -60,6 +61,22 @@ pub(crate) enum Failure {
 impl Failure {
     pub(crate) fn input(option: impl Into<String>, message: impl Display) -> Self {
         Self::Input { option: option.into(), message: message.to_string() }
+    }
+
+    /// A rejection of the file that an option names.
+    pub(crate) fn file(option: &str, path: &Path, message: impl Display) -> Self {
+        Self::input(format!("{option} {}", path.display()), message)
+    }
+
+    /// A rejection of a number as value of an option.
+    pub(crate) fn number(option: &str, value: f64, message: impl Display) -> Self {
+        Self::input(format!("{option} {}", Typed(value)), message)
+    }
+
+    /// The number, if it is finite and above 0.
+    pub(crate) fn unless_positive(option: &str, value: f64) -> Result<f64, Self> {
+        let judged = Some(value).filter(|value| value.is_finite() && *value > 0.0);
+        judged.ok_or_else(|| Self::number(option, value, "must be a finite number above 0"))
     }
 
     /// Rejects the first of these options that is given.

@@ -34,21 +34,9 @@ pub(crate) enum FigureName {
 
 impl FigureName {
     /// Name of the figure in the library; `None` for the table of numbers.
-    pub(crate) fn figure(self) -> Option<&'static str> {
-        Some(match self {
-            Self::Fig1 => "fig1",
-            Self::Fig2 => "fig2",
-            Self::Fig3 => "fig3",
-            Self::Fig4 => "fig4",
-            Self::Fig5 => "fig5",
-            Self::Fig6 => "fig6",
-            Self::Fig7 => "fig7",
-            Self::Bifurcation => "bifurcation",
-            Self::Criticality => "criticality",
-            Self::Kymograph => "kymograph",
-            Self::WorkPrecision => "work-precision",
-            Self::Reproduction => return None,
-        })
+    pub(crate) fn figure(self) -> Option<String> {
+        let name = self.to_possible_value().filter(|_| self != Self::Reproduction);
+        name.map(|name| name.get_name().to_owned())
     }
 }
 

@@ -11,66 +11,30 @@ use stickslip::{Units, UnitsDocument};
 /// both: they are solved for, from r = Γ v0/(kσ) (12) and α = Γ N a/(σ² k²) (13). Quantities are numbers with a unit
 /// and any SI prefixes, such as 50nm, 0.5N/m or 1um/s; a number without a unit is rejected.
 #[derive(Debug, Args)]
-#[command(override_usage = USAGE, after_help = EXAMPLES)]
+#[command(override_usage = USAGE, after_help = EXAMPLES, next_help_heading = "Quantities")]
 pub(crate) struct UnitsArguments {
     /// Friction Γ of the tip (kg/s or Ns/m), (1).
-    #[arg(
-        long,
-        value_name = "Γ",
-        visible_alias = "gamma",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "Γ", visible_alias = "gamma", allow_hyphen_values = true)]
     pub(crate) damping: Option<String>,
 
     /// Spring constant k (N/m), (3).
-    #[arg(
-        long,
-        value_name = "k",
-        visible_alias = "k",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "k", visible_alias = "k", allow_hyphen_values = true)]
     pub(crate) stiffness: Option<String>,
 
     /// Width σ of the tip (m), (7); by default that of a --tip-file written by `stickslip tip`.
-    #[arg(
-        long,
-        value_name = "σ",
-        visible_alias = "sigma",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "σ", visible_alias = "sigma", allow_hyphen_values = true)]
     pub(crate) tip_width: Option<String>,
 
     /// Indentation rate N (m/s), (7).
-    #[arg(
-        long,
-        value_name = "N",
-        visible_alias = "N",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "N", visible_alias = "N", allow_hyphen_values = true)]
     pub(crate) indentation_rate: Option<String>,
 
     /// Force a per slope of the surface (N), (4).
-    #[arg(
-        long,
-        value_name = "a",
-        visible_alias = "a",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "a", visible_alias = "a", allow_hyphen_values = true)]
     pub(crate) slope_force: Option<String>,
 
     /// Velocity v0 of the support (m/s), (3).
-    #[arg(
-        long,
-        value_name = "v0",
-        visible_alias = "v0",
-        allow_hyphen_values = true,
-        help_heading = "Quantities"
-    )]
+    #[arg(long, value_name = "v0", visible_alias = "v0", allow_hyphen_values = true)]
     pub(crate) velocity: Option<String>,
 
     #[command(flatten)]

@@ -4,7 +4,7 @@ use super::in_units::scales;
 use super::job::{Job, Product};
 use super::model::tip;
 use super::progress::Progress;
-use crate::arguments::{AnswerArguments, Options, Questions, TipArguments};
+use crate::arguments::{AnswerArguments, InUnitsArguments, Options, Questions, TipArguments};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
@@ -16,7 +16,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 use stickslip::parameter::{Parameter, overridden};
 use stickslip::{
-    self as documents, Ask, Context, Document, Physical, Question, Refused, Tip, parameter,
+    self as documents, Ask, Context, Document, KnownScales, Physical, Question, Refused, Tip,
+    parameter,
 };
 use stickslip_figures::Drawn;
 
@@ -86,6 +87,20 @@ impl<Q: Questions> Options<Q> {
     /// Whether an option was given.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.given.contains_key(name)
+    }
+
+    /// The scales of a result whose r, if it is given, is among these values; `None` without physical units.
+    ///
+    /// # Errors
+    /// As [`scales`].
+    pub(crate) fn scales(
+        &self,
+        session: &Session,
+        in_units: &InUnitsArguments,
+        values: &Map<String, Value>,
+    ) -> Result<Option<KnownScales>, Failure> {
+        let r = values.get("r").and_then(Value::as_f64);
+        scales(session, in_units, self.tip.tip_file.as_deref(), r)
     }
 
     /// The values of the parameters: those of --parameters, replaced by those given as options.

@@ -20,7 +20,7 @@ const NANO: f64 = 1e9;
 
 /// The table of widths over loads, in nN if a heading does not say otherwise.
 fn widths(session: &Session, path: &Path) -> Result<Value, Failure> {
-    let refused = |why: String| Failure::input(format!("{LOAD_WIDTHS} {}", path.display()), why);
+    let refused = |why: String| Failure::file(LOAD_WIDTHS, path, why);
     let Sheet { headings, columns, .. } = read_measured(session, LOAD_WIDTHS, path, &[2])?;
     let load = headings[0].unit(Unit::Force).map_err(refused)?;
     headings[1].unit(Unit::Length).map_err(refused)?;
@@ -53,7 +53,7 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
         let found = asked::<LoadMap, _>(session, options, values, answer, "--load-range");
         return found.map_err(|failure| match (failure, load_widths) {
             (Failure::Input { option, message }, Some(path)) if option == LOAD_WIDTHS => {
-                Failure::input(format!("{LOAD_WIDTHS} {}", path.display()), message)
+                Failure::file(LOAD_WIDTHS, path, message)
             }
             (failure, _) => failure,
         });

@@ -33,7 +33,7 @@ pub(super) fn read_cycle<'a>(session: &Session, path: &'a Path) -> Result<Start<
 }
 
 fn again(path: &Path, document: &CycleDocument) -> Result<Cycle, Failure> {
-    let unusable = |error: Unusable| Failure::input(format!("--from {}", path.display()), error);
+    let unusable = |error: Unusable| Failure::file("--from", path, error);
     Cycle::again(document).map_err(unusable)
 }
 

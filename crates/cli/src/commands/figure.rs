@@ -21,8 +21,7 @@ impl Figure {
 
     /// The figure with that file name.
     pub(super) fn at(option: &str, path: &Path) -> Result<Self, Failure> {
-        let format = FigureFormat::of(path)
-            .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))?;
+        let format = FigureFormat::of(path).map_err(|error| Failure::file(option, path, error))?;
         Ok(Self { format, output: Output::open(option, path)? })
     }
 

@@ -49,7 +49,7 @@ fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
         open(&folder.join(text))?.write_bytes(reproduction::page(&table).as_bytes())?;
         return Ok(vec![json.into(), text.into()]);
     };
-    write(&reproduction::figure(figure).map_err(failed)?, folder)
+    write(&reproduction::figure(&figure).map_err(failed)?, folder)
 }
 
 /// Writes the document and its pictures.

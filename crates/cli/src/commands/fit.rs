@@ -6,7 +6,7 @@ use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
 use super::tip::in_unit;
 use crate::arguments::FitArguments;
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::files::heading::Heading;
 use crate::files::measured::{Common, ratio, read_measured};
 use crate::files::sheet::Sheet;
@@ -46,8 +46,7 @@ fn judge(arguments: &FitArguments) -> Result<(), Failure> {
     let has_forces = has_lateral || !arguments.friction.is_empty();
     for (option, gain) in [("--height-gain", height_gain), ("--force-gain", force_gain)] {
         if let Some(gain) = gain.filter(|gain| !(gain.is_finite() && *gain > 0.0)) {
-            let named = format!("{option} {}", Typed(gain));
-            return Err(Failure::input(named, "must be a finite number above 0"));
+            return Err(Failure::number(option, gain, "must be a finite number above 0"));
         }
     }
     let idle = [
@@ -144,11 +143,9 @@ struct Files<'a> {
 
 impl<'a> Files<'a> {
     fn of(session: &'a Session, unit: Option<&str>) -> Result<Self, Failure> {
-        let given = |unit: &str| Common::given(Unit::Length, "--unit", unit);
-        let lengths = unit.map(given).transpose()?;
         Ok(Self {
             session,
-            lengths: lengths.unwrap_or(Common::of(Unit::Length)),
+            lengths: Common::lengths(unit)?,
             forces: Common::of(Unit::Force),
             velocities: Common::of(Unit::Velocity),
             loads: Common::of(Unit::Force),
@@ -245,6 +242,6 @@ fn taken<const N: usize>(
 ) -> Result<[Vec<f64>; N], Failure> {
     columns.try_into().map_err(|columns: Vec<Vec<f64>>| {
         let message = format!("{} columns; {N} are needed", columns.len());
-        Failure::input(format!("{option} {}", path.display()), message)
+        Failure::file(option, path, message)
     })
 }

@@ -49,7 +49,7 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
             return Ok(Some(read));
         }
         let message = "its lengths have another unit than those of --image";
-        Err(Failure::input(format!("{option} {}", path.display()), message))
+        Err(Failure::file(option, path, message))
     };
     let retrace_image = beside(RETRACE, arguments.retrace_image.as_deref())?.map(|read| read.image);
     let lateral = beside(LATERAL, arguments.lateral_image.as_deref())?;

@@ -63,10 +63,7 @@ struct Data<'a> {
 
 impl<'a> Data<'a> {
     fn new(session: &'a Session, unit: Option<&str>) -> Result<Self, Failure> {
-        let lengths = match unit {
-            Some(unit) => Common::given(Unit::Length, "--unit", unit)?,
-            None => Common::of(Unit::Length),
-        };
+        let lengths = Common::lengths(unit)?;
         Ok(Self { session, source: String::new(), lengths, force: None })
     }
 
@@ -78,7 +75,7 @@ impl<'a> Data<'a> {
             };
             let back = self.run(RETRACE, path)?.ok_or_else(|| {
                 let message = "is no run, as the trace is: give two runs, or two tables";
-                Failure::input(format!("{RETRACE} {}", path.display()), message)
+                Failure::file(RETRACE, path, message)
             })?;
             return Ok([run.way(), back.way()]);
         }
@@ -158,7 +155,7 @@ impl<'a> Data<'a> {
 }
 
 fn refused(option: &str, path: &Path, error: Refused) -> Failure {
-    Failure::input(format!("{option} {}", path.display()), error.reason(parameter_option))
+    Failure::file(option, path, error.reason(parameter_option))
 }
 
 /// Force in N of one unit of the data, by --stiffness or --sensitivity.

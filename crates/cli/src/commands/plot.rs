@@ -53,8 +53,8 @@ fn animate(
 
 #[cfg(not(feature = "animation"))]
 fn animate(_: &Session, arguments: &PlotArguments, _: AnimationFormat) -> Result<(), Failure> {
-    let option = format!("--output {}", arguments.output.display());
-    Err(Failure::input(option, FigureError::Missing("animations", "animation")))
+    let message = FigureError::Missing("animations", "animation");
+    Err(Failure::file("--output", &arguments.output, message))
 }
 
 fn figure(

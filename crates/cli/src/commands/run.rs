@@ -102,7 +102,7 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
         Place::File(file) => Ok(file),
         Place::Stdout | Place::Special(_) => {
             let message = "must be a file, which is replaced or extended";
-            Err(Failure::input(format!("{option} {}", path.display()), message))
+            Err(Failure::file(option, path, message))
         }
     }
 }
@@ -120,11 +120,9 @@ fn open(
         let fields = Fields::of_last_line(&fields.print)?;
         let stream = Stream::open("--output", output, checkpoint.is_some())?;
         if checkpoint.is_some() && !stream.is_file() {
-            return Err(Failure::input(
-                format!("--output {}", output.display()),
-                "cannot be resumed from a checkpoint: lines written to a stream cannot be taken back; write them to a \
-                 file",
-            ));
+            let message = "cannot be resumed from a checkpoint: lines written to a stream cannot be taken back; write them to a \
+                 file";
+            return Err(Failure::file("--output", output, message));
         }
         return Ok((Target::Lines(fields), Sink::Lines(stream)));
     }

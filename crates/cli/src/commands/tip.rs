@@ -3,15 +3,16 @@
 use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
 use crate::arguments::{Length, MeasuredTipArguments};
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::files::gsf::read_gsf;
 use crate::files::heading::Heading;
-use crate::files::measured::{one_of, read_measured};
+use crate::files::measured::read_measured;
 use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use stickslip::{
-    Ask, Dimension, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, parameter,
+    Ask, Dimension, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, Refused,
+    parameter,
 };
 use stickslip_units::Unit;
 
@@ -41,7 +42,7 @@ pub(crate) fn measured_tip(
         stickslip::Failure::Refused(refused)
             if matches!(&*refused.parameter, "profile" | "image") =>
         {
-            Failure::input(format!("{OPTION} {}", measured.display()), refused.why)
+            Failure::file(OPTION, measured, refused.why)
         }
         other => refusal(other, &options.tip, &[]),
     };
@@ -132,14 +133,14 @@ fn unit(
 
 /// The value in m of a unit of the positions.
 pub(super) fn metres(unit: &str) -> Result<f64, Failure> {
-    one_of(Unit::Length, "--unit", unit)
+    Ok(Refused::metres("unit", unit)?)
 }
 
 /// A length in the unit of the data.
 pub(super) fn in_unit(option: &str, length: Length, unit: Option<&str>) -> Result<f64, Failure> {
     match (length, unit) {
         (Length::Bare(number), _) if !number.is_finite() => {
-            Err(Failure::input(format!("{option} {}", Typed(number)), "must be a finite number"))
+            Err(Failure::number(option, number, "must be a finite number"))
         }
         (Length::Bare(number), _) => Ok(number),
         (Length::Metres(length), Some(unit)) => Ok(Dimension::rounded(length / metres(unit)?)),

@@ -15,8 +15,7 @@ pub(crate) fn units(session: &Session, arguments: &UnitsArguments) -> Result<(),
     judge_places(outlet, None, &options.files())?;
     if format(session, outlet.format, &outlet.output, "")? == Format::Npz {
         let message = "there are no arrays to write: take .json or .csv";
-        let named = format!("--output {}", outlet.output.display());
-        return Err(Failure::input(named, message));
+        return Err(Failure::file("--output", &outlet.output, message));
     }
     let question = question(session, arguments)?;
     let job = Job::open(session, UnitsDocument::FORMAT, outlet, None)?;

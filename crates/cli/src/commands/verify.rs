@@ -31,9 +31,7 @@ pub(crate) fn verify(session: &Session, arguments: &VerifyArguments) -> Result<(
     let path = &arguments.run;
     let read = [("RUN", Some(&**path))];
     distinct(&[("--output", Some(&*arguments.outlet.output))], &read)?;
-    match open(session, path)
-        .map_err(|error| Failure::input(format!("RUN {}", path.display()), error))?
-    {
+    match open(session, path).map_err(|error| Failure::file("RUN", path, error))? {
         Written::Document(reader) => of_document(session, read_run_from(reader, path)?, arguments),
         Written::Lines(file) => lines::verify(session, path, &file, &arguments.outlet),
     }
@@ -48,8 +46,8 @@ fn job(session: &Session, outlet: &OutletArguments) -> Result<Job, Failure> {
         None => match format_of(&outlet.output, "") {
             Ok(Format::Json) => Format::Json,
             _ => {
-                let option = format!("--output {}", outlet.output.display());
-                return Err(Failure::input(option, "must be .json, or - for standard output"));
+                let message = "must be .json, or - for standard output";
+                return Err(Failure::file("--output", &outlet.output, message));
             }
         },
     };
@@ -61,10 +59,8 @@ fn of_document(
     run: RunDocument,
     arguments: &VerifyArguments,
 ) -> Result<(), Failure> {
-    let damaged = |message: String| {
-        let named = format!("RUN.json {}", arguments.run.display());
-        Failure::input(named, format!("damaged: {message}"))
-    };
+    let damaged =
+        |message: String| Failure::file("RUN.json", &arguments.run, format!("damaged: {message}"));
     let unusable = |error: Unusable| damaged(error.to_string());
     let whole = run.parameters.prepared();
     let whole = whole.map_err(|failure| damaged(failure.described(str::to_owned)))?;

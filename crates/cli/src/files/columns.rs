@@ -20,9 +20,7 @@ pub(crate) fn read_columns(
     heading: &str,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let table = Table::open(session, option, path)?;
-    parse_columns(&table, heading, scales)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    Table::read(session, option, path, |table| parse_columns(table, heading, scales))
 }
 
 /// Lines of an area, y,start,length.
@@ -32,9 +30,8 @@ pub(crate) fn read_area(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Vec<AreaLine>, Failure> {
-    let table = Table::open(session, option, path)?;
-    let [y, start, length] = parse_table(&table, "y,start,length", scales)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))?;
+    let parse = |table: &Table| parse_table(table, "y,start,length", scales);
+    let [y, start, length] = Table::read(session, option, path, parse)?;
     let columns = y.into_iter().zip(start).zip(length);
     Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
 }
@@ -46,9 +43,8 @@ pub(crate) fn read_surface_table(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<SurfaceTable, Failure> {
-    let table = Table::open(session, option, path)?;
-    let named = |message: String| Failure::input(format!("{option} {}", path.display()), message);
-    surface_table(parse_table(&table, "x,y,u", scales).map_err(named)?).map_err(named)
+    let parse = |table: &Table| surface_table(parse_table(table, "x,y,u", scales)?);
+    Table::read(session, option, path, parse)
 }
 
 fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
@@ -87,9 +83,7 @@ pub(crate) fn read_profile(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    let table = Table::open(session, option, path)?;
-    parse_profile(&table, scales)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    Table::read(session, option, path, |table| parse_profile(table, scales))
 }
 
 pub(crate) fn parse_profile(

@@ -84,8 +84,7 @@ const LARGEST: u64 = (4 << 24) + (1 << 16);
 /// The image in a file.
 pub(crate) fn read_gsf(session: &Session, option: &str, path: &Path) -> Result<Image, Failure> {
     let bytes = read_bytes(session, option, path, LARGEST)?;
-    parse_gsf(&bytes)
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    parse_gsf(&bytes).map_err(|message| Failure::file(option, path, message))
 }
 
 fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {

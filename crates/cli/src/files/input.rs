@@ -47,8 +47,7 @@ pub(crate) struct GaussianEntry {
 
 pub(crate) fn read_tip(session: &Session, path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
-    parse_tip(&Table::open(session, OPTION, path)?)
-        .map_err(|message| Failure::input(format!("{OPTION} {}", path.display()), message))
+    Table::read(session, OPTION, path, parse_tip)
 }
 
 pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {
@@ -100,7 +99,7 @@ pub(crate) fn read_scanned(session: &Session, path: &Path) -> Result<RunOrRaster
     if let Some(run) = session.document(path) {
         return Ok(RunOrRaster::Run(Box::new(run)));
     }
-    let refused = |error: Unusable| Failure::input(format!("RUN.json {}", path.display()), error);
+    let refused = |error: Unusable| Failure::file("RUN.json", path, error);
     let (kind, mut source) =
         documents::identified(open(session, "RUN.json", path)?, RunDocument::FORMAT)
             .map_err(refused)?;
@@ -135,7 +134,7 @@ pub(crate) fn run_in(
 /// Reads a document of `stickslip run` from an open file.
 pub(crate) fn read_run_from(reader: impl Read, path: &Path) -> Result<RunDocument, Failure> {
     RunDocument::read(&mut reader.take(LARGEST_DOCUMENT))
-        .map_err(|error| Failure::input(format!("RUN.json {}", path.display()), error))
+        .map_err(|error| Failure::file("RUN.json", path, error))
 }
 
 /// Reads a document of this kind.
@@ -147,8 +146,7 @@ pub(crate) fn read_document<D: Saved>(
     if let Some(document) = session.document(path) {
         return Ok(document);
     }
-    D::read(&mut open(session, option, path)?)
-        .map_err(|error| Failure::input(format!("{option} {}", path.display()), error))
+    D::read(&mut open(session, option, path)?).map_err(|error| Failure::file(option, path, error))
 }
 
 /// The format of the document in a file; `None` if it names none.
@@ -159,7 +157,7 @@ pub(crate) fn format_of(
     wanted: &str,
 ) -> Result<Option<String>, Failure> {
     let kind = documents::kind_of(open(session, option, path)?, wanted);
-    let refused = |error| Failure::input(format!("{option} {}", path.display()), error);
+    let refused = |error| Failure::file(option, path, error);
     kind.map(|kind| kind.format).map_err(refused)
 }
 
@@ -171,9 +169,7 @@ pub(crate) fn open(session: &Session, option: &str, path: &Path) -> Result<Box<d
     if path == Path::new("-") {
         return Ok(Box::new(io::stdin().take(LARGEST_DOCUMENT)));
     }
-    let file = File::open(path).map_err(|error| {
-        Failure::input(format!("{option} {}", path.display()), unreadable(error))
-    })?;
+    let file = File::open(path).map_err(|error| Failure::file(option, path, unreadable(error)))?;
     Ok(Box::new(file.take(LARGEST_DOCUMENT)))
 }
 

@@ -92,7 +92,8 @@ impl Write for Journal {
     }
 }
 
-struct Hashing<'a>(&'a mut Hasher);
+/// The checksum of what is written, none of which is kept.
+pub(crate) struct Hashing<'a>(pub(crate) &'a mut Hasher);
 
 impl Write for Hashing<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {

@@ -5,6 +5,7 @@ use super::sheet::{Sheet, Table};
 use crate::failure::Failure;
 use crate::session::Session;
 use std::path::Path;
+use stickslip::Refused;
 use stickslip_units::Unit;
 
 /// The table in a file, with one of these numbers of columns. Rows with missing values are omitted, with a warning.
@@ -14,15 +15,12 @@ pub(crate) fn read_measured(
     path: &Path,
     columns: &[usize],
 ) -> Result<Sheet, Failure> {
-    let named = || format!("{option} {}", path.display());
-    let table = Table::open(session, option, path)?;
-    let sheet =
-        parse_measured(&table, columns).map_err(|message| Failure::input(named(), message))?;
+    let sheet = Table::read(session, option, path, |table| parse_measured(table, columns))?;
     if let Some(first) = sheet.missing.first() {
         let (count, all) = (sheet.missing.len(), sheet.missing.len() + sheet.columns[0].len());
         session.remark(format_args!(
-            "stickslip: {}: {count} of {all} rows have no value and are left out, the first in {} {first}",
-            named(),
+            "stickslip: {option} {}: {count} of {all} rows have no value and are left out, the first in {} {first}",
+            path.display(),
             sheet.counted
         ));
     }
@@ -74,17 +72,18 @@ impl Common {
         Self { of, first: None }
     }
 
-    /// The unit is that of the option; it also applies to columns without a unit.
+    /// Lengths, in the unit of --unit if it is given: it also applies to columns without a unit.
     ///
     /// # Errors
-    /// The unit does not belong to this quantity.
-    pub(crate) fn given(of: Unit, option: &str, unit: &str) -> Result<Self, Failure> {
-        let one = one_of(of, option, unit)?;
-        let named = format!("{option} {unit}");
-        Ok(Self {
-            of,
-            first: Some(First { named, unit: Some(unit.trim().into()), one: Some(one) }),
-        })
+    /// It is no unit of length.
+    pub(crate) fn lengths(unit: Option<&str>) -> Result<Self, Failure> {
+        let mut lengths = Self::of(Unit::Length);
+        if let Some(unit) = unit {
+            let one = Some(Refused::metres("unit", unit)?);
+            let (named, unit) = (format!("--unit {unit}"), Some(unit.trim().into()));
+            lengths.first = Some(First { named, unit, one });
+        }
+        Ok(lengths)
     }
 
     /// The unit, if there is one.
@@ -155,13 +154,6 @@ pub(crate) fn ratio(unit: Option<&str>, to: Option<&str>) -> Option<f64> {
     let (unit, to) = (unit?, to?);
     let quantities = [Unit::Force, Unit::Length, Unit::Voltage];
     quantities.iter().find_map(|of| Some(of.one(unit)? / of.one(to)?))
-}
-
-/// The value in SI units of a unit given by an option.
-pub(crate) fn one_of(of: Unit, option: &str, unit: &str) -> Result<f64, Failure> {
-    of.one(unit).ok_or_else(|| {
-        Failure::input(format!("{option} {unit}"), "must be m, mm, um, nm, pm or Å (angstrom)")
-    })
 }
 
 #[cfg(test)]
@@ -236,10 +228,8 @@ mod tests {
         }
         let mut common = Common::of(Unit::Length);
         assert!(factor(&mut common, "x").is_ok() && factor(&mut common, "x_nm").is_err());
-        let mut common = Common::given(Unit::Length, "--unit", "um").unwrap();
+        let mut common = Common::lengths(Some("um")).unwrap();
         assert!((factor(&mut common, "x_nm").unwrap() / 1e-3 - 1.0).abs() < 1e-15);
-        assert!(
-            factor(&mut common, "x").is_ok() && Common::given(Unit::Length, "--unit", "N").is_err()
-        );
+        assert!(factor(&mut common, "x").is_ok() && Common::lengths(Some("N")).is_err());
     }
 }

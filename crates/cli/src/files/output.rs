@@ -23,8 +23,9 @@ pub(crate) fn format_of(path: &Path, more: &str) -> Result<Format, Failure> {
         Some("csv") => Ok(Format::Csv),
         Some("npz") => Ok(Format::Npz),
         _ if is_special(path) => Ok(Format::Json),
-        _ => Err(Failure::input(
-            format!("--output {}", path.display()),
+        _ => Err(Failure::file(
+            "--output",
+            path,
             format!(
                 "the extension gives the format: it must be .json, .csv{more} or .npz, or - for JSON on \
                  standard output"

@@ -51,6 +51,20 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// The result of parsing the table in a file.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), or that of `parse`.
+    pub(crate) fn read<T>(
+        session: &'a Session,
+        option: &str,
+        path: &Path,
+        parse: impl FnOnce(&Self) -> Result<T, String>,
+    ) -> Result<T, Failure> {
+        let table = Self::open(session, option, path)?;
+        parse(&table).map_err(|message| Failure::file(option, path, message))
+    }
+
     /// The sheet of this table, with one of the numbers of columns in `admissible`.
     ///
     /// # Errors

@@ -20,7 +20,7 @@ pub(crate) fn read_text(
     let bytes = read_bytes(session, option, path, most)?;
     refuse_binary(path, &bytes)
         .and_then(|()| decoded(bytes))
-        .map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+        .map_err(|message| Failure::file(option, path, message))
 }
 
 /// The bytes of a file, with the same limit.
@@ -37,7 +37,7 @@ pub(super) fn read_bytes(
     } else {
         File::open(path).map_err(unreadable).and_then(|file| bytes_of(file, most))
     };
-    bytes.map_err(|message| Failure::input(format!("{option} {}", path.display()), message))
+    bytes.map_err(|message| Failure::file(option, path, message))
 }
 
 fn bytes_of(reader: impl Read, most: u64) -> Result<Vec<u8>, String> {

@@ -60,7 +60,10 @@ impl Refused {
     }
 
     /// The value of a unit of lengths, in m.
-    pub(crate) fn metres(parameter: &'static str, unit: &str) -> Result<f64, Self> {
+    ///
+    /// # Errors
+    /// It is no unit of length.
+    pub fn metres(parameter: &'static str, unit: &str) -> Result<f64, Self> {
         let why = "must be m, mm, um, nm, pm or Å (angstrom)";
         Unit::Length.one(unit).ok_or_else(|| Self::word(parameter, unit, why))
     }

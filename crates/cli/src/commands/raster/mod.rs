@@ -7,7 +7,7 @@ use super::job::{Job, format};
 use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
 use super::sweep::threads;
 use crate::arguments::{AreaArguments, Format, Options, Questions, RasterArguments};
-use crate::commands::in_units::{in_metres, scales};
+use crate::commands::in_units::in_metres;
 use crate::failure::Failure;
 use crate::files::columns::read_area;
 use crate::files::distinct::{Named, distinct};
@@ -35,9 +35,7 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
     let format =
         if is_gsf { Format::Json } else { format(session, arguments.format, output, ", .gsf")? };
     let values = options.values(session)?;
-    let tip_file = options.tip.tip_file.as_deref();
-    let scales =
-        scales(session, &arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales = options.scales(session, &arguments.in_units, &values)?;
     let (question, plan) = question(session, options, values, (area, pulse), scales.as_ref())?;
     let times = question.times(&plan)?;
     let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;

@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use super::record::Record;
 use crate::arithmetic::{arithmetic, foreign};
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::files::paths::folder_of;
 use crate::files::paths::seen_from;
 use crate::files::place::Target;
@@ -113,7 +113,7 @@ fn bytes(head: &CheckpointHead, state: &State) -> serde_json::Result<Vec<u8>> {
 /// # Errors
 /// The file cannot be read, is damaged, or was written by another version of this program.
 pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
-    let refused = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let refused = |message: String| Failure::file("--resume", path, message);
     let unreadable = |error: io::Error| refused(format!("cannot be read: {error}"));
     let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
     let mut bytes = vec![];
@@ -169,9 +169,8 @@ pub(super) fn interval(asked: Option<f64>, (start, end): (f64, f64)) -> Result<f
     match asked {
         None => Ok((end - start) / DEFAULT_NUMBER),
         Some(every) if every.is_finite() && every > 0.0 => Ok(every),
-        Some(every) => Err(Failure::input(
-            format!("--checkpoint-every {}", Typed(every)),
-            "must be a finite time above 0",
-        )),
+        Some(every) => {
+            Err(Failure::number("--checkpoint-every", every, "must be a finite time above 0"))
+        }
     }
 }

@@ -4,7 +4,6 @@ use super::checkpoint;
 use super::disturbance::{disturbed, files_read};
 use crate::arguments::{Format, HistoryName, RunArguments};
 use crate::commands::ask::{refusal, refuse_strangers};
-use crate::commands::in_units::scales;
 use crate::commands::job;
 use crate::failure::Failure;
 use crate::files::columns::read_surface_table;
@@ -24,9 +23,7 @@ pub(super) fn order(
     let format = format(session, arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
     refuse_strangers::<Run, _>(options, &values, "a tip on its line, without --walker")?;
-    let tip_file = options.tip.tip_file.as_deref();
-    let scales =
-        scales(session, &arguments.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales = options.scales(session, &arguments.in_units, &values)?;
     let files = files(arguments);
     let question: Run = parameter::question(values)?;
     let question = match &arguments.initial_surface_across {
@@ -66,23 +63,17 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     }
     let plot = arguments.plot.as_deref().map(|path| format!("--plot {}", path.display()));
     if let Some(option) = plot {
-        return Err(Failure::input(
-            option,
-            "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz",
-        ));
+        let message = "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz";
+        return Err(Failure::input(option, message));
     }
     if order.scales.is_some() {
-        return Err(Failure::input(
-            "--units, --sigma and the other scales",
-            "apply to tables and documents, and .jsonl is written during the run: write it to a .json, .csv or .npz",
-        ));
+        let message = "apply to tables and documents, and .jsonl is written during the run: write it to a .json, .csv or .npz";
+        return Err(Failure::input("--units, --sigma and the other scales", message));
     }
     if arguments.verify {
-        return Err(Failure::input(
-            "--verify",
-            "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz, \
-             or verify the lines afterwards, with `stickslip verify FILE.jsonl`",
-        ));
+        let message = "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz, \
+             or verify the lines afterwards, with `stickslip verify FILE.jsonl`";
+        return Err(Failure::input("--verify", message));
     }
     Ok(order)
 }
@@ -110,8 +101,9 @@ pub(super) fn judge_files(arguments: &RunArguments) -> Result<(), Failure> {
         .find_map(|(option, path)| Some((option, path?)).filter(|n| !is_text(n.1)));
     match odd.filter(|_| arguments.checkpoint.is_some()) {
         None => Ok(()),
-        Some((option, path)) => Err(Failure::input(
-            format!("{option} {}", path.display()),
+        Some((option, path)) => Err(Failure::file(
+            option,
+            path,
             "its name, or that of a folder, is not UTF-8, and a checkpoint contains it as text: choose another name",
         )),
     }

@@ -28,7 +28,7 @@ pub(super) fn resume(
     path: &Path,
     arguments: &RunArguments,
 ) -> Result<(), Failure> {
-    let named = |message: String| Failure::input(format!("--resume {}", path.display()), message);
+    let named = |message: String| Failure::file("--resume", path, message);
     let checkpoint = file("--resume", path)?;
     let (mut head, state) = checkpoint::read(path)?;
     let before = folder_of(checkpoint.path()).join(&head.order.output);
@@ -72,7 +72,7 @@ fn resumed<R: Motion>(
     let order = &head.order;
     judge(head, running.t(), scenario).map_err(|message| {
         let path = arguments.resume.as_deref().unwrap_or(checkpoint.path());
-        Failure::input(format!("--resume {}", path.display()), message)
+        Failure::file("--resume", path, message)
     })?;
     let interrupt = Interrupt::listen(session)?;
     let (target, record) = if order.format == RunFormat::Jsonl {
@@ -128,7 +128,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
         (_, Some(held)) => Some(place("--plot", given, &held)?),
         (Some(path), None) => {
             let message = "the run was started without a picture, and may lack the data for one";
-            return Err(Failure::input(format!("--plot {}", path.display()), message));
+            return Err(Failure::file("--plot", path, message));
         }
         (None, None) => None,
     };
@@ -142,7 +142,7 @@ fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> R
     if is_other {
         let message =
             "the run is written in another format, that of the checkpoint: give the same extension";
-        return Err(Failure::input(format!("--output {}", order.output.display()), message));
+        return Err(Failure::file("--output", &order.output, message));
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Summaries of linear theory: stability, walks, boundary, response.
 
-use super::{Summary, again, digits};
+use super::{Summary, again, digits, extremes};
 use crate::commands::job::Product;
 use stickslip::{
     BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
@@ -95,9 +95,7 @@ fn criticality(name: CriticalityName) -> &'static str {
 impl Product for BoundaryDocument {
     fn summary(&self) -> Summary {
         let points = self.r.len();
-        let lowest = self.alpha.iter().copied().fold(f64::INFINITY, f64::min);
-        let highest = self.alpha.iter().copied().fold(0.0, f64::max);
-        let [low, high] = [lowest, highest].map(|alpha| digits(alpha, 7));
+        let [low, high] = extremes(self.alpha.iter().copied()).map(|alpha| digits(alpha, 7));
         let [first, last] = self.parameters.r_range.map(|r| digits(r, 7));
         let limits = self.limits.as_ref();
         if points == 0 {
@@ -125,9 +123,7 @@ impl Product for BoundaryDocument {
 fn least(summary: Summary, limits: Option<&LimitColumns>) -> Summary {
     let depths = limits.map(|limits| limits.least_depth_limit.iter().copied().flatten());
     let depths: Vec<f64> = depths.into_iter().flatten().collect();
-    let lowest = depths.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = depths.iter().copied().fold(0.0, f64::max);
-    let [low, high] = [lowest, highest].map(|b| digits(b, 7));
+    let [low, high] = extremes(depths.iter().copied()).map(|b| digits(b, 7));
     let range = (!depths.is_empty()).then(|| format!("b = {low} to {high}, by r"));
     summary.maybe("always stable below", range).maybe(
         "always stable below rT",

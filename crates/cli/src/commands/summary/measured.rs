@@ -142,10 +142,8 @@ impl Product for FitImageDocument {
 
 impl Product for FrictionDocument {
     fn summary(&self) -> Summary {
-        let unit = |unit: &Option<String>| {
-            unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default()
-        };
-        let (force, work) = (unit(&self.force_unit), unit(&self.work_unit));
+        let [force, work, length] = [&self.force_unit, &self.work_unit, &self.length_unit]
+            .map(|unit| after_number(unit.as_deref()));
         let headline = format!(
             "kinetic friction {}{force}, static peak {}{force}, work {}{work}",
             with_interval(&self.kinetic),
@@ -157,7 +155,6 @@ impl Product for FrictionDocument {
             let value = format!("{} {unit}", with_interval(estimate));
             summary = summary.row(name, value.trim_end());
         }
-        let length = unit(&self.length_unit);
         summary
             .row("static over kinetic", digits(self.peak_ratio, 4))
             .row("reversal", format!("{}{length}", digits(self.reversal, 4)))

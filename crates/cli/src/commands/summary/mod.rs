@@ -152,6 +152,19 @@ fn in_units(value: &str, scales: &KnownScales) -> Option<String> {
     Some(format!(" = {} {}", digits(converted, count.max(3)), dimension.unit()))
 }
 
+/// The first and the last of these values, such as "0.1 to 2".
+fn ends(values: &[f64]) -> String {
+    let [first, last] =
+        [values.first(), values.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
+    format!("{first} to {last}")
+}
+
+/// The least and the largest of these values.
+fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], wider)
+}
+
 /// A ratio with two digits: computing times are not more reproducible.
 pub(crate) fn times(ratio: f64) -> String {
     let rounded = format!("{ratio:.1e}").parse().unwrap_or(ratio);

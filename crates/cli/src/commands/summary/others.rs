@@ -1,6 +1,6 @@
 //! Summaries of surfaces, comparisons and units.
 
-use super::{Summary, again, digits, times};
+use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
 use stickslip::{CompareDocument, CompareFound, SurfaceDocument, UnitsDocument};
 
@@ -12,13 +12,11 @@ impl Product for SurfaceDocument {
         });
         let all: Vec<(f64, &Vec<f64>, Vec<f64>)> = curves.chain(images).collect();
         let line = |(t, x, u): &(f64, &Vec<f64>, Vec<f64>)| {
-            let low = digits(u.iter().copied().fold(f64::INFINITY, f64::min), 4);
-            let high = digits(u.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
-            let [first, last] = [x.first(), x.last()].map(|x| digits(x.copied().unwrap_or(0.0), 7));
-            let (count, t) = (u.len(), digits(*t, 10));
+            let [low, high] = extremes(u.iter().copied()).map(|u| digits(u, 4));
+            let (count, t, x) = (u.len(), digits(*t, 10), ends(x));
             (
                 format!("t = {t}"),
-                format!("{count} heights from {low} to {high} kσ²/a, x from {first} to {last} σ"),
+                format!("{count} heights from {low} to {high} kσ²/a, x from {x} σ"),
             )
         };
         let rows: Vec<(String, String)> = all.iter().map(line).collect();

@@ -1,6 +1,6 @@
 //! Summaries of rasters.
 
-use super::{Summary, again, digits, times};
+use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
 use crate::failure::Failure;
 use crate::files::output::Output;
@@ -110,13 +110,6 @@ fn angle(at: &RasterCriticalDocument) -> Option<String> {
     at.crest_angle.map(|angle| format!("{} °", digits(angle, 6)))
 }
 
-/// The first and the last of these values.
-fn ends(values: &[f64]) -> String {
-    let [first, last] =
-        [values.first(), values.last()].map(|v| digits(v.copied().unwrap_or(0.0), 7));
-    format!("{first} to {last}")
-}
-
 impl Product for RasterBoundaryDocument {
     fn summary(&self) -> Summary {
         let pitches = self.pitch.len();
@@ -214,8 +207,7 @@ impl Product for RasterSurfaceDocument {
     fn summary(&self) -> Summary {
         let all = |map: &HeightMap| map.u.concat();
         let heights: Vec<f64> = self.surfaces.iter().flat_map(all).collect();
-        let low = digits(heights.iter().copied().fold(f64::INFINITY, f64::min), 4);
-        let high = digits(heights.iter().copied().fold(f64::NEG_INFINITY, f64::max), 4);
+        let [low, high] = extremes(heights.iter().copied()).map(|u| digits(u, 4));
         Summary::new(format!("{} heights from {low} to {high} kσ²/a", heights.len()))
             .next(again("-o surface.npz --plot surface.png"))
     }
@@ -239,9 +231,7 @@ impl Product for LoadMapDocument {
         };
         let ripples = self.points.iter().filter(|point| point.wavelength.is_some());
         let part = format!("at {} of {} points", ripples.clone().count(), self.points.len());
-        let lengths = ripples.filter_map(|point| point.wavelength);
-        let shortest = lengths.clone().fold(f64::INFINITY, f64::min);
-        let longest = lengths.fold(0.0, f64::max);
+        let [shortest, longest] = extremes(ripples.filter_map(|point| point.wavelength));
         let range =
             (longest > 0.0).then(|| format!("{} to {} σ", digits(shortest, 6), digits(longest, 6)));
         Summary::new(headline)

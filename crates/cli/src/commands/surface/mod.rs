@@ -38,12 +38,8 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
     if document.parameters.stiffness_across.is_some() {
         return across::surface(session, arguments, &document, format);
     }
-    let damaged = |message: String| {
-        Failure::input(
-            format!("RUN.json {}", arguments.run.display()),
-            format!("damaged: {message}"),
-        )
-    };
+    let damaged =
+        |message: String| Failure::file("RUN.json", &arguments.run, format!("damaged: {message}"));
     let unusable = |error: Unusable| damaged(error.to_string());
     let model = document.parameters.model_parameters().model().map_err(unusable)?;
     let trajectory = document.trajectory().map_err(unusable)?;

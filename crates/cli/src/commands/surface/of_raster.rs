@@ -18,12 +18,8 @@ pub(super) fn surface(
     format: SurfaceFormat,
 ) -> Result<(), Failure> {
     refuse_of_runs(arguments)?;
-    let damaged = |error: Unusable| {
-        Failure::input(
-            format!("RASTER.json {}", arguments.run.display()),
-            format!("damaged: {error}"),
-        )
-    };
+    let damaged =
+        |error: Unusable| Failure::file("RASTER.json", &arguments.run, format!("damaged: {error}"));
     let (plan, lines) = raster.scanned().map_err(damaged)?;
     let (low, high) = plan.area.ends();
     let (from, to) = (low - plan.reach_across(), high + plan.reach_across());
@@ -84,13 +80,11 @@ fn judge_size(places: &Places, y: &[f64], most: f64) -> Result<(), Failure> {
         return Ok(());
     }
     let least = places.spacing.unwrap_or(1.0) * columns * rows / most;
-    Err(Failure::input(
-        "--spacing and --y",
-        format!(
-            "make {columns} columns of {rows} rows, more than fit in memory; take --spacing {least:.3e} or more, or \
+    let message = format!(
+        "make {columns} columns of {rows} rows, more than fit in memory; take --spacing {least:.3e} or more, or \
              fewer rows by --y or --y-range{OR_GSF}"
-        ),
-    ))
+    );
+    Err(Failure::input("--spacing and --y", message))
 }
 
 /// Rejects options that have no meaning for a raster.

@@ -1,7 +1,7 @@
 //! Times and positions of a surface.
 
 use crate::arguments::{Interval, SurfaceArguments};
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use stickslip_tip::Trajectory;
 
 const DEFAULT_SPACING: f64 = 0.05;
@@ -69,8 +69,7 @@ impl Places {
         let each = t.len() as f64 * across.as_ref().map_or(1.0, Range::points);
         if let Some(x) = &arguments.x {
             if let Some(x) = x.iter().find(|x| !x.is_finite()) {
-                let named = format!("--x {}", Typed(*x));
-                return Err(Failure::input(named, "must be finite numbers"));
+                return Err(Failure::number("--x", *x, "must be finite numbers"));
             }
             let y = across.map_or(Ok(vec![]), |across| {
                 let each = each / across.points() * x.len() as f64;
@@ -107,8 +106,9 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
     let times = arguments.at.clone().unwrap_or_else(|| vec![end]);
     match times.iter().find(|t| !(start..=end).contains(*t)) {
         None => Ok(times),
-        Some(t) => Err(Failure::input(
-            format!("--at {}", Typed(*t)),
+        Some(t) => Err(Failure::number(
+            "--at",
+            *t,
             format!("outside of the run, which lasts from {start} to {end}"),
         )),
     }
@@ -136,13 +136,7 @@ fn range(
 }
 
 fn spacing(option: &str, typed: Option<f64>, default: f64) -> Result<f64, Failure> {
-    let spacing = typed.unwrap_or(default);
-    if spacing.is_finite() && spacing > 0.0 {
-        Ok(spacing)
-    } else {
-        let named = format!("{option} {}", Typed(spacing));
-        Err(Failure::input(named, "must be a finite number above 0"))
-    }
+    Failure::unless_positive(option, typed.unwrap_or(default))
 }
 
 impl Range {
@@ -156,13 +150,11 @@ impl Range {
         let points = self.points() * each;
         if points > most {
             let least = spacing * points / most;
-            return Err(Failure::input(
-                format!("{option} {}", Typed(spacing)),
-                format!(
-                    "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more{}",
-                    if most < MOST_PIXELS_OF_GSF { OR_GSF } else { "" }
-                ),
-            ));
+            let message = format!(
+                "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more{}",
+                if most < MOST_PIXELS_OF_GSF { OR_GSF } else { "" }
+            );
+            return Err(Failure::number(option, spacing, message));
         }
         let intervals = ((high - low) / spacing + 1e-9).floor() as usize;
         Ok((0..=intervals).map(|i| low + spacing * i as f64).collect())

@@ -3,7 +3,7 @@
 use super::places::{MOST_PIXELS, MOST_PIXELS_OF_GSF, Places};
 use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::job::{Job, format};
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::files::gsf::{Frame, gsf, header, pixels};
 use crate::files::output::Output;
 use crate::session::Session;
@@ -29,12 +29,11 @@ impl SurfaceFormat {
     pub(super) fn judge_of_run(self, arguments: &SurfaceArguments) -> Result<(), Failure> {
         if let Some(y) = arguments.y.as_ref().and_then(|y| y.first()) {
             let advice = "is for rasters: a run has --y-range LO:HI";
-            return Err(Failure::input(format!("--y {}", Typed(*y)), advice));
+            return Err(Failure::number("--y", *y, advice));
         }
         if self == Self::Gsf && arguments.y_range.is_none() {
-            let named = format!("--output {}", arguments.output.display());
             let advice = "a .gsf file contains an image: give --y-range LO:HI too";
-            return Err(Failure::input(named, advice));
+            return Err(Failure::file("--output", &arguments.output, advice));
         }
         Ok(())
     }
@@ -118,7 +117,7 @@ pub(super) fn large(
 ) -> Result<(), Failure> {
     if let Some(path) = &arguments.plot {
         let advice = "draws at most 1e7 points: leave it out, or take a larger --spacing";
-        return Err(Failure::input(format!("--plot {}", path.display()), advice));
+        return Err(Failure::file("--plot", path, advice));
     }
     if let Some(field) = arguments.fields.print.first() {
         let advice = "prints of images of at most 1e7 points: leave it out";

@@ -4,8 +4,9 @@ use crate::arithmetic::arithmetic;
 use crate::commands::finished::Part;
 use crate::commands::job::Product;
 use crate::failure::Failure;
+use crate::files::journal::Hashing;
+use crc32fast::Hasher;
 use serde::Serialize;
-use std::io::{self, Write};
 use stickslip::{
     Document, EnsembleDocument, Physical, RasterSweep, RasterSweepDocument, RasterSweepFound,
     RasterSweepPoint, ShardDocument, Software, SweepDocument, SweepFound, SweepParameters,
@@ -154,22 +155,8 @@ impl Divided for RasterSweepDocument {
 }
 
 fn sum(written: &impl Serialize) -> Result<u32, Failure> {
-    let mut sum = Sum(crc32fast::Hasher::new());
-    let text = serde_json::to_writer(&mut sum, written);
+    let mut sum = Hasher::new();
+    let text = serde_json::to_writer(&mut Hashing(&mut sum), written);
     text.map_err(|error| Failure::Run(error.to_string()))?;
-    Ok(sum.0.finalize())
-}
-
-/// The checksum of what is written, of which nothing is kept.
-struct Sum(crc32fast::Hasher);
-
-impl Write for Sum {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
+    Ok(sum.finalize())
 }

@@ -41,10 +41,8 @@ fn merged<D: Divided>(session: &Session, arguments: &MergeArguments) -> Result<(
         let (path, mut part) = part?;
         shards.extend(part.held().shard.take());
         if !part.is_of(&whole) {
-            return Err(Failure::input(
-                format!("{PART} {}", path.display()),
-                "belongs to another sweep, or another version, than the first one",
-            ));
+            let message = "belongs to another sweep, or another version, than the first one";
+            return Err(Failure::file(PART, &path, message));
         }
         let (part, all) = (part.held(), whole.held());
         if part.arithmetic != all.arithmetic && all.arithmetic.take().is_some() {
@@ -125,7 +123,7 @@ pub(super) fn is_done<D: Divided>(
 
 fn read<D: Divided>(session: &Session, path: &Path) -> Result<D, Failure> {
     let mut part: D = read_document(session, PART, path)?;
-    let refused = |message| Err(Failure::input(format!("{PART} {}", path.display()), message));
+    let refused = |message| Err(Failure::file(PART, path, message));
     let kept = *part.held().crc32;
     match kept {
         Some(sum) if sum == part.checksum()? => Ok(part),

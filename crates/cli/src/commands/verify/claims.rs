@@ -83,22 +83,21 @@ pub(super) struct Columns {
 
 impl Columns {
     pub(super) fn of(scenario: &Scenario) -> Self {
-        let names = ["l", "x0", "lag", "y0", "velocity", "height", "weight", "velocity_y"];
-        let fields = names.map(|name| match name {
-            "l" => "samples.l",
-            "x0" => "samples.x0",
-            "lag" => "samples.lag",
-            "y0" => "samples.y0",
-            "velocity" => "samples.velocity",
-            "height" => "samples.height",
-            "weight" => "samples.weight",
-            _ => "samples.velocity_y",
-        });
         Self {
             support: scenario.support(),
             wider: *scenario.model.wider(),
             tolerance: scenario.tolerance,
-            columns: fields.map(Column::new),
+            columns: [
+                "samples.l",
+                "samples.x0",
+                "samples.lag",
+                "samples.y0",
+                "samples.velocity",
+                "samples.height",
+                "samples.weight",
+                "samples.velocity_y",
+            ]
+            .map(Column::new),
         }
     }
 

@@ -11,7 +11,6 @@ use super::ask::{option, refusal, refuse_strangers};
 use super::job::{Job, judge_places};
 use super::run::disturbance::{disturbed, files_read};
 use crate::arguments::CompareArguments;
-use crate::commands::in_units::scales;
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::session::Session;
@@ -33,9 +32,7 @@ pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result
         return raster::compare(session, arguments, values);
     }
     judge_places(&place.outlet, place.plot.as_deref(), &files(arguments))?;
-    let tip_file = options.tip.tip_file.as_deref();
-    let scales =
-        scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales = options.scales(session, &place.in_units, &values)?;
     let asked = Asked::of(session, arguments, values, scales.as_ref())?;
     let job = Job::open(session, CompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let sides = match &asked.scenario {
@@ -103,17 +100,14 @@ impl<'a> Asked<'a> {
         let start = scenario.start_time();
         let grid_until = arguments.grid_until.unwrap_or(scenario.until);
         if !(grid_until > start && grid_until <= scenario.until) {
-            return Err(Failure::input(
-                format!("--grid-until {}", Typed(grid_until)),
-                format!("must lie between the start at t = {start} and --until"),
-            ));
+            let message = format!("must lie between the start at t = {start} and --until");
+            return Err(Failure::number("--grid-until", grid_until, message));
         }
         let (longest, step) = (grid_until - start, arguments.step.unwrap_or(0.0));
         if step > longest {
-            return Err(Failure::input(
-                format!("--step {}", Typed(step)),
-                format!("is longer than the run of the grid: must be at most {}", Typed(longest)),
-            ));
+            let message =
+                format!("is longer than the run of the grid: must be at most {}", Typed(longest));
+            return Err(Failure::number("--step", step, message));
         }
         let time_limit = time_limit(arguments)?;
         Ok(Self { session, question, scenario: whole, discretisation, grid_until, time_limit })
@@ -175,10 +169,8 @@ fn run_of(
 fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
     let time_limit = arguments.time_limit;
     if time_limit.is_nan() || time_limit <= 0.0 {
-        return Err(Failure::input(
-            format!("--time-limit {}", Typed(time_limit)),
-            "must be a number of seconds above 0",
-        ));
+        let message = "must be a number of seconds above 0";
+        return Err(Failure::number("--time-limit", time_limit, message));
     }
     Ok(time_limit)
 }

@@ -1,11 +1,10 @@
 //! `stickslip compare --stiffness-across`: a tip that is free to move across the scan, against cells of a plane.
 
-use super::closed::{STEPS_PER_LOOK, closed_work};
-use super::grid::{Discretisation, Motion, Watch, explain, grid_work, wider};
-use super::pace::{Pace, stopped, timed};
+use super::closed::closed_work;
+use super::grid::{Discretisation, Motion, Samples, explain, grid_work, watch, wider};
+use super::pace::{Unit, Watch, timed};
 use super::plane::Plane;
 use super::{Asked, Sides};
-use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use stickslip::{ClosedDocument, GridDocument};
 use stickslip_grid::{
@@ -77,18 +76,20 @@ type Made = (Vec<Step>, Work, &'static str);
 fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<(Made, f64), Failure> {
     let refused = |error| asked.question.refused_across(error);
     let span = (scenario.along.start_time(), scenario.along.until);
-    let pace = Pace::new("--until", span, asked.time_limit);
-    let mut progress = Progress::new(asked.session, span.0, span.1);
-    let mut running = PlanarRunning::new(scenario).map_err(refused)?;
-    let mut steps = vec![];
-    while let Some(step) = running.step().map_err(refused)? {
-        progress.reached(step.end());
-        steps.push(step);
-        let is_time_to_look = steps.len().is_multiple_of(STEPS_PER_LOOK as usize);
-        let failure = if is_time_to_look { pace.too_slow(step.end()) } else { stopped() };
-        failure.map_or(Ok(()), Err)?;
-    }
-    Ok(((steps, running.work(), running.memory().0), pace.seconds()))
+    let mut watch = Watch::new(asked.session, Unit::Time("--until"), span, asked.time_limit);
+    watch = watch.of_short_steps();
+    let mut integrate = || -> Result<Made, Failure> {
+        let (mut running, mut steps) = (PlanarRunning::new(scenario).map_err(refused)?, vec![]);
+        while let Some(step) = running.step().map_err(refused)? {
+            steps.push(step);
+            if watch.reached(step.end()).is_break() {
+                break;
+            }
+        }
+        Ok((steps, running.work(), running.memory().0))
+    };
+    let made = integrate();
+    watch.ended(made)
 }
 
 /// Runs the grid from the scenario's initial condition.
@@ -119,14 +120,14 @@ fn on_cells(
     let points: Vec<[f64; 2]> = x.iter().map(|x| [*x, 0.0]).collect();
     let request = PlaneRequest { times: &[asked.grid_until], points: &points };
     let ((run, samples), seconds) = timed(|| {
-        let mut watch = Watch::new(asked);
+        let (mut watch, mut samples) = (watch(asked), Samples::default());
+        let mut step = |t: f64, at: [f64; 2]| {
+            samples.take(t, at);
+            watch.reached(t)
+        };
         let stepping = &asked.discretisation.stepping;
-        let run = solve_plane(&problem, method, stepping, &request, &mut |t, at| watch.step(t, at));
-        let seconds = watch.pace.seconds();
-        match watch.failure {
-            Some(failure) => Err(failure),
-            None => Ok(((run.map_err(|error| explain(asked, error))?, watch.samples), seconds)),
-        }
+        let run = solve_plane(&problem, method, stepping, &request, &mut step);
+        watch.ended(run.map(|run| (run, samples)).map_err(|error| explain(asked, error)))
     })?;
     let work = grid_work(&run.work, seconds);
     let [x0, y0] = [0, 1].map(|axis| samples.column(axis));

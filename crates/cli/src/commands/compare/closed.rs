@@ -1,16 +1,11 @@
 //! The closed equation's side of a comparison.
 
 use super::Asked;
-use super::pace::{Pace, stopped, timed};
-use crate::commands::progress::Progress;
+use super::pace::{Unit, Watch, timed};
 use crate::failure::Failure;
-use std::ops::ControlFlow;
 use stickslip::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
 use stickslip_tip::{Run, Scenario, Trajectory, Work, run_observed};
-
-/// Steps between two readings of the clock: a step takes microseconds.
-pub(super) const STEPS_PER_LOOK: u32 = 256;
 
 /// A finished run and its time.
 pub(super) struct Closed {
@@ -23,23 +18,10 @@ pub(super) fn run(asked: &Asked, scenario: &Scenario) -> Result<Closed, Failure>
     let Asked { question, time_limit, .. } = asked;
     let span = (scenario.start_time(), scenario.until);
     let once = || {
-        let pace = Pace::new("--until", span, *time_limit);
-        let mut progress = Progress::new(asked.session, span.0, span.1);
-        let (mut steps, mut failure) = (0_u32, None);
-        let run = run_observed(scenario, |step| {
-            progress.reached(step.end());
-            steps = steps.wrapping_add(1);
-            if steps.is_multiple_of(STEPS_PER_LOOK) {
-                failure = pace.too_slow(step.end());
-            }
-            if failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        let seconds = pace.seconds();
-        // The run looks at every step whether anybody waits for it, and this at some.
-        match failure.or_else(stopped) {
-            Some(failure) => Err(failure),
-            None => Ok((run.map_err(|error| question.refused(&error))?, seconds)),
-        }
+        let mut watch = Watch::new(asked.session, Unit::Time("--until"), span, *time_limit);
+        watch = watch.of_short_steps();
+        let run = run_observed(scenario, |step| watch.reached(step.end()));
+        watch.ended(run.map_err(|error| question.refused(&error).into()))
     };
     let (run, seconds) = timed(once)?;
     Ok(Closed { trajectory: run.trajectory.clone(), run, seconds })

@@ -1,11 +1,9 @@
 //! The grid's side of a comparison.
 
 use super::Asked;
-use super::pace::{Pace, timed};
+use super::pace::{Unit, Watch, timed};
 use crate::arguments::CompareArguments;
-use crate::commands::progress::Progress;
 use crate::failure::{Failure, Typed};
-use std::ops::ControlFlow;
 use stickslip::{GridDocument, GridName, GridWork};
 use stickslip_grid::{
     Footprint, Gaussian, GridError, Method, Path, Problem, Request, Run, Start, Stepping, Wider,
@@ -62,13 +60,11 @@ impl Discretisation {
             GridName::Sinc => std::f64::consts::PI / tip.band(),
         });
         if !(spacing > 0.0 && spacing <= smallest_width) {
-            return Err(Failure::input(
-                format!("--spacing {}", Typed(spacing)),
-                format!(
-                    "must be above 0, and at most the width of the tip, {}",
-                    Typed(smallest_width)
-                ),
-            ));
+            let message = format!(
+                "must be above 0, and at most the width of the tip, {}",
+                Typed(smallest_width)
+            );
+            return Err(Failure::number("--spacing", spacing, message));
         }
         let stepping = stepping(arguments, usual)?;
         Ok(Self { name, gaussians, reach, spacing, smallest_width, stepping })
@@ -80,14 +76,12 @@ impl Discretisation {
         if cells <= MOST_CELLS {
             return Ok(());
         }
-        Err(Failure::input(
-            format!("--spacing {}", Typed(self.spacing)),
-            format!(
-                "would make {cells:.1e} cells, more than fit in memory; take {:.1e} or more, or a \
+        let message = format!(
+            "would make {cells:.1e} cells, more than fit in memory; take {:.1e} or more, or a \
                  smaller --grid-until",
-                length / MOST_CELLS
-            ),
-        ))
+            length / MOST_CELLS
+        );
+        Err(Failure::number("--spacing", self.spacing, message))
     }
 
     /// Local error allowed, if steps are adaptive.
@@ -113,19 +107,16 @@ impl Discretisation {
 const LEAST_TOLERANCE: f64 = 1e-15;
 
 pub(super) fn stepping(arguments: &CompareArguments, usual: f64) -> Result<Stepping, Failure> {
-    let above_0 = |option: &str, value: f64| {
-        let named = format!("{option} {}", Typed(value));
-        let judged = Some(value).filter(|v| v.is_finite() && *v > 0.0);
-        judged.ok_or_else(|| Failure::input(named, "must be a finite number above 0"))
-    };
     match (arguments.step, arguments.grid_tolerance) {
-        (Some(step), _) => Ok(Stepping::fixed(above_0("--step", step)?)),
+        (Some(step), _) => Ok(Stepping::fixed(Failure::unless_positive("--step", step)?)),
         (None, Some(tolerance)) if tolerance > 0.0 && tolerance < LEAST_TOLERANCE => {
-            let named = format!("--grid-tolerance {}", Typed(tolerance));
-            let advice = "is below round-off: the grid would never end";
-            Err(Failure::input(named, format!("{advice}: must be {LEAST_TOLERANCE:e} or more")))
+            let why = "is below round-off: the grid would never end";
+            let message = format!("{why}: must be {LEAST_TOLERANCE:e} or more");
+            Err(Failure::number("--grid-tolerance", tolerance, message))
         }
-        (None, Some(tolerance)) => Ok(Stepping::absolute(above_0("--grid-tolerance", tolerance)?)),
+        (None, Some(tolerance)) => {
+            Ok(Stepping::absolute(Failure::unless_positive("--grid-tolerance", tolerance)?))
+        }
         (None, None) => Ok(Stepping::absolute(usual)),
     }
 }
@@ -158,16 +149,14 @@ pub(super) fn run(asked: &Asked, scenario: &Scenario, x: &[f64]) -> Result<Motio
         .with_force(&force);
 
     let once = || -> Result<((Run, Samples), f64), Failure> {
-        let mut watch = Watch::new(asked);
-        let run =
-            solve_observed(&problem, &method, &discretisation.stepping, &request, &mut |t, x0| {
-                watch.step(t, [x0, 0.0])
-            });
-        let seconds = watch.pace.seconds();
-        match watch.failure {
-            Some(failure) => Err(failure),
-            None => Ok(((run.map_err(explain)?, watch.samples), seconds)),
-        }
+        let (mut watch, mut samples) = (watch(asked), Samples::default());
+        let mut step = |t: f64, x0: f64| {
+            samples.take(t, [x0, 0.0]);
+            watch.reached(t)
+        };
+        let stepping = &discretisation.stepping;
+        let run = solve_observed(&problem, &method, stepping, &request, &mut step);
+        watch.ended(run.map(|run| (run, samples)).map_err(explain))
     };
     let ((run, samples), seconds) = timed(once)?;
     let grid = GridDocument {
@@ -236,28 +225,10 @@ fn start<'a>(
     }
 }
 
-/// Observer of every step: stores samples, shows progress, and ends work that would take too long.
-pub(super) struct Watch {
-    progress: Progress,
-    pub(super) pace: Pace,
-    pub(super) samples: Samples,
-    pub(super) failure: Option<Failure>,
-}
-
-impl Watch {
-    pub(super) fn new(asked: &Asked) -> Self {
-        let span = (asked.scenario.span().0, asked.grid_until);
-        let pace = Pace::new("--grid-until", span, asked.time_limit);
-        let progress = Progress::new(asked.session, span.0, span.1).at_every_call();
-        Self { progress, pace, samples: Samples::default(), failure: None }
-    }
-
-    pub(super) fn step(&mut self, t: f64, position: [f64; 2]) -> ControlFlow<()> {
-        self.samples.take(t, position);
-        self.progress.reached(t);
-        self.failure = self.pace.too_slow(t);
-        if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
+/// The observer of a grid's steps.
+pub(super) fn watch(asked: &Asked) -> Watch {
+    let span = (asked.scenario.span().0, asked.grid_until);
+    Watch::new(asked.session, Unit::Time("--grid-until"), span, asked.time_limit)
 }
 
 /// The motion at every 2^n-th step, thinned as it grows.
@@ -275,7 +246,7 @@ impl Default for Samples {
 }
 
 impl Samples {
-    fn take(&mut self, t: f64, position: [f64; 2]) {
+    pub(super) fn take(&mut self, t: f64, position: [f64; 2]) {
         self.seen += 1;
         if !self.seen.is_multiple_of(self.every) {
             return;
@@ -299,7 +270,7 @@ impl Samples {
 pub(super) fn explain(asked: &Asked, error: GridError) -> Failure {
     match error {
         GridError::Defect { .. } => {
-            Failure::input(format!("--spacing {}", Typed(asked.discretisation.spacing)), error)
+            Failure::number("--spacing", asked.discretisation.spacing, error)
         }
         GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
             let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may help: a deep groove is \

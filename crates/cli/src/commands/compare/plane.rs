@@ -1,6 +1,6 @@
 //! Footprint and cells of a plane for the grid.
 
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use stickslip::GridName;
 use stickslip_grid::{Gaussian, PlaneMethod, Product};
 use stickslip_tip::{Across, Footprint, Layer, TipFunction};
@@ -52,12 +52,10 @@ impl Plane {
             return Ok(());
         }
         let coarser = self.spacing[0] * (cells / MOST_CELLS).sqrt();
-        Err(Failure::input(
-            format!("--spacing {}", Typed(self.spacing[0])),
-            format!(
-                "would make {cells:.1e} cells, more than fit in memory; take {coarser:.1e} or more, or scan less"
-            ),
-        ))
+        let message = format!(
+            "would make {cells:.1e} cells, more than fit in memory; take {coarser:.1e} or more, or scan less"
+        );
+        Err(Failure::number("--spacing", self.spacing[0], message))
     }
 }
 

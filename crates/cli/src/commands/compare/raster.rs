@@ -2,21 +2,17 @@
 //! cells if the tip is free to move across the lines.
 
 use super::grid::{grid_work, stepping};
-use super::pace::{PATIENCE, stopped, timed};
+use super::pace::{Pace, Unit, Watch, stopped, timed};
 use super::plane::{self, Plane};
 use super::time_limit;
 use crate::arguments::CompareArguments;
 use crate::commands::ask::refuse_strangers;
-use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
-use crate::commands::progress::Progress;
 use crate::commands::raster::{files_read, question};
 use crate::commands::surface::evenly;
-use crate::failure::{Failure, Typed};
+use crate::failure::Failure;
 use crate::session::Session;
 use serde_json::{Map, Value};
-use std::ops::ControlFlow;
-use std::time::Instant;
 use stickslip::{
     Document, GridName, Physical, Raster, RasterCompareDocument, RasterCompareFound,
     RasterCompareParameters, RasterCompared,
@@ -38,9 +34,7 @@ pub(super) fn compare(
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
     refuse_strangers::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
-    let tip_file = options.tip.tip_file.as_deref();
-    let scales =
-        scales(session, &place.in_units, tip_file, values.get("r").and_then(Value::as_f64))?;
+    let scales = options.scales(session, &place.in_units, &values)?;
     let (parameters, plan) =
         question(session, options, values, (area, &disturbance.pulse), scales.as_ref())?;
     let sampling = &parameters.sampling;
@@ -127,8 +121,9 @@ fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Resu
         None if method == RowMethod::Sinc => Ok(exact),
         None => Ok(second_order),
         Some(spacing) if spacing > 0.0 && spacing <= exact => Ok(spacing),
-        Some(spacing) => Err(Failure::input(
-            format!("--spacing {}", Typed(spacing)),
+        Some(spacing) => Err(Failure::number(
+            "--spacing",
+            spacing,
             format!("must be above 0, and at most {exact:.4} for cells that hold this tip"),
         )),
     }
@@ -138,15 +133,14 @@ fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Resu
 fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
     let failed = |error: RasterError| Failure::Run(error.to_string());
     timed(|| {
-        let clock = Instant::now();
+        let pace = Pace::new(Unit::Lines, (0.0, plan.lines() as f64), limit);
         let mut scanning = Scanning::new(plan).map_err(failed)?;
         while scanning.next_line().map_err(failed)?.is_some() {
-            let done = scanning.lines().len() as f64;
-            too_slow(clock, done, plan.lines(), limit).map_or(Ok(()), Err)?;
+            pace.judge(scanning.lines().len() as f64)?;
         }
         // A cancelled scan has no next line either.
-        stopped().map_or(Ok(()), Err)?;
-        let seconds = clock.elapsed().as_secs_f64();
+        stopped()?;
+        let seconds = pace.seconds();
         Ok((scanning.into_lines(), seconds))
     })
 }
@@ -162,7 +156,7 @@ fn scan_lines(plan: &Plan) -> Vec<ScanLine> {
 
 /// The raster of a tip that is held on its lines, on rows of cells.
 fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Failure> {
-    let Asked { plan, stepping, times, x, limit, .. } = asked;
+    let Asked { plan, stepping, times, x, .. } = asked;
     type Function<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
     let parts = plan.footprint.layers();
     let functions: Vec<(Function, Function)> = parts
@@ -185,10 +179,10 @@ fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Fail
         zigzag: plan.path == Path::Zigzag,
         force: &|t| plan.disturbance.value(t),
     };
-    let mut watch = Watch::new(asked.session, lines.len(), *limit);
+    let mut watch = watch(asked);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan(&problem, rows, stepping, (times, x), &mut line);
-    let (scanned, seconds) = watch.ended(scanned)?;
+    let (scanned, seconds) = watch.ended(scanned.map_err(explain))?;
     let on_line = |(line, motion): (&ScanLine, Vec<(f64, f64)>)| {
         motion.into_iter().map(|(t, x0)| (t, [x0, line.y])).collect()
     };
@@ -206,55 +200,9 @@ fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Fail
     })
 }
 
-/// Observer of a grid's lines: shows progress, and ends work that would take too long.
-struct Watch {
-    clock: Instant,
-    progress: Progress,
-    lines: usize,
-    limit: f64,
-    failure: Option<Failure>,
-}
-
-impl Watch {
-    fn new(session: &Session, lines: usize, limit: f64) -> Self {
-        let progress = Progress::new(session, 0.0, lines as f64).at_every_call();
-        Self { clock: Instant::now(), progress, lines, limit, failure: None }
-    }
-
-    fn reached(&mut self, done: f64) -> ControlFlow<()> {
-        let lines = self.lines;
-        self.progress.counted(done, || format!("grid: {} of {lines} lines", done.floor()));
-        self.failure = too_slow(self.clock, done, lines, self.limit);
-        if self.failure.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    /// The result with its time in seconds.
-    fn ended<T>(self, scanned: Result<T, GridError>) -> Result<(T, f64), Failure> {
-        let seconds = self.clock.elapsed().as_secs_f64();
-        match self.failure {
-            Some(failure) => Err(failure),
-            None => Ok((scanned.map_err(explain)?, seconds)),
-        }
-    }
-}
-
-/// An error if the pace predicts a time beyond the limit, or if the work is cancelled.
-fn too_slow(clock: Instant, done: f64, lines: usize, limit: f64) -> Option<Failure> {
-    if let Some(failure) = stopped() {
-        return Some(failure);
-    }
-    let seconds = clock.elapsed().as_secs_f64();
-    let needed = seconds * lines as f64 / done;
-    // The time of a line is unknown before the first one is done.
-    let is_known = done >= 1.0 && seconds >= PATIENCE.min(limit) && needed > limit;
-    if !is_known && seconds <= limit {
-        return None;
-    }
-    let fewer = (0.5 * limit * done / seconds).floor().max(1.0);
-    Some(Failure::input(
-        format!("--time-limit {}", Typed(limit)),
-        format!("this would take about {needed:.0} s: take about {fewer} lines, or a higher limit"),
-    ))
+/// The observer of a grid's lines.
+fn watch(asked: &Asked) -> Watch {
+    Watch::new(asked.session, Unit::Lines, (0.0, asked.plan.lines() as f64), asked.limit)
 }
 
 fn explain(error: GridError) -> Failure {
@@ -283,10 +231,10 @@ fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared,
         force: &|t| [plan.disturbance.value(t), free.disturbance.value(t)],
     };
     let points: Vec<[f64; 2]> = y.iter().flat_map(|y| x.iter().map(|x| [*x, *y])).collect();
-    let mut watch = Watch::new(asked.session, lines.len(), asked.limit);
+    let mut watch = watch(asked);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan_plane(&scan, &plane.method, stepping, (times, &points), &mut line);
-    let (scanned, seconds) = watch.ended(scanned)?;
+    let (scanned, seconds) = watch.ended(scanned.map_err(explain))?;
     let at_times = |at: &Vec<[f64; 2]>| times.iter().copied().zip(at.iter().copied()).collect();
     let motions = match times.is_empty() {
         true => scanned.steps,

@@ -6,6 +6,7 @@ use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
 use crate::files::beside;
 use crate::files::place::taken;
+use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -13,12 +14,16 @@ use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip::{KeptLine, Software, SweepPoint, SweepPoints};
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
     /// Name of a part in small letters, such as "point".
     const NAME: &'static str;
+    /// Past participle of the work on a part, such as "computed".
+    const DONE: &'static str;
     /// Name of the whole, such as "sweep".
     const WHOLE: &'static str;
     /// A list of parts.
@@ -75,6 +80,7 @@ impl Parts<SweepPoint> for SweepPoints {
 
 impl Part for SweepPoint {
     const NAME: &'static str = "point";
+    const DONE: &'static str = "computed";
     const WHOLE: &'static str = "sweep";
     type All = SweepPoints;
 
@@ -85,6 +91,7 @@ impl Part for SweepPoint {
 
 impl Part for KeptLine {
     const NAME: &'static str = "line";
+    const DONE: &'static str = "scanned";
     const WHOLE: &'static str = "raster";
     type All = Vec<Self>;
 
@@ -129,14 +136,21 @@ fn partial_of(output: &Path) -> PathBuf {
 }
 
 impl<P: Part> Finished<P> {
-    /// No parts, and no file.
-    pub(super) fn in_memory() -> Self {
-        Self { parts: P::All::default(), kept: None }
+    /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
+    /// the indices of its parts. Beside a stream, `None`, there is no file.
+    pub(super) fn beside(
+        session: &Session,
+        output: Option<&Path>,
+        parameters: &impl Serialize,
+        has: impl Fn(usize) -> bool,
+    ) -> Result<Self, Failure> {
+        match output {
+            Some(file) => Self::in_file(session, file, parameters, has),
+            None => Ok(Self { parts: P::All::default(), kept: None }),
+        }
     }
 
-    /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
-    /// the indices of its parts.
-    pub(super) fn beside(
+    fn in_file(
         session: &Session,
         output: &Path,
         parameters: &impl Serialize,
@@ -152,7 +166,7 @@ impl<P: Part> Finished<P> {
             taken("--output", output, &error).unwrap_or_else(|| {
                 let advice = "remove it, or choose another --output";
                 let message = format!("{} {error}; {advice}", path.display());
-                Failure::input(format!("--output {}", output.display()), message)
+                Failure::file("--output", output, message)
             })
         })?;
         Ok(Self {
@@ -189,6 +203,38 @@ impl<P: Part> Finished<P> {
         Ok(())
     }
 
+    /// Reports that the first `done` of `count` parts are in the file.
+    pub(super) fn announce(&self, session: &Session, done: usize, count: usize) {
+        if let (Some(path), true) = (self.path(), done > 0) {
+            let path = path.display();
+            session.remark(format_args!("stickslip: {done} of {count} {}s are in {path}", P::NAME));
+        }
+    }
+
+    /// Lets a signal end the program at any time: all of the parts that are done are in the file, or nowhere.
+    pub(super) fn need_not_end(
+        &self,
+        interrupt: &Interrupt,
+        done: &Arc<AtomicUsize>,
+        count: usize,
+    ) {
+        let (done, path) = (Arc::clone(done), self.path().map(Path::to_owned));
+        interrupt.or_else(move |signal| {
+            unfinished::<P>((done.load(Ordering::Relaxed), count), path.as_deref(), signal)
+        });
+    }
+
+    /// The error of work that a signal ended.
+    pub(super) fn unfinished(&self, done: usize, count: usize, signal: u8) -> Failure {
+        unfinished::<P>((done, count), self.path(), signal)
+    }
+
+    /// The error of a part that could not be saved.
+    pub(super) fn unkept(&self, error: io::Error) -> Failure {
+        let target = self.path().map_or("memory".into(), |path| path.display().to_string());
+        Failure::Write { target, error }
+    }
+
     /// The file in which the parts are saved.
     pub(super) fn path(&self) -> Option<&Path> {
         self.kept.as_ref().filter(|kept| !kept.is_gone).map(|kept| kept.path.as_path())
@@ -221,6 +267,15 @@ impl Kept {
                 .remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
         }
     }
+}
+
+fn unfinished<P: Part>((done, count): (usize, usize), path: Option<&Path>, signal: u8) -> Failure {
+    let parts = format!("{done} of {count} {}s", P::NAME);
+    let message = match path.map(Path::display) {
+        Some(path) => format!("{parts} are in {path}: the same command continues from there"),
+        None => format!("{parts} were {} and none are kept: -o FILE.json would keep them", P::DONE),
+    };
+    Failure::Unfinished { signal, message }
 }
 
 #[cfg(unix)]

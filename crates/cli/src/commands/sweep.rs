@@ -35,6 +35,7 @@ const MOST_TIPS: usize = 10_000;
 
 impl Part for RasterSweepPoint {
     const NAME: &'static str = "point";
+    const DONE: &'static str = "computed";
     const WHOLE: &'static str = "sweep";
     type All = Vec<Self>;
 
@@ -134,10 +135,7 @@ impl Place<'_> {
             return Ok(());
         }
         let has = |index| indices.binary_search(&index).is_ok();
-        let finished = match job.file() {
-            Some(file) => Finished::beside(self.session, file, &grid, has)?,
-            None => Finished::in_memory(),
-        };
+        let finished = Finished::beside(self.session, job.file(), &grid, has)?;
         let threads = self.work.threads.unwrap_or(0);
         let mut finished = compute(self.session, &grid, indices, finished, threads)?;
         let points = finished.take_in_order();
@@ -167,16 +165,10 @@ where
         let there: HashSet<usize> = finished.parts().indices().collect();
         missing.retain(|index| !there.contains(index));
     }
-    if let (Some(path), true) = (finished.path(), done > 0) {
-        session
-            .remark(format_args!("stickslip: {done} of {count} points are in {}", path.display()));
-    }
+    finished.announce(session, done, count);
     let interrupt = Interrupt::listen(session)?;
     let so_far = Arc::new(AtomicUsize::new(done));
-    let (path, known) = (finished.path().map(Path::to_owned), Arc::clone(&so_far));
-    interrupt.or_else(move |signal| {
-        unfinished(known.load(Ordering::Relaxed), count, path.as_deref(), signal)
-    });
+    finished.need_not_end(&interrupt, &so_far, count);
     let mut progress = Progress::new(session, done as f64, count as f64).at_every_call();
     let mut kept: io::Result<()> = Ok(());
     let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
@@ -186,28 +178,12 @@ where
         progress.counted(done as f64, || format!("{done} of {count} points"));
         kept.is_ok()
     });
-    kept.map_err(|error| {
-        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
-        Failure::Write { target, error }
-    })?;
+    kept.map_err(|error| finished.unkept(error))?;
     if let Some(signal) = interrupt.signal() {
-        return Err(unfinished(finished.parts().count(), count, finished.path(), signal));
+        return Err(finished.unfinished(finished.parts().count(), count, signal));
     }
     computed?;
     Ok(finished)
-}
-
-fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
-    let message = match path {
-        Some(path) => format!(
-            "{done} of {count} points are in {}: the same command continues from there",
-            path.display()
-        ),
-        None => format!(
-            "{done} of {count} points were computed and none are kept: -o FILE.json would keep them"
-        ),
-    };
-    Failure::Unfinished { signal, message }
 }
 
 /// The number of threads; 0 for one per core.

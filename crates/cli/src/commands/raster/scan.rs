@@ -24,27 +24,16 @@ pub(super) fn scan(
     interrupt: &Interrupt,
     threads: usize,
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
-    let mut finished: Finished<KeptLine> = match file {
-        Some(file) => Finished::beside(session, file, parameters, |index| index < plan.lines())?,
-        None => Finished::in_memory(),
-    };
+    let has = |index| index < plan.lines();
+    let mut finished: Finished<KeptLine> = Finished::beside(session, file, parameters, has)?;
     let failed = |error: stickslip_raster::RasterError| Failure::Run(error.to_string());
     let mut scanning =
         Scanning::resumed(plan, taken_up(plan, finished.parts().clone())).map_err(failed)?;
     let kept: HashSet<usize> = finished.parts().iter().map(|line| line.index).collect();
     let (first, count) = (scanning.lines().len(), plan.lines());
-    if let (Some(path), true) = (finished.path(), first > 0) {
-        session
-            .remark(format_args!("stickslip: {first} of {count} lines are in {}", path.display()));
-    }
+    finished.announce(session, first, count);
     let scanned = Arc::new(AtomicUsize::new(first));
-    {
-        // All that is scanned is in a file, or nowhere: whatever this is at, it need not come to an end.
-        let (done, path) = (Arc::clone(&scanned), finished.path().map(Path::to_owned));
-        interrupt.or_else(move |signal| {
-            unfinished(done.load(Ordering::Relaxed), count, path.as_deref(), signal)
-        });
-    }
+    finished.need_not_end(interrupt, &scanned, count);
     let mut progress = Progress::new(session, first as f64, count as f64).at_every_call();
     let (mut index, mut unkept) = (first, None);
     let is_kept = finished.path().is_some();
@@ -61,11 +50,10 @@ pub(super) fn scan(
     let scan = || scanning.scan_with(threads, text, &mut take);
     stop::where_asked_by(interrupt.flag(), scan).map_err(failed)?;
     if let Some(error) = unkept {
-        let target = finished.path().map_or("memory".into(), |path| path.display().to_string());
-        return Err(Failure::Write { target, error });
+        return Err(finished.unkept(error));
     }
     if let (true, Some(signal)) = (scanning.lines().len() < count, interrupt.signal()) {
-        return Err(unfinished(scanning.lines().len(), count, finished.path(), signal));
+        return Err(finished.unfinished(scanning.lines().len(), count, signal));
     }
     Ok((scanning.into_lines(), finished))
 }
@@ -75,17 +63,4 @@ fn taken_up(plan: &Plan, mut kept: Vec<KeptLine>) -> Vec<Line> {
     kept.order();
     let in_order = kept.iter().enumerate().take_while(|(n, line)| line.index == *n);
     in_order.map_while(|(_, line)| line.line(plan).ok()).collect()
-}
-
-fn unfinished(done: usize, count: usize, path: Option<&Path>, signal: u8) -> Failure {
-    let message = match path {
-        Some(path) => format!(
-            "{done} of {count} lines are in {}: the same command continues from there",
-            path.display()
-        ),
-        None => format!(
-            "{done} of {count} lines were scanned and none are kept: -o FILE.json would keep them"
-        ),
-    };
-    Failure::Unfinished { signal, message }
 }

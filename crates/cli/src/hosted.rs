@@ -50,14 +50,14 @@ pub fn call<'a>(
 ) -> Result<Option<Made>, Refusal> {
     let session = Session::of(host);
     let (cli, line) = parse(&session, words)?;
-    let session = session.with_quantities(line.quantities());
+    let session = session.with_quantities(line.typed);
     match stop::where_asked_by(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own words for what it did not find.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {
             Err(Refusal::Stopped(failure.to_string()))
         }
-        Err(failure) => Err(line.restored(failure).into()),
+        Err(failure) => Err(session.restored(failure).into()),
     }
 }
 
@@ -77,8 +77,8 @@ pub fn runs(
         let Command::Run(arguments) = &cli.command else {
             return Err(Refusal::Input("only runs can be computed together".into()));
         };
-        let session = session.with_quantities(line.quantities());
-        many::order_of(&session, arguments).map_err(|failure| line.restored(failure).into())
+        let session = session.with_quantities(line.typed);
+        many::order_of(&session, arguments).map_err(|failure| session.restored(failure).into())
     };
     let orders = commands.iter().enumerate();
     let orders = orders.map(|(number, command)| order(command).map_err(|e| (number, e)));
@@ -189,9 +189,7 @@ pub fn commands() -> Vec<(String, String)> {
 /// # Errors
 /// The file cannot be read, or is not a document of this program.
 pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
-    let refused = |error: Unusable| {
-        Refusal::from(Failure::input(format!("DOCUMENT.json {}", path.display()), error))
-    };
+    let refused = |error: Unusable| Refusal::from(Failure::file("DOCUMENT.json", path, error));
     read(open(&Session::default(), "DOCUMENT.json", path)?).map_err(refused)
 }
 

@@ -52,7 +52,7 @@ pub fn main() -> ExitCode {
             return answered(&error);
         }
     };
-    let session = Session::of_terminal(cli.quiet).with_quantities(line.quantities());
+    let session = Session::of_terminal(cli.quiet).with_quantities(line.typed);
     if let Err(error) = interrupt::end_at_once() {
         say(format_args!("stickslip: cannot listen for signals: {error}"));
         return ExitCode::FAILURE;
@@ -64,7 +64,7 @@ pub fn main() -> ExitCode {
     sign_of_life::end();
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failed(&line.restored(failure)),
+        Err(failure) => failed(&session.restored(failure)),
     }
 }
 

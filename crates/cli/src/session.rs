@@ -3,6 +3,7 @@
 //! The program makes a session for its terminal: results go to files, messages to standard error, and signals stop it.
 //! A host, such as a Python interpreter, makes one for each call.
 
+use crate::failure::Failure;
 use crate::made::{Document, Made};
 use crate::message::{self, harmless, short};
 use std::any::Any;
@@ -17,8 +18,18 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(crate) struct Session {
     host: Option<Arc<Host>>,
     is_quiet: bool,
-    /// Options with a number, with the quantity typed in its place, and both with the unit.
-    typed: Arc<[[String; 3]]>,
+    typed: Arc<[TypedQuantity]>,
+}
+
+/// An option whose value was typed as a quantity with a unit.
+#[derive(Debug)]
+pub(crate) struct TypedQuantity {
+    /// The option with a number of the model.
+    pub(crate) number: String,
+    /// The option as typed.
+    pub(crate) typed: String,
+    /// The quantity and the number, with its unit.
+    pub(crate) meant: String,
 }
 
 /// State shared by a host and its current command.
@@ -63,8 +74,8 @@ impl Session {
         Self { host: Some(Arc::clone(host)), ..Self::default() }
     }
 
-    /// The session of a command line with these quantities, which remarks name as they were typed.
-    pub(crate) fn with_quantities(self, typed: &[[String; 3]]) -> Self {
+    /// The session of a command line with these quantities, which messages name as they were typed.
+    pub(crate) fn with_quantities(self, typed: Vec<TypedQuantity>) -> Self {
         Self { typed: typed.into(), ..self }
     }
 
@@ -109,12 +120,22 @@ impl Session {
             return;
         }
         let line = line.to_string();
-        let number_in = |[number, ..]: &&[String; 3]| line.contains(&format!("{number} "));
-        match self.typed.iter().find(number_in) {
-            Some([number, typed, meant]) => {
+        let is_named = |of: &&TypedQuantity| line.contains(&format!("{} ", of.number));
+        match self.typed.iter().find(is_named) {
+            Some(TypedQuantity { number, typed, meant }) => {
                 self.say(format_args!("{} ({meant})", line.replace(&**number, typed)));
             }
             None => self.say(line),
+        }
+    }
+
+    /// The failure with a rejected quantity as it was typed.
+    pub(crate) fn restored(&self, failure: Failure) -> Failure {
+        let Failure::Input { option, message } = &failure else { return failure };
+        match self.typed.iter().find(|of| of.number == *option) {
+            // The numbers of the message are those of the model.
+            Some(of) => Failure::input(&*of.typed, format!("{message} ({})", of.meant)),
+            None => failure,
         }
     }
 

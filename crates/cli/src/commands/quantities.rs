@@ -6,7 +6,7 @@ use super::in_units::{of_document, with_origin};
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
 use crate::files::input::open;
-use crate::session::Session;
+use crate::session::{Session, TypedQuantity};
 use clap::{Arg, ArgAction, Command};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -17,31 +17,7 @@ use stickslip_units::Unit;
 /// A command line whose quantities are numbers, and these numbers as they were typed.
 pub(crate) struct Translated {
     pub(crate) words: Vec<OsString>,
-    /// Options with a number, with what was typed in its place, and both with the unit.
-    typed: Vec<[String; 3]>,
-}
-
-impl Translated {
-    /// The options with a quantity, as [`typed`](Self::typed).
-    pub(crate) fn quantities(&self) -> &[[String; 3]] {
-        &self.typed
-    }
-
-    /// The failure with a refused quantity as it was typed.
-    pub(crate) fn restored(&self, failure: Failure) -> Failure {
-        match failure {
-            Failure::Input { option, message } => {
-                match self.typed.iter().find(|[number, ..]| *number == option) {
-                    // The numbers of the message are those of the model.
-                    Some([_, typed, meant]) => {
-                        Failure::input(typed, format!("{message} ({meant})"))
-                    }
-                    None => Failure::Input { option, message },
-                }
-            }
-            other => other,
-        }
-    }
+    pub(crate) typed: Vec<TypedQuantity>,
 }
 
 /// The units of an option, one for each of its parts, or one for all of them; the last of a range LO:HI:N has none.
@@ -122,8 +98,11 @@ pub(crate) fn translated(
         let meant = format!("{value} is {shown} {}", quantity.units.join(", "));
         // Messages have the shortest digits, or the word as it is passed on.
         for found in [&shown, &number] {
-            let typed = format!("{option} {value}");
-            translated.typed.push([format!("{option} {found}"), typed, meant.clone()]);
+            translated.typed.push(TypedQuantity {
+                number: format!("{option} {found}"),
+                typed: format!("{option} {value}"),
+                meant: meant.clone(),
+            });
         }
         translated.words[*place] =
             if *is_joined { format!("{option}={number}").into() } else { number.into() };

@@ -1,6 +1,6 @@
 //! The question `boundary`, and its answer.
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::twins::twins;
@@ -356,14 +356,10 @@ twins!(BoundaryBranch => BranchDocument { wave_number, r, alpha });
 impl Tabular for BoundaryFound {
     /// The boundary as a table, with a row for each r.
     fn columns(&self) -> Vec<Named<'_>> {
+        let Self { wave_number, r, alpha, .. } = self;
         let OnsetColumns { amplitude_squared_slope, period_slope, lyapunov, .. } = &self.onset;
-        vec![
-            ("Omega", Column::of(&self.wave_number)),
-            ("r", Column::of(&self.r)),
-            ("alpha", Column::of(&self.alpha)),
-            ("amplitude_squared_slope", Column::optional(amplitude_squared_slope)),
-            ("period_slope", Column::optional(period_slope)),
-            ("lyapunov", Column::optional(lyapunov)),
-        ]
+        let mut columns = vec![("Omega", wave_number.into())];
+        columns.extend(columns!(r, alpha, amplitude_squared_slope, period_slope, lyapunov));
+        columns
     }
 }

@@ -1,6 +1,6 @@
 //! The question `cycle`, and its answer.
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
@@ -296,9 +296,8 @@ impl Tabular for CycleFound {
     /// The profile as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let CycleProfile { t, l, velocity, height } = &self.profile;
-        let height = height.iter().map(|height| ("height", Column::of(height)));
-        let columns =
-            [("t", Column::of(t)), ("l", Column::of(l)), ("velocity", Column::of(velocity))];
-        columns.into_iter().chain(height).collect()
+        let mut columns = columns!(t, l, velocity);
+        columns.extend(height.iter().map(|height| ("height", height.into())));
+        columns
     }
 }

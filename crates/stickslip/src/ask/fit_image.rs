@@ -1,7 +1,7 @@
 //! The question `fit-image`: α and r that explain an image of ripples.
 
 use super::lines::footprint;
-use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
+use crate::documents::table::{Array, Named, Tabular, as_arrays, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::twins::twins;
@@ -486,12 +486,7 @@ impl Tabular for FitImageFound {
     /// The mean ripple.
     fn columns(&self) -> Vec<Named<'_>> {
         let RippleProfileDocument { distance, height, error, model } = &self.profile;
-        vec![
-            ("distance", Column::of(distance)),
-            ("height", Column::of(height)),
-            ("error", Column::of(error)),
-            ("model", Column::of(model)),
-        ]
+        columns!(distance, height, error, model)
     }
 
     /// The columns, and the levelled image.

@@ -1,6 +1,6 @@
 //! The question `friction`: the numbers of a measured friction loop.
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused, digits};
@@ -249,6 +249,6 @@ impl Tabular for FrictionFound {
     /// The loop.
     fn columns(&self) -> Vec<Named<'_>> {
         let LoopColumns { x, trace, retrace } = &self.rows;
-        vec![("x", Column::of(x)), ("trace", Column::of(trace)), ("retrace", Column::of(retrace))]
+        columns!(x, trace, retrace)
     }
 }

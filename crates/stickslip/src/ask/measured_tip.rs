@@ -1,6 +1,6 @@
 //! The question `tip`: the footprint in a measured profile or image.
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, Failure, GaussianDocument, Question, Refused};
@@ -489,11 +489,7 @@ impl Tabular for MeasuredTipFound {
     /// The profile, the fit and the residuals, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
         let FittedDocument { x, f, fit } = &self.profile;
-        vec![
-            ("x", Column::of(x)),
-            ("f", Column::of(f)),
-            ("fit", Column::of(fit)),
-            ("residual", self.profile.residuals().into()),
-        ]
+        let residual = self.profile.residuals();
+        columns!(x, f, fit, residual)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::boundary::{judge_range, refused_range};
 use super::lines::{footprint, left, raster, refused};
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Column, Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
@@ -200,21 +200,15 @@ impl ThresholdColumns {
 
 impl Tabular for RasterBoundaryFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        let mut columns = vec![
-            ("pitch", Column::of(&self.pitch)),
-            ("alpha", Column::of(&self.alpha)),
-            ("q", Column::of(&self.q)),
-            ("kappa", Column::of(&self.kappa)),
-            ("crest_angle", Column::of(&self.crest_angle)),
-            ("alpha_zigzag", Column::optional(&self.alpha_zigzag)),
-        ];
+        let Self { pitch, alpha, q, kappa, crest_angle, alpha_zigzag, .. } = self;
+        let mut columns = columns!(pitch, alpha, q, kappa, crest_angle, alpha_zigzag);
         if let Some(ThresholdColumns { kind, ripples, bunching, snaking }) = &self.thresholds {
             let kinds = kind.iter().map(|kind| kind.as_str().into()).collect();
             columns.extend([
                 ("kind", Column::words(kinds)),
-                ("alpha_ripples", Column::optional(ripples)),
-                ("alpha_bunching", Column::optional(bunching)),
-                ("alpha_snaking", Column::optional(snaking)),
+                ("alpha_ripples", ripples.into()),
+                ("alpha_bunching", bunching.into()),
+                ("alpha_snaking", snaking.into()),
             ]);
         }
         columns

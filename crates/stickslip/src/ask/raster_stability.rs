@@ -2,7 +2,7 @@
 //! tip that is free to move across the scan, also for bunching and snaking.
 
 use super::lines::{footprint, left, raster, refused};
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Column, Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::twins::twins;
@@ -326,11 +326,7 @@ impl Tabular for RasterStabilityFound {
     /// The growth as a table over wave numbers; without α the critical ripple, or the thresholds of all kinds.
     fn columns(&self) -> Vec<Named<'_>> {
         if let Some(RasterGrowth { q, factor, phase }) = &self.growth {
-            return vec![
-                ("q", Column::of(q)),
-                ("factor", Column::of(factor)),
-                ("phase", Column::of(phase)),
-            ];
+            return columns!(q, factor, phase);
         }
         let critical = self.critical.as_slice();
         let rows = self.thresholds.as_deref().unwrap_or(critical);

@@ -1,7 +1,7 @@
 //! The question `response`: the effect of weak pulses on steady motion, to first order.
 
 use super::exponents::{failed, judge_count, remarks};
-use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
+use crate::documents::table::{Array, Named, Tabular, as_arrays, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
@@ -286,11 +286,7 @@ pub struct ResponseSamples {
 impl Tabular for ResponseFound {
     fn columns(&self) -> Vec<Named<'_>> {
         let ResponseSamples { t, l, deviation } = &self.samples;
-        vec![
-            ("t", Column::of(t)),
-            ("l", Column::optional(l)),
-            ("deviation", Column::optional(deviation)),
-        ]
+        columns!(t, l, deviation)
     }
 
     /// The samples and the modes, as arrays.

@@ -1,6 +1,6 @@
 //! The result of a run.
 
-use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
+use crate::documents::table::{Array, Named, Tabular, as_arrays};
 use crate::schema::JsonSchema;
 use crate::twins::twins;
 use crate::{
@@ -350,6 +350,24 @@ impl Samples {
             y0: None,
             velocity_y: None,
         }
+    /// The columns that are present, with their names.
+    pub(super) fn columns(&self) -> Vec<Named<'_>> {
+        let Self { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = self;
+        let columns = [
+            ("t", Some(t)),
+            ("l", l.as_ref()),
+            ("x0", Some(x0)),
+            ("velocity", Some(velocity)),
+            ("lag", lag.as_ref()),
+            ("height", height.as_ref()),
+            ("weight", weight.as_ref()),
+            ("y0", y0.as_ref()),
+            ("velocity_y", velocity_y.as_ref()),
+        ];
+        let there = columns.into_iter();
+        there.filter_map(|(name, column)| Some((name, column?.into()))).collect()
+    }
+
     }
 
     /// Adds a sample. A column that one of the samples lacks is `None`.
@@ -433,20 +451,7 @@ impl FromIterator<SampleLine> for Samples {
 
 impl Tabular for RunFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        let Samples { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = &self.samples;
-        let columns = [
-            ("t", Some(t)),
-            ("l", l.as_ref()),
-            ("x0", Some(x0)),
-            ("velocity", Some(velocity)),
-            ("lag", lag.as_ref()),
-            ("height", height.as_ref()),
-            ("weight", weight.as_ref()),
-            ("y0", y0.as_ref()),
-            ("velocity_y", velocity_y.as_ref()),
-        ];
-        let there = columns.into_iter();
-        there.filter_map(|(name, column)| Some((name, Column::of(column?)))).collect()
+        self.samples.columns()
     }
 
     /// The samples, and the history if it is present, as arrays.

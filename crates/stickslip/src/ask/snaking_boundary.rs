@@ -3,7 +3,7 @@
 
 use super::boundary::{judge_range, refused_range};
 use super::lines::footprint;
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip};
@@ -269,13 +269,7 @@ impl SnakingBoundaryFound {
 
 impl Tabular for SnakingBoundaryFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        vec![
-            ("stiffness", Column::of(&self.stiffness)),
-            ("r", Column::of(&self.r)),
-            ("alpha", Column::of(&self.alpha)),
-            ("omega", Column::of(&self.omega)),
-            ("wavelength", Column::of(&self.wavelength)),
-            ("alpha_stick_slip", Column::optional(&self.alpha_stick_slip)),
-        ]
+        let Self { stiffness, r, alpha, omega, wavelength, alpha_stick_slip, .. } = self;
+        columns!(stiffness, r, alpha, omega, wavelength, alpha_stick_slip)
     }
 }

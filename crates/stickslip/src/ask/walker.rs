@@ -2,7 +2,7 @@
 
 use super::run::default_tolerance;
 use super::walker_motion::{CircleDocument, WalkerRegime, motion};
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
@@ -372,15 +372,6 @@ impl OrbitDocument {
 impl Tabular for WalkerFound {
     /// The samples, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        let Samples { t, x0, velocity, y0, velocity_y, .. } = &self.samples;
-        let columns = [
-            ("t", Some(t)),
-            ("x0", Some(x0)),
-            ("velocity", Some(velocity)),
-            ("y0", y0.as_ref()),
-            ("velocity_y", velocity_y.as_ref()),
-        ];
-        let there = columns.into_iter();
-        there.filter_map(|(name, column)| Some((name, Column::of(column?)))).collect()
+        self.samples.columns()
     }
 }

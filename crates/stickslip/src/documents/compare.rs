@@ -1,6 +1,6 @@
 //! `stickslip/compare`.
 
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Named, Tabular, columns};
 use crate::schema::JsonSchema;
 use crate::{Document, Question, Run};
 use serde::{Deserialize, Serialize};
@@ -147,21 +147,18 @@ pub struct DifferenceDocument {
 
 impl CompareFound {
     /// y0 of both sides, if the tip is free to move across the scan.
-    fn across(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+    fn across(&self) -> impl Iterator<Item = (&'static str, &Vec<f64>)> {
         let sides = [("closed_y0", &self.closed.y0), ("grid_y0", &self.grid.y0)];
-        sides.into_iter().filter_map(|(name, y0)| Some((name, y0.as_deref()?)))
+        sides.into_iter().filter_map(|(name, y0)| Some((name, y0.as_ref()?)))
     }
 }
 
 impl Tabular for CompareFound {
     /// Both motions as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        let mut columns = vec![
-            ("t", Column::of(&self.t)),
-            ("closed", Column::of(&self.closed.x0)),
-            ("grid", Column::of(&self.grid.x0)),
-        ];
-        columns.extend(self.across().map(|(name, y0)| (name, Column::of(y0))));
+        let (t, closed, grid) = (&self.t, &self.closed.x0, &self.grid.x0);
+        let mut columns = columns!(t, closed, grid);
+        columns.extend(self.across().map(|(name, y0)| (name, y0.into())));
         columns
     }
 

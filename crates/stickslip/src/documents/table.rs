@@ -109,6 +109,15 @@ pub trait Tabular {
     }
 }
 
+/// Columns of numbers in variables, each called what its variable is.
+macro_rules! columns {
+    ($($column:ident),+) => {
+        vec![$((stringify!($column), $crate::Column::from($column))),+]
+    };
+}
+
+pub(crate) use columns;
+
 /// The columns as arrays, without words that have no numbers.
 pub(crate) fn as_arrays(
     columns: Vec<Named<'_>>,
@@ -117,16 +126,6 @@ pub(crate) fn as_arrays(
 }
 
 impl<'a> Column<'a> {
-    /// A column of these numbers.
-    pub fn of(values: &'a [f64]) -> Self {
-        Self::Numbers(values.into())
-    }
-
-    /// A column of numbers, some of which may be missing.
-    pub fn optional(values: &'a [Option<f64>]) -> Self {
-        Self::Optional(Rows::new(values.len(), |row| values[row]))
-    }
-
     /// A column of words that no array contains.
     pub fn words(words: Vec<String>) -> Self {
         Self::Words(words.into(), None)
@@ -156,6 +155,19 @@ impl<'a> Column<'a> {
             Self::Words(_, numbers) => numbers?.iter().collect(),
         };
         Some(Array { shape: vec![values.len()], values })
+    }
+}
+
+impl<'a> From<&'a Vec<f64>> for Column<'a> {
+    fn from(values: &'a Vec<f64>) -> Self {
+        Self::Numbers(values.into())
+    }
+}
+
+impl<'a> From<&'a Vec<Option<f64>>> for Column<'a> {
+    /// A column of numbers, some of which may be missing.
+    fn from(values: &'a Vec<Option<f64>>) -> Self {
+        Self::Optional(Rows::new(values.len(), |row| values[row]))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Does a run that was saved and cannot be used again go on as if nothing had happened? Judged by the same run
 //! in one go, to the last bit: nothing is allowed to differ, so nothing is compared by a tolerance.
 
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Classified, Watched};
 use stickslip_tip::state::{Damaged, State};
 use stickslip_tip::{
     Force, MemoryChoice, Model, Noise, Pulse, RunError, STEP_NUMBERS, Scenario, Start, Step,

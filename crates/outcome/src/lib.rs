@@ -30,7 +30,7 @@ pub use observer::Observer;
 pub use oscillation::Oscillation;
 pub use remark::Remark;
 pub use snaking::{Snaking, SnakingObserver, snaking};
-pub use watched::{Watched, judge_trajectory, run_and_judge};
+pub use watched::{Classified, Watched, judge_trajectory, run_and_judge};
 pub use watched_across::WatchedAcross;
 
 /// The kinds of motion.

@@ -1,8 +1,32 @@
 //! A run that is classified while it proceeds.
 
 use crate::{Observer, Outcome, judge};
+use std::error::Error;
 use stickslip_tip::state::State;
 use stickslip_tip::{InitialSurface, Run, RunError, Running, Scenario, Step, Trajectory, run};
+
+/// A run in progress, in one coordinate or in two, with the data that classify its motion.
+pub trait Classified {
+    /// A step of the motion.
+    type Step: Copy + AsRef<Step>;
+    /// The reason why there is no further step.
+    type Error: Error;
+
+    /// Makes the next step; `None` at the end of the scenario.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
+    fn step(&mut self) -> Result<Option<Self::Step>, Self::Error>;
+
+    /// The last step.
+    fn last(&self) -> Option<Self::Step>;
+
+    /// Time reached.
+    fn t(&self) -> f64;
+
+    /// The complete state: with the scenario, it determines the rest of the run and its outcome.
+    fn save(&self) -> State;
+}
 
 /// A tip on its way through a scenario, with the last steps, from which its [`Outcome`] follows.
 pub struct Watched<'a> {
@@ -23,7 +47,7 @@ impl<'a> Watched<'a> {
         Ok(Self { scenario, running, observer, surface })
     }
 
-    /// Resumes the run where [`save`](Self::save) was called. Every later step is the same to the last bit as without
+    /// Resumes the run where [`save`](Classified::save) was called. Every later step is the same to the last bit as without
     /// the interruption.
     ///
     /// # Errors
@@ -41,40 +65,6 @@ impl<'a> Watched<'a> {
         Ok(Self { scenario, running, observer, surface })
     }
 
-    /// The complete state: with the scenario, it determines the rest of the run and its outcome.
-    #[must_use]
-    pub fn save(&self) -> State {
-        let mut state = State::default();
-        self.running.save(&mut state);
-        self.observer.save(&mut state);
-        state
-    }
-
-    /// Makes the next step; `None` at the end of the scenario.
-    ///
-    /// # Errors
-    /// The tolerance cannot be met.
-    pub fn step(&mut self) -> Result<Option<Step>, RunError> {
-        // Passed on as it is: a step is long to copy.
-        let made = self.running.step();
-        if let Ok(Some(step)) = &made {
-            self.observer.observe(step);
-        }
-        made
-    }
-
-    /// The last step.
-    #[must_use]
-    pub fn last(&self) -> Option<Step> {
-        self.observer.last()
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.running.t()
-    }
-
     /// Classifies the motion up to the present time. This takes milliseconds, as a cycle may be computed.
     ///
     /// # Panics
@@ -82,6 +72,12 @@ impl<'a> Watched<'a> {
     #[must_use]
     pub fn outcome(&self) -> Outcome {
         judge(self.scenario, self.surface, &self.observer)
+    }
+
+    /// The scenario, and the surface on which it begins.
+    #[must_use]
+    pub fn origin(&self) -> (&'a Scenario, &'a InitialSurface) {
+        (self.scenario, self.surface)
     }
 
     /// The observer of the steps, from which the outcome follows.
@@ -94,6 +90,35 @@ impl<'a> Watched<'a> {
     #[must_use]
     pub fn running(&self) -> &Running<'a> {
         &self.running
+    }
+}
+
+impl Classified for Watched<'_> {
+    type Step = Step;
+    type Error = RunError;
+
+    fn step(&mut self) -> Result<Option<Step>, RunError> {
+        // Passed on as it is: a step is long to copy.
+        let made = self.running.step();
+        if let Ok(Some(step)) = &made {
+            self.observer.observe(step);
+        }
+        made
+    }
+
+    fn last(&self) -> Option<Step> {
+        self.observer.last()
+    }
+
+    fn t(&self) -> f64 {
+        self.running.t()
+    }
+
+    fn save(&self) -> State {
+        let mut state = State::default();
+        self.running.save(&mut state);
+        self.observer.save(&mut state);
+        state
     }
 }
 

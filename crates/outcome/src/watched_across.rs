@@ -1,12 +1,13 @@
 //! A run in two coordinates that is classified while it proceeds.
 
-use crate::{Observer, SnakingObserver};
+use crate::{Classified, Observer, SnakingObserver};
 use stickslip_tip::RunError;
 use stickslip_tip::planar::{PlanarError, PlanarRunning, PlanarScenario, Step};
 use stickslip_tip::state::State;
 
 /// A tip on its way through a scenario in two coordinates, with the data that classify its motion.
 pub struct WatchedAcross<'a> {
+    scenario: &'a PlanarScenario,
     running: PlanarRunning<'a>,
     along: Observer,
     across: SnakingObserver,
@@ -19,13 +20,14 @@ impl<'a> WatchedAcross<'a> {
     /// A parameter out of range, or an option that is not available in two coordinates.
     pub fn new(scenario: &'a PlanarScenario) -> Result<Self, PlanarError> {
         Ok(Self {
+            scenario,
             running: PlanarRunning::new(scenario)?,
             along: Observer::new(&scenario.along),
             across: SnakingObserver::new(scenario),
         })
     }
 
-    /// Resumes the run where [`save`](Self::save) was called. Every later step is the same to the last bit as without
+    /// Resumes the run where [`save`](Classified::save) was called. Every later step is the same to the last bit as without
     /// the interruption.
     ///
     /// # Errors
@@ -40,39 +42,10 @@ impl<'a> WatchedAcross<'a> {
         Ok(watched)
     }
 
-    /// The complete state: with the scenario, it determines the rest of the run and its outcome.
+    /// The scenario.
     #[must_use]
-    pub fn save(&self) -> State {
-        let mut state = State::default();
-        self.running.save(&mut state);
-        self.along.save(&mut state);
-        self.across.save(&mut state);
-        state
-    }
-
-    /// Makes the next step; `None` at the end of the scenario.
-    ///
-    /// # Errors
-    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
-    pub fn step(&mut self) -> Result<Option<Step>, PlanarError> {
-        let step = self.running.step()?;
-        if let Some(step) = &step {
-            self.along.observe(&step.along);
-            self.across.observe(step);
-        }
-        Ok(step)
-    }
-
-    /// The last step.
-    #[must_use]
-    pub fn last(&self) -> Option<&Step> {
-        self.across.last()
-    }
-
-    /// Time reached.
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.running.t()
+    pub fn scenario(&self) -> &'a PlanarScenario {
+        self.scenario
     }
 
     /// The motion along the scan.
@@ -91,5 +64,35 @@ impl<'a> WatchedAcross<'a> {
     #[must_use]
     pub fn running(&self) -> &PlanarRunning<'a> {
         &self.running
+    }
+}
+
+impl Classified for WatchedAcross<'_> {
+    type Step = Step;
+    type Error = PlanarError;
+
+    fn step(&mut self) -> Result<Option<Step>, PlanarError> {
+        let step = self.running.step()?;
+        if let Some(step) = &step {
+            self.along.observe(&step.along);
+            self.across.observe(step);
+        }
+        Ok(step)
+    }
+
+    fn last(&self) -> Option<Step> {
+        self.across.last().copied()
+    }
+
+    fn t(&self) -> f64 {
+        self.running.t()
+    }
+
+    fn save(&self) -> State {
+        let mut state = State::default();
+        self.running.save(&mut state);
+        self.along.save(&mut state);
+        self.across.save(&mut state);
+        state
     }
 }

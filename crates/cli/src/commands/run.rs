@@ -51,7 +51,7 @@ fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
             let surface = scenario.initial_surface().map_err(refused)?;
             let running = Watched::new(scenario, &surface).map_err(refused)?;
             let (integrated, target) = integrated(session, arguments, &order, scenario, running)?;
-            write::all(session, &order, (scenario, &surface), integrated, target)
+            write::all(session, &order, integrated, target)
         }
         RunScenario::Across(scenario) => {
             let running = WatchedAcross::new(scenario);
@@ -59,7 +59,7 @@ fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
                 running.map_err(|error| refused(order.parameters.refused_across(error)))?;
             let (integrated, target) =
                 integrated(session, arguments, &order, &scenario.along, running)?;
-            write::all(session, &order, scenario, integrated, target)
+            write::all(session, &order, integrated, target)
         }
     }
 }

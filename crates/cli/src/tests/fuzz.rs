@@ -26,7 +26,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use stickslip::{Run, RunDocument, SweepDocument, parameter};
 use stickslip_figures::{self as figures, Size, View};
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Classified, Watched};
 use stickslip_surface::Surface;
 use stickslip_tip::{Force, InitialSurface};
 use stickslip_units::Unit;

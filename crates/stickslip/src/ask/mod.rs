@@ -29,6 +29,7 @@ pub mod lines;
 pub(crate) mod load_map;
 pub(crate) mod measured_tip;
 pub(crate) mod model;
+pub(crate) mod moving;
 pub(crate) mod points;
 pub(crate) mod question;
 pub(crate) mod raster;
@@ -48,7 +49,6 @@ pub(crate) mod walker;
 pub(crate) mod walker_motion;
 pub(crate) mod walking;
 
-pub use across::{became_across, sample_across};
 pub use boundary::{
     Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
     SpacingName,
@@ -79,6 +79,7 @@ pub use measured_tip::{
 pub use model::{
     GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
 };
+pub use moving::{Moved, Moving};
 pub use points::{Points, each_point, on_threads};
 pub use question::{Indentation, NamedTip, Tip, TipName};
 pub use raster::{AreaDocument, PathName, Raster, RasterDocument};
@@ -96,8 +97,7 @@ pub use run::{
     RunScenario, StartName, SupportPathParameters, SurfaceTable,
 };
 pub use run_found::{
-    HoldDocument, LoopDocument, PeakDocument, RunEnd, RunFound, SampleLine, Samples, became,
-    observed,
+    HoldDocument, LoopDocument, PeakDocument, RunEnd, RunFound, SampleLine, Samples,
 };
 pub use run_many::ask_runs;
 pub use sampling::{Sampling, Times};

@@ -1,8 +1,8 @@
 //! The question `run`: the motion of the tip from an initial condition, and its regime.
 
-use super::across;
 use super::lines::footprint;
-use super::run_found::{RunFound, became, sampled};
+use super::moving;
+use super::run_found::RunFound;
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::twins::twins;
@@ -11,7 +11,7 @@ use crate::{
     Question, Refused, RunEnd, Samples, Sampling, SteadyState, Tip, Typed, Unusable,
 };
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::Watched;
+use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::planar::{HeightTable, PlanarError, PlanarScenario, TextureError};
 use stickslip_tip::{
     Force, ForceError, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, Support,
@@ -685,34 +685,20 @@ impl Ask for Run {
     /// The answer, with the dense history.
     fn answer(&self, context: &Context) -> Result<(RunFound, Vec<String>), Failure> {
         let scenario = self.prepared()?;
-        let span = scenario.span();
-        let times = self.sampling.times(span, "the run", true)?;
-        let scenario = match scenario {
-            RunScenario::Along(scenario) => scenario,
-            RunScenario::Across(scenario) => {
-                let found = across::found(&scenario, &times, context);
-                let found = found.map_err(|error| self.refused_across(error))?;
-                return found.ok_or(Failure::Cancelled);
+        let times = self.sampling.times(scenario.span(), "the run", true)?;
+        match &scenario {
+            RunScenario::Along(scenario) => {
+                let refused = |error: RunError| self.refused(&error);
+                let initial = scenario.initial_surface().map_err(refused)?;
+                let running = Watched::new(scenario, &initial).map_err(refused)?;
+                moving::answered(scenario, running, &times, context, refused)
             }
-        };
-        let refused = |error: RunError| self.refused(&error);
-        let initial = scenario.initial_surface().map_err(refused)?;
-        let mut running = Watched::new(&scenario, &initial).map_err(refused)?;
-        let (began, mut steps) = (context.seconds(), vec![]);
-        while !context.is_cancelled()
-            && let Some(step) = running.step().map_err(refused)?
-        {
-            steps.push(step);
-            context.stepped(span, step.end(), steps.len());
+            RunScenario::Across(scenario) => {
+                let refused = |error: PlanarError| self.refused_across(error);
+                let running = WatchedAcross::new(scenario).map_err(refused)?;
+                moving::answered(&scenario.along, running, &times, context, refused)
+            }
         }
-        let end = became(&scenario, &initial, &running, context.seconds() - began)?;
-        let end = RunEnd { interrupted: running.t() < scenario.until, ..end };
-        let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
-        let samples = sampled(&trajectory, &times);
-        let remarks = end.remarks.clone();
-        let steady_state = SteadyState::of(&scenario.model);
-        let found = RunFound::new(steady_state, samples, Some((&trajectory).into()), end);
-        Ok((found.along_path(&trajectory), remarks))
     }
 
     /// The document of a run; a cancelled run ends at the time that it has reached.

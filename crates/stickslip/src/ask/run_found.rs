@@ -5,13 +5,13 @@ use crate::schema::JsonSchema;
 use crate::twins::twins;
 use crate::{
     CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
-    SwingDocument, Times, TransientDocument, VerificationDocument, WorkDocument,
+    SwingDocument, TransientDocument, VerificationDocument, WorkDocument,
 };
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Observer, Outcome, Watched, judge};
+use stickslip_outcome::{Observer, Outcome, judge};
 use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::friction::{Hold, Loop, Peak, holds, loops};
-use stickslip_tip::{InitialSurface, Scenario, Step, Support, Trajectory, Wider};
+use stickslip_tip::{InitialSurface, Scenario, Support, Trajectory};
 
 /// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -101,30 +101,12 @@ impl RunFound {
     }
 }
 
-/// The result of a run that took this many seconds. For a cancelled run only quantities that need no further
-/// computation are included.
-///
-/// # Errors
-/// The run has no steps.
-pub fn became(
-    scenario: &Scenario,
-    initial: &InitialSurface,
-    running: &Watched,
-    seconds: f64,
-) -> Result<RunEnd, Failure> {
-    let made = running.running();
-    let memory = (made.memory(), made.memory_reason());
-    let work = WorkDocument::of(&made.work(), memory, seconds);
-    observed(scenario, initial, running.observer(), work)
-}
-
 /// The result of a run whose steps an observer has seen.
 ///
 /// # Errors
 /// The run has no steps.
-pub fn observed(
-    scenario: &Scenario,
-    initial: &InitialSurface,
+pub(super) fn observed(
+    (scenario, initial): (&Scenario, &InitialSurface),
     observer: &Observer,
     work: WorkDocument,
 ) -> Result<RunEnd, Failure> {
@@ -136,19 +118,6 @@ pub fn observed(
         OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
     });
     Ok(RunEnd::of(t, outcome, oscillation, work))
-}
-
-/// The motion at these times, as far as it was computed, in the order of the request.
-pub(crate) fn sampled(trajectory: &Trajectory, times: &Times) -> Samples {
-    let (support, wider) = (trajectory.support(), trajectory.wider());
-    let (steps, end) = (trajectory.steps(), trajectory.end());
-    let all = (0..times.count()).map_while(|i| times.at(i)).filter(|t| *t <= end);
-    all.map(|t| {
-        // A time at which one step ends is the next one's.
-        let after = steps.partition_point(|step| step.end() <= t).min(steps.len() - 1);
-        SampleLine::of(&steps[after], (support, wider), t)
-    })
-    .collect()
 }
 
 /// l, x0 and x0' at one time.
@@ -178,26 +147,6 @@ pub struct SampleLine {
     /// y0', the velocity across the scan, in kσ/Γ.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_y: Option<f64>,
-}
-
-impl SampleLine {
-    /// The motion at a time within one of its steps.
-    pub fn of(step: &Step, (support, wider): (&Support, &Wider), t: f64) -> Self {
-        let height = step.height(t);
-        Self {
-            t,
-            l: match support {
-                Support::Moving(r) => Some(step.l(*r, t)),
-                Support::Path(_) | Support::None => None,
-            },
-            lag: (*support != Support::None).then(|| step.lag(support, t)),
-            x0: step.position(support, t),
-            velocity: step.velocity(t),
-            height,
-            weight: height.map(|height| wider.weight(height)),
-            ..Self::default()
-        }
-    }
 }
 
 /// The result of a run, in its last line.
@@ -350,24 +299,6 @@ impl Samples {
             y0: None,
             velocity_y: None,
         }
-    /// The columns that are present, with their names.
-    pub(super) fn columns(&self) -> Vec<Named<'_>> {
-        let Self { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = self;
-        let columns = [
-            ("t", Some(t)),
-            ("l", l.as_ref()),
-            ("x0", Some(x0)),
-            ("velocity", Some(velocity)),
-            ("lag", lag.as_ref()),
-            ("height", height.as_ref()),
-            ("weight", weight.as_ref()),
-            ("y0", y0.as_ref()),
-            ("velocity_y", velocity_y.as_ref()),
-        ];
-        let there = columns.into_iter();
-        there.filter_map(|(name, column)| Some((name, column?.into()))).collect()
-    }
-
     }
 
     /// Adds a sample. A column that one of the samples lacks is `None`.
@@ -417,6 +348,24 @@ impl Samples {
             y0: at(&self.y0, i),
             velocity_y: at(&self.velocity_y, i),
         })
+    }
+
+    /// The columns that are present, with their names.
+    pub(super) fn columns(&self) -> Vec<Named<'_>> {
+        let Self { t, l, lag, x0, velocity, height, weight, y0, velocity_y } = self;
+        let columns = [
+            ("t", Some(t)),
+            ("l", l.as_ref()),
+            ("x0", Some(x0)),
+            ("velocity", Some(velocity)),
+            ("lag", lag.as_ref()),
+            ("height", height.as_ref()),
+            ("weight", weight.as_ref()),
+            ("y0", y0.as_ref()),
+            ("velocity_y", velocity_y.as_ref()),
+        ];
+        let there = columns.into_iter();
+        there.filter_map(|(name, column)| Some((name, column?.into()))).collect()
     }
 
     /// Whether every column that is present has an entry for each time.

@@ -1,6 +1,7 @@
 //! Many runs at once.
 
-use super::run_found::{observed, sampled};
+use super::moving::sampled;
+use super::run_found::observed;
 use crate::{Ask, Context, Failure, Run, RunDocument, Times, WorkDocument};
 use stickslip_outcome::Observer;
 use stickslip_tip::{RunError, Scenario, Step, Trajectory, collect_each};
@@ -111,7 +112,7 @@ impl Begun {
             initial_surface, trajectory: Followed { steps, observer }, ..
         } = run;
         let work = WorkDocument::of(&run.work, (run.memory, run.memory_reason), seconds);
-        let mut end = observed(scenario, &initial_surface, &observer, work)?;
+        let mut end = observed((scenario, &initial_surface), &observer, work)?;
         end.interrupted = run.interrupted && end.end < scenario.until;
         let trajectory = Trajectory::under(*scenario.model.wider(), scenario.support(), steps);
         let samples = sampled(&trajectory, times);

@@ -4,59 +4,30 @@ use crate::commands::verify;
 use crate::failure::Failure;
 use crate::files::rows::Rows;
 use crate::session::Session;
-use std::fmt::Display;
 use std::io;
 use std::path::Path;
-use stickslip::{
-    History, Mark, RunEnd, RunFound, SampleLine, VerificationDocument, became, became_across,
-    sample_across,
-};
+use stickslip::{Mark, Moved, Moving, SampleLine, VerificationDocument};
 use stickslip_outcome::{Watched, WatchedAcross};
-use stickslip_tip::planar::{self, PlanarError, PlanarScenario};
-use stickslip_tip::state::State;
-use stickslip_tip::{
-    InitialSurface, RunError, STAGES, STEP_NUMBERS, Scenario, Step, Support, Trajectory, Wider,
-};
+use stickslip_tip::planar;
+use stickslip_tip::{STAGES, STEP_NUMBERS, Step, Trajectory};
 use stickslip_verify::verify_across;
 
 /// A tip in motion.
-pub(super) trait Motion {
-    type Step: Recorded;
-    type Error: Display;
-    /// What defines the run.
-    type Origin: Copy;
-
-    /// The next step; `None` at the end of the scenario.
-    fn step(&mut self) -> Result<Option<Self::Step>, Self::Error>;
-    /// The last step.
-    fn last(&self) -> Option<Self::Step>;
-    /// Time reached.
-    fn t(&self) -> f64;
-    /// The state from which it can be resumed.
-    fn save(&self) -> State;
-    /// The result of the run, which took this many seconds.
-    fn became(&self, origin: Self::Origin, seconds: f64) -> Result<RunEnd, Failure>;
-
-    /// The motion as a document has it.
-    fn history(whole: &Trajectory<Self::Step>) -> History;
-    /// The answer with what follows from the whole motion.
-    fn completed(found: RunFound, whole: &Trajectory<Self::Step>) -> RunFound;
+pub(super) trait Motion: Moving<Step: Recorded> {
     /// Comparison of the motion, which had this memory, with its repetition.
     fn verified(
+        &self,
         session: &Session,
-        origin: Self::Origin,
         memory: &str,
         whole: &Trajectory<Self::Step>,
     ) -> Result<VerificationDocument, Failure>;
 }
 
 /// A step that can be recorded.
-pub(super) trait Recorded: Copy + AsRef<Step> {
+pub(super) trait Recorded: Moved {
     /// Numbers per step and per sample in a journal.
     const NUMBERS: [usize; 2];
 
-    /// The motion at a time within the step.
-    fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine;
     /// Writes the step as a row of a journal,
     fn write(&self, journal: &mut Rows) -> io::Result<()>;
     /// and a sample.
@@ -67,45 +38,14 @@ pub(super) trait Recorded: Copy + AsRef<Step> {
     fn read_samples(path: &Path, mark: Mark) -> io::Result<(Rows, Vec<SampleLine>)>;
 }
 
-impl<'a> Motion for Watched<'a> {
-    type Step = Step;
-    type Error = RunError;
-    type Origin = (&'a Scenario, &'a InitialSurface);
-
-    fn step(&mut self) -> Result<Option<Step>, RunError> {
-        Watched::step(self)
-    }
-
-    fn last(&self) -> Option<Step> {
-        Watched::last(self)
-    }
-
-    fn t(&self) -> f64 {
-        Watched::t(self)
-    }
-
-    fn save(&self) -> State {
-        Watched::save(self)
-    }
-
-    fn became(&self, (scenario, initial): Self::Origin, seconds: f64) -> Result<RunEnd, Failure> {
-        Ok(became(scenario, initial, self, seconds)?)
-    }
-
-    fn history(whole: &Trajectory) -> History {
-        whole.into()
-    }
-
-    fn completed(found: RunFound, whole: &Trajectory) -> RunFound {
-        found.along_path(whole)
-    }
-
+impl Motion for Watched<'_> {
     fn verified(
+        &self,
         session: &Session,
-        (scenario, _): Self::Origin,
         memory: &str,
         whole: &Trajectory,
     ) -> Result<VerificationDocument, Failure> {
+        let (scenario, _) = self.origin();
         let found = verify::repeated(session, |observe| {
             stickslip_verify::verify(scenario, memory, whole, observe)
         })?;
@@ -113,48 +53,14 @@ impl<'a> Motion for Watched<'a> {
     }
 }
 
-impl<'a> Motion for WatchedAcross<'a> {
-    type Step = planar::Step;
-    type Error = PlanarError;
-    type Origin = &'a PlanarScenario;
-
-    fn step(&mut self) -> Result<Option<planar::Step>, PlanarError> {
-        WatchedAcross::step(self)
-    }
-
-    fn last(&self) -> Option<planar::Step> {
-        WatchedAcross::last(self).copied()
-    }
-
-    fn t(&self) -> f64 {
-        WatchedAcross::t(self)
-    }
-
-    fn save(&self) -> State {
-        WatchedAcross::save(self)
-    }
-
-    fn became(&self, scenario: Self::Origin, seconds: f64) -> Result<RunEnd, Failure> {
-        if self.last().is_none() {
-            return Err(Failure::Run("the run has no steps".into()));
-        }
-        became_across(scenario, self, seconds).map_err(|error| Failure::Run(error.to_string()))
-    }
-
-    fn history(whole: &planar::Trajectory) -> History {
-        whole.into()
-    }
-
-    fn completed(found: RunFound, _: &planar::Trajectory) -> RunFound {
-        found
-    }
-
+impl Motion for WatchedAcross<'_> {
     fn verified(
+        &self,
         session: &Session,
-        scenario: Self::Origin,
         _: &str,
         whole: &planar::Trajectory,
     ) -> Result<VerificationDocument, Failure> {
+        let scenario = self.scenario();
         let found = verify::repeated(session, |observe| verify_across(scenario, whole, observe))?;
         Ok((&found).into())
     }
@@ -166,10 +72,6 @@ const STEP_NUMBERS_ACROSS: usize = STEP_NUMBERS + 1 + STAGES;
 
 impl Recorded for Step {
     const NUMBERS: [usize; 2] = [STEP_NUMBERS, SAMPLE_NUMBERS];
-
-    fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine {
-        SampleLine::of(self, of, t)
-    }
 
     fn write(&self, journal: &mut Rows) -> io::Result<()> {
         journal.write(self.numbers())
@@ -192,10 +94,6 @@ impl Recorded for Step {
 
 impl Recorded for planar::Step {
     const NUMBERS: [usize; 2] = [STEP_NUMBERS_ACROSS, SAMPLE_NUMBERS_ACROSS];
-
-    fn sample(&self, of: (&Support, &Wider), t: f64) -> SampleLine {
-        sample_across(self, of, t)
-    }
 
     fn write(&self, journal: &mut Rows) -> io::Result<()> {
         let mut row = [self.y; STEP_NUMBERS_ACROSS];

@@ -43,13 +43,13 @@ pub(super) fn resume(
             let running = Watched::resumed(scenario, &surface, &state);
             let running = running.map_err(|error| named(error.to_string()))?;
             let (integrated, target) = resumed(session, &head, place, scenario, running)?;
-            write::all(session, &head.order, (scenario, &surface), integrated, target)
+            write::all(session, &head.order, integrated, target)
         }
         RunScenario::Across(scenario) => {
             let running = WatchedAcross::resumed(scenario, &state);
             let running = running.map_err(|error| named(error.to_string()))?;
             let (integrated, target) = resumed(session, &head, place, &scenario.along, running)?;
-            write::all(session, &head.order, scenario, integrated, target)
+            write::all(session, &head.order, integrated, target)
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::session::Session;
 use serde::Serialize;
 use std::path::Path;
 use stickslip::{
-    Array, InUnits, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead, RunLine,
-    SteadyState, Tabular,
+    Array, InUnits, Moved, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead,
+    RunLine, SteadyState, Tabular,
 };
 use stickslip_tip::{Scenario, stop};
 
@@ -66,12 +66,11 @@ fn finish_lines(
 pub(super) fn all<R: Motion>(
     session: &Session,
     order: &Order,
-    origin: R::Origin,
-    mut integrated: Integrated<R>,
+    integrated: Integrated<R>,
     target: Target,
 ) -> Result<(), Failure> {
-    let Integrated { running, seconds, interrupt, .. } = &integrated;
-    let found = stop::where_asked_by(interrupt.flag(), || running.became(origin, *seconds));
+    let Integrated { running, mut record, seconds, interrupt } = integrated;
+    let found = stop::where_asked_by(interrupt.flag(), || running.became(seconds));
     let end = RunEnd { interrupted: interrupt.signal().is_some(), ..found? };
     let signal = interrupt.signal().filter(|_| end.interrupted);
     print_remarks(session, order, &end);
@@ -79,24 +78,23 @@ pub(super) fn all<R: Motion>(
     let job = match target {
         Target::Document(job) => job,
         Target::Lines(fields) => {
-            finish_lines(session, order, integrated.record.sink, &fields, &end)?;
+            finish_lines(session, order, record.sink, &fields, &end)?;
             return interrupted.map_or(Ok(()), Err);
         }
     };
-    let whole = integrated.record.whole();
-    let samples = std::mem::take(&mut integrated.record.samples);
-    let history = whole.as_ref().filter(|_| order.history).map(R::history);
+    let whole = record.whole();
+    let samples = std::mem::take(&mut record.samples);
+    let history = whole.as_ref().filter(|_| order.history).map(R::Step::history);
     let mut document = order.parameters.clone().document(samples, history, end.clone());
     if let Some(whole) = &whole {
-        document.answer = R::completed(document.answer, whole);
+        document.answer = R::Step::along_path(document.answer, whole);
     }
     let asked = whole.as_ref().filter(|_| order.verify && signal.is_none());
     // What was computed is written even if a signal ends its verification.
-    let found = asked.map(|whole| R::verified(session, origin, &end.work.memory, whole));
+    let found = asked.map(|whole| running.verified(session, &end.work.memory, whole));
     let found = found.transpose();
     document.verification = found.as_ref().ok().cloned().flatten();
     // From here on nothing is computed that would be lost: a signal ends the program.
-    let interrupt = integrated.interrupt;
     let _keeps = interrupt.signal().is_some().then_some(interrupt);
     let mut document = document.in_units(order.scales.as_ref());
     let summary = summary::of_run(&document, &end).in_units(document.physical.as_ref());
@@ -104,7 +102,7 @@ pub(super) fn all<R: Motion>(
     let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
     if let (Some(figure), Some(whole)) = (figure, &whole) {
         // Drawn from the history, whether or not it is written.
-        document.history.get_or_insert_with(|| R::history(whole));
+        document.history.get_or_insert_with(|| R::Step::history(whole));
         figure.draw(&document)?;
         document.history.take_if(|_| !order.history);
     }

@@ -14,8 +14,8 @@ use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
-    ClaimDocument, Indentation, ModelParameters, Physical, RegimeName, RunDocument, RunEnd,
-    RunFound, RunScenario, SampleLine, SteadyState, became, became_across, sample_across,
+    ClaimDocument, Indentation, ModelParameters, Moved, Moving, Physical, RegimeName, RunDocument,
+    RunEnd, RunFound, RunScenario, SampleLine, SteadyState,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::{Scenario, Step, Support, Wider, stop};
@@ -326,66 +326,49 @@ fn again(
     session: &Session,
     scenario: &RunScenario,
     until: f64,
-    mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
+    witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
 ) -> Result<RunEnd, Failure> {
-    let along = scenario.along();
-    let (support, wider) = (along.support(), *along.model.wider());
-    let law = (&support, &wider);
     match scenario {
         RunScenario::Along(scenario) => {
             let surface = scenario.initial_surface().map_err(failed)?;
-            let mut running = Watched::new(scenario, &surface).map_err(failed)?;
-            proceed(session, scenario, until, || {
-                let step = running.step().map_err(failed)?;
-                let seen = step.inspect(|step| witness(step, &|t| SampleLine::of(step, law, t)));
-                Ok(seen.map(|step| step.end()))
-            })?;
-            let flag = cut(scenario, until, running.t());
-            Ok(stop::where_asked_by(&flag, || became(scenario, &surface, &running, 0.0))?)
+            let running = Watched::new(scenario, &surface).map_err(failed)?;
+            repeated(session, scenario, until, running, witness)
         }
         RunScenario::Across(scenario) => {
-            let mut running = WatchedAcross::new(scenario).map_err(failed)?;
-            proceed(session, along, until, || {
-                let step = running.step().map_err(failed)?;
-                let seen =
-                    step.inspect(|step| witness(&step.along, &|t| sample_across(step, law, t)));
-                Ok(seen.map(|step| step.end()))
-            })?;
-            let flag = cut(along, until, running.t());
-            let became = || became_across(scenario, &running, 0.0);
-            stop::where_asked_by(&flag, became).map_err(failed)
+            let running = WatchedAcross::new(scenario).map_err(failed)?;
+            repeated(session, &scenario.along, until, running, witness)
         }
     }
+}
+
+fn repeated<R: Moving>(
+    session: &Session,
+    scenario: &Scenario,
+    until: f64,
+    mut running: R,
+    mut witness: impl FnMut(&Step, &dyn Fn(f64) -> SampleLine),
+) -> Result<RunEnd, Failure> {
+    let law = (&scenario.support(), scenario.model.wider());
+    let mut progress = Progress::new(session, scenario.start_time(), until);
+    let is_cut = until < scenario.until;
+    while let Some(step) = running.step().map_err(failed)? {
+        let along = step.as_ref();
+        witness(along, &|t| step.sample(law, t));
+        progress.reached(along.end());
+        if stop::is_asked() {
+            return Err(Failure::Run("the verification was interrupted".into()));
+        }
+        if is_cut && along.end() >= until * (1.0 - ROUNDINGS) {
+            break;
+        }
+    }
+    // A run that ended early is judged as one that a signal ended.
+    let flag = Arc::new(AtomicBool::new(is_cut && running.t() < scenario.until));
+    Ok(stop::where_asked_by(&flag, || running.became(0.0))?)
 }
 
 fn failed(error: impl Display) -> Failure {
     Failure::Run(error.to_string())
-}
-
-/// Makes steps, of which the ends are given, until the last or until this time.
-fn proceed(
-    session: &Session,
-    scenario: &Scenario,
-    until: f64,
-    mut step: impl FnMut() -> Result<Option<f64>, Failure>,
-) -> Result<(), Failure> {
-    let mut progress = Progress::new(session, scenario.start_time(), until);
-    let is_cut = until < scenario.until;
-    while let Some(end) = step()? {
-        progress.reached(end);
-        if stop::is_asked() {
-            return Err(Failure::Run("the verification was interrupted".into()));
-        }
-        if is_cut && end >= until * (1.0 - ROUNDINGS) {
-            break;
-        }
-    }
-    Ok(())
-}
-
-/// Whether a run ended early: it is judged as one that a signal ended.
-fn cut(scenario: &Scenario, until: f64, reached: f64) -> Arc<AtomicBool> {
-    Arc::new(AtomicBool::new(until < scenario.until && reached < scenario.until))
 }
 
 /// Checks a document.

@@ -1,6 +1,6 @@
 //! The dense history of a run, in one coordinate or in two.
 
-use stickslip::{RunDocument, RunScenario, SampleLine, Unusable, sample_across};
+use stickslip::{Moved, RunDocument, RunScenario, SampleLine, Unusable};
 use stickslip_tip::{Step, Support, Trajectory, Wider, planar};
 
 /// The dense history of a run.
@@ -51,14 +51,12 @@ impl Motion {
     /// The motion at a time, and along the scan the step with this time, of which the end is the next one's.
     pub(super) fn at(&self, law: (&Support, &Wider), t: f64) -> (&Step, SampleLine) {
         match self {
-            Self::Along(motion) => {
-                let step = motion.step_at(t);
-                (step, SampleLine::of(step, law, t))
-            }
-            Self::Across(motion) => {
-                let step = motion.step_at(t);
-                (&step.along, sample_across(step, law, t))
-            }
+            Self::Along(motion) => of_step(motion.step_at(t), law, t),
+            Self::Across(motion) => of_step(motion.step_at(t), law, t),
         }
     }
+}
+
+fn of_step<'a, S: Moved>(step: &'a S, law: (&Support, &Wider), t: f64) -> (&'a Step, SampleLine) {
+    (step.as_ref(), step.sample(law, t))
 }

@@ -1,5 +1,6 @@
 //! Errors of drawing.
 
+use std::fmt::Display;
 use thiserror::Error;
 
 /// A figure that could not be drawn or stored.
@@ -50,4 +51,9 @@ pub enum FigureError {
     /// The picture cannot be compressed.
     #[error("the pixels cannot be packed: {0}")]
     Png(String),
+}
+
+/// The error for a document from which something cannot be computed.
+pub(crate) fn damaged(error: impl Display) -> FigureError {
+    FigureError::Damaged(error.to_string())
 }

@@ -84,6 +84,14 @@ pub(super) fn differences<'a>(
     PanelDocument { y_scale, curves, ..PanelDocument::new("", labels) }
 }
 
+/// Positions from one end to the other in this number of equal steps.
+pub(super) fn evenly(
+    [from, to]: [f64; 2],
+    steps: u32,
+) -> impl Iterator<Item = f64> + Clone + use<> {
+    (0..=steps).map(move |i| from + (to - from) * f64::from(i) / f64::from(steps))
+}
+
 /// The lowest and the highest height away from the ends of the lines.
 pub(super) fn heights_within(map: &HeightMap) -> Option<[f64; 2]> {
     let (low, high) = (map.x.first()?, map.x.last()?);

@@ -1,10 +1,10 @@
 //! A run as a scene: the tip on its spring, the surface that it carves, and the spring force.
 
-use super::axes::{LAG, NATURAL, SURFACE, VELOCITY};
+use super::axes::{LAG, NATURAL, SURFACE, VELOCITY, evenly};
 use super::dense::{Part, duration, shown};
 use super::tip::run_title;
 use crate::axis::extremes;
-use crate::error::FigureError;
+use crate::error::{FigureError, damaged};
 use crate::scene::{Moment, Scene, Shot};
 use stickslip::{ColourName, CurveDocument, FigureDocument, PanelDocument, RunDocument, StyleName};
 use stickslip_surface::Surface;
@@ -44,8 +44,7 @@ impl Carving {
     pub(super) fn of(run: &RunDocument, shot: &Shot) -> Result<Self, FigureError> {
         let trajectory = run.trajectory()?;
         let scenario = run.parameters.scenario()?;
-        let initial =
-            scenario.initial_surface().map_err(|e| FigureError::Damaged(e.to_string()))?;
+        let initial = scenario.initial_surface().map_err(damaged)?;
         let times = times(run, &trajectory, shot)?;
         let (x, trail) = (positions(&trajectory, times), trail(&trajectory, times));
         let mut carving = Self {
@@ -66,16 +65,14 @@ impl Carving {
     /// u(x, t) at every x.
     fn surface(&self, t: f64, x: &[f64]) -> Result<Vec<f64>, FigureError> {
         let surface = Surface::new(&self.model, &self.initial, &self.trajectory);
-        let u = surface.heights(t, x).map_err(|e| FigureError::Damaged(e.to_string()))?;
+        let u = surface.heights(t, x).map_err(damaged)?;
         Ok(u.to_vec())
     }
 
     /// Lowest and highest ordinate: of the surface, with air below it and above it.
     fn range(&self) -> Result<[f64; 2], FigureError> {
-        let [from, to] = self.times;
         let mut all: Vec<f64> = vec![];
-        for i in 0..=LOOKS {
-            let t = from + (to - from) * f64::from(i) / f64::from(LOOKS);
+        for t in evenly(self.times, LOOKS) {
             all.extend(extremes(self.surface(t, &self.x)?).into_iter().flat_map(|(a, b)| [a, b]));
         }
         let (low, high) = extremes(all).unwrap_or((0.0, 1.0));
@@ -170,14 +167,11 @@ fn times(run: &RunDocument, trajectory: &Trajectory, shot: &Shot) -> Result<[f64
 }
 
 /// Positions from behind the tip to ahead of its support.
-fn positions(trajectory: &Trajectory, [from, to]: [f64; 2]) -> Vec<f64> {
-    let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(POINTS);
-    let tip = (0..=POINTS).map(|i| trajectory.x0(at(i)));
-    let support = (0..=POINTS).map(|i| match trajectory.support() {
-        Support::None => trajectory.x0(at(i)),
-        support => support.position(at(i)),
-    });
+fn positions(trajectory: &Trajectory, times: [f64; 2]) -> Vec<f64> {
+    let tip = evenly(times, POINTS).map(|t| trajectory.x0(t));
+    let support = trajectory.support();
+    let there = evenly(times, POINTS).filter(|_| *support != Support::None);
+    let support = there.map(|t| support.position(t));
     let (low, high) = extremes(tip.chain(support)).unwrap_or((0.0, 1.0));
-    let (low, high) = (low - BEHIND, high + AHEAD);
-    (0..=POINTS).map(|i| low + (high - low) * f64::from(i) / f64::from(POINTS)).collect()
+    evenly([low - BEHIND, high + AHEAD], POINTS).collect()
 }

@@ -1,12 +1,13 @@
 //! Figure of a limit cycle: spring, velocity, and the ripple far behind the tip.
 
-use super::axes::{L, NATURAL, SURFACE, VELOCITY};
+use super::axes::{L, NATURAL, SURFACE, VELOCITY, evenly};
 use super::dense::Part;
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
 use super::run::{against, steady_level, support_level};
 use super::tip::model_name;
-use crate::error::FigureError;
+use crate::axis::extremes;
+use crate::error::{FigureError, damaged};
 use crate::number::seven_digits;
 use stickslip::{CurveDocument, CycleDocument, FigureDocument, PanelDocument, StyleName, Unusable};
 use stickslip_surface::Surface;
@@ -14,7 +15,7 @@ use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_
 
 /// Number of wavelengths of the ripple shown.
 const WAVELENGTHS: f64 = 3.0;
-const POINTS: usize = 1500;
+const POINTS: u32 = 1500;
 /// Largest number of periods computed on either side of them; a wave that would need more is much shorter than the
 /// tip and leaves no ripple.
 const MOST_PERIODS: f64 = 3000.0;
@@ -70,12 +71,11 @@ fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, F
     let support = Support::Moving(model.r());
     let long = Trajectory::under(*model.wider(), support, steps.collect());
     let from = motion.x0(motion.start()) + before * wavelength;
-    let at = |i: usize| WAVELENGTHS * wavelength * i as f64 / POINTS as f64;
-    let x: Vec<f64> = (0..=POINTS).map(at).collect();
+    let x: Vec<f64> = evenly([0.0, WAVELENGTHS * wavelength], POINTS).collect();
     let shifted: Vec<f64> = x.iter().map(|x| from + x).collect();
     let flat = InitialSurface::flat();
     let u = Surface::new(model, &flat, &long).far_behind(long.end(), &shifted);
-    let u = u.map_err(|error| FigureError::Damaged(error.to_string()))?.to_vec();
+    let u = u.map_err(damaged)?.to_vec();
     let mut panel = PanelDocument::new("", SURFACE);
     panel.natural = NATURAL;
     panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
@@ -86,10 +86,5 @@ fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, F
 fn swing(motion: &Trajectory, r: f64) -> f64 {
     let (nodes, _) = nodes_and_weights();
     let within = |step: &Step| nodes.map(|node| step.l(r, step.t + node * step.h));
-    let (low, high) = motion
-        .steps()
-        .iter()
-        .flat_map(within)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), l| (low.min(l), high.max(l)));
-    high - low
+    extremes(motion.steps().iter().flat_map(within)).map_or(0.0, |(low, high)| high - low)
 }

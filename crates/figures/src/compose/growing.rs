@@ -1,6 +1,6 @@
 //! A raster as a scene: the surface line by line with the tip, and the lag along the line.
 
-use super::axes::{LAG, MAP, NATURAL, heights_within, surface_map};
+use super::axes::{LAG, MAP, NATURAL, evenly, heights_within, surface_map};
 use super::dense::shown;
 use super::tip::raster_title;
 use crate::axis::extremes;
@@ -51,11 +51,8 @@ impl Growing {
         let times = shown("raster", [0.0, end], shot.times.unwrap_or([0.0, end]))?;
         let map = raster.height_map()?;
         let whole = raster.heights(sparse(map.x), sparse(map.y))?;
-        let lag = |line: &Line| {
-            let end = line.trajectory().end();
-            (0..=POINTS).map(|i| line.lag(end * f64::from(i) / f64::from(POINTS))).collect()
-        };
-        let lags: Vec<f64> = lines.iter().flat_map(|line| -> Vec<f64> { lag(line) }).collect();
+        let times_of = |line: &Line| evenly([0.0, line.trajectory().end()], POINTS);
+        let lags = lines.iter().flat_map(|line| times_of(line).map(|t| line.lag(t)));
         let (low, high) = extremes(lags).unwrap_or((0.0, 1.0));
         let air = 0.06 * (high - low).max(1e-6 * NATURAL.unwrap_or(1.0));
         Ok(Self {
@@ -188,9 +185,9 @@ impl Scene for Growing {
 
 /// The lag along a line until this time, against the position of the support.
 fn trace(line: &Line, until: f64, r: f64) -> CurveDocument {
-    let at = |i: u32| until * f64::from(i) / f64::from(POINTS);
-    let x: Vec<f64> = (0..=POINTS).map(|i| line.track().x(r * at(i))).collect();
-    let lag: Vec<f64> = (0..=POINTS).map(|i| line.lag(at(i))).collect();
+    let times = evenly([0.0, until], POINTS);
+    let (x, lag): (Vec<f64>, Vec<f64>) =
+        times.map(|t| (line.track().x(r * t), line.lag(t))).unzip();
     CurveDocument::new(StyleName::Line, "", &x, &lag)
 }
 

@@ -73,10 +73,12 @@ pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View)
     }
 }
 
-/// The figure in nm, s and nN, as far as the scales are known.
-pub(super) fn in_units(mut figure: FigureDocument, scales: &KnownScales) -> FigureDocument {
-    figure.panels.iter_mut().for_each(|panel| convert(panel, scales));
-    settle(&mut figure, Some(scales));
+/// The figure in nm, s and nN, as far as the scales are known, or else in the model's units.
+pub(super) fn in_units(mut figure: FigureDocument, scales: Option<&KnownScales>) -> FigureDocument {
+    if let Some(scales) = scales {
+        figure.panels.iter_mut().for_each(|panel| convert(panel, scales));
+    }
+    settle(&mut figure, scales);
     figure
 }
 
@@ -138,14 +140,7 @@ impl InUnits {
 #[cfg(feature = "animation")]
 impl Scene for InUnits {
     fn still(&self) -> FigureDocument {
-        let mut figure = self.scene.still();
-        match &self.scales {
-            Some(scales) => in_units(figure, scales),
-            None => {
-                settle(&mut figure, None);
-                figure
-            }
-        }
+        in_units(self.scene.still(), self.scales.as_ref())
     }
 
     fn times(&self) -> [f64; 2] {

@@ -1,6 +1,6 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
-use super::axes::{labelled, residual};
+use super::axes::{evenly, labelled, residual};
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
@@ -10,7 +10,7 @@ use stickslip::{
 };
 
 /// Number of points of the fitted curve.
-const POINTS: usize = 600;
+const POINTS: u32 = 600;
 
 impl Drawn for MeasuredTipDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
@@ -32,8 +32,7 @@ impl Drawn for MeasuredTipDocument {
         let model = ModelParameters::papers(tip, alpha, None, self.parameters.r);
         let mut figure = FigureDocument::new("tip", &title, vec![model]);
         let x_label = labelled("x", unit);
-        let at = |i: usize| first + (last - first) * i as f64 / POINTS as f64;
-        let along: Vec<f64> = (0..=POINTS).map(at).collect();
+        let along: Vec<f64> = evenly([*first, *last], POINTS).collect();
         let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
         let height_label = labelled("height", self.parameters.height_unit.as_deref());

@@ -40,8 +40,7 @@ use crate::scene::{Scene, Shot};
 #[cfg(feature = "animation")]
 use in_units::InUnits;
 use in_units::{asked_of, in_units, judge_ranges};
-use quantity::settle;
-use stickslip::{BoundaryDocument, FigureDocument, PanelDocument, Tabular, Unusable};
+use stickslip::{BoundaryDocument, FigureDocument, KnownScales, PanelDocument, Tabular, Unusable};
 
 pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
@@ -52,19 +51,14 @@ pub use sweep::judge_sweep;
 /// # Errors
 /// The document is damaged, or contains nothing to draw.
 pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument, FigureError> {
-    let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
-    let Some(scales) = known else {
-        let mut figure = shown(document, view)?;
-        figure.panels.first().map_or(Ok(()), |first| judge_ranges(first, view))?;
-        settle(&mut figure, None);
-        return Ok(figure);
-    };
-    let mut view = *view;
-    if view.x_range.or(view.y_range).is_some() {
+    let (known, mut view) = (known(view.scales, document), *view);
+    if let Some(scales) = &known
+        && view.x_range.or(view.y_range).is_some()
+    {
         let whole = shown(document, &View::default())?;
-        view = whole.panels.first().map_or(view, |first| asked_of(first, &scales, &view));
+        view = whole.panels.first().map_or(view, |first| asked_of(first, scales, &view));
     }
-    let figure = in_units(shown(document, &view)?, &scales);
+    let figure = in_units(shown(document, &view)?, known.as_ref());
     figure.panels.first().map_or(Ok(()), |first| judge_ranges(first, &view))?;
     Ok(figure)
 }
@@ -78,13 +72,18 @@ pub fn scene_of<D: Drawn + ?Sized>(
     document: &D,
     shot: &Shot,
 ) -> Result<Box<dyn Scene>, FigureError> {
-    let known = shot.scales.or_else(|| document.physical().map(|physical| physical.scales));
+    let known = known(shot.scales, document);
     let times = match (shot.times, &known) {
         (Some(times), Some(scales)) => Some(in_units::times_of(times, scales)),
         (times, _) => times,
     };
     let scene = document.scene(&Shot { times, ..*shot })?;
     Ok(Box::new(InUnits::new(scene, known)))
+}
+
+/// The scales of an experiment: as requested, or those of the document.
+fn known<D: Tabular + ?Sized>(wanted: Option<KnownScales>, document: &D) -> Option<KnownScales> {
+    wanted.or_else(|| document.physical().map(|physical| physical.scales))
 }
 
 /// The figure in the model's units.
@@ -139,15 +138,7 @@ pub fn can_be_drawn(range: [f64; 2]) -> bool {
 /// # Errors
 /// The document is damaged, or contains no onset.
 pub fn onset_of(document: &BoundaryDocument, view: &View) -> Result<FigureDocument, FigureError> {
-    let mut figure = boundary::onset_of(document)?;
-    let known = view.scales.or_else(|| document.physical().map(|physical| physical.scales));
-    match known {
-        Some(scales) => Ok(in_units(figure, &scales)),
-        None => {
-            settle(&mut figure, None);
-            Ok(figure)
-        }
-    }
+    Ok(in_units(boundary::onset_of(document)?, known(view.scales, document).as_ref()))
 }
 
 impl Drawn for FigureDocument {

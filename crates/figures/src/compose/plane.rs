@@ -1,9 +1,9 @@
 //! The surface of a run in the plane from above, with the path of the tip on it.
 
-use super::axes::{MAP, surface_map};
+use super::axes::{MAP, evenly, surface_map};
 use super::dense::{duration, shown};
 use crate::axis::extremes;
-use crate::error::FigureError;
+use crate::error::{FigureError, damaged};
 use stickslip::{ColourName, CurveDocument, PanelDocument, RunDocument, StyleName};
 use stickslip_surface::SurfaceAcross;
 use stickslip_tip::Support;
@@ -79,17 +79,14 @@ impl Plane {
     }
 
     fn surface(&self, t: f64) -> Result<Vec<Vec<f64>>, FigureError> {
-        let damaged = |why: String| FigureError::Damaged(why);
-        let surface = SurfaceAcross::new(&self.scenario, &self.trajectory)
-            .map_err(|error| damaged(error.to_string()))?;
-        let u = surface.image(t, &self.x, &self.y).map_err(|error| damaged(error.to_string()))?;
+        let surface = SurfaceAcross::new(&self.scenario, &self.trajectory).map_err(damaged)?;
+        let u = surface.image(t, &self.x, &self.y).map_err(damaged)?;
         Ok(u.rows().into_iter().map(|row| row.to_vec()).collect())
     }
 
     /// Times from the first one shown to `t`.
     pub(super) fn instants(&self, t: f64) -> impl Iterator<Item = f64> + use<> {
-        let from = self.times[0];
-        (0..=POINTS).map(move |i| from + (t - from) * f64::from(i) / f64::from(POINTS))
+        evenly([self.times[0], t], POINTS)
     }
 
     fn path(&self, t: f64) -> Vec<[f64; 2]> {
@@ -110,6 +107,5 @@ impl Plane {
 }
 
 fn even((low, high): (f64, f64), spacing: f64) -> Vec<f64> {
-    let count = ((high - low) / spacing).ceil().max(1.0);
-    (0..=count as u32).map(|i| low + (high - low) * f64::from(i) / count).collect()
+    evenly([low, high], ((high - low) / spacing).ceil().max(1.0) as u32).collect()
 }

@@ -1,6 +1,6 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
-use super::axes::{MAP, SPRING, differences, heights_within, surface_map};
+use super::axes::{MAP, SPRING, differences, evenly, heights_within, surface_map};
 use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
@@ -235,9 +235,7 @@ fn paths(document: &RasterDocument) -> Result<CurveDocument, FigureError> {
     let (mut x, mut y) = (vec![], vec![]);
     for line in lines.iter().step_by(every) {
         let end = line.trajectory().end();
-        let times =
-            (0..=POINTS_OF_A_PATH).map(|i| end * f64::from(i) / f64::from(POINTS_OF_A_PATH));
-        for t in times {
+        for t in evenly([0.0, end], POINTS_OF_A_PATH) {
             x.push(line.x0(t));
             y.push(line.y0(t));
         }

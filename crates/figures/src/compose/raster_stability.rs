@@ -2,7 +2,7 @@
 
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
-use super::tip::{model_name, terms_name, tip_name};
+use super::tip::{model_name, stiffness_name, terms_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
@@ -28,9 +28,8 @@ impl Drawn for RasterStabilityDocument {
             }
             None => "one line repeated".into(),
         };
-        let across = self.parameters.stiffness_across;
-        let across = across.map(|stiffness| format!(", κ_y = {}", short(stiffness)));
-        let title = format!("{}, {lines}{}", model_name(model), across.unwrap_or_default());
+        let across = stiffness_name(self.parameters.stiffness_across);
+        let title = format!("{}, {lines}{across}", model_name(model));
         let mut figure = FigureDocument::new("raster-stability", &title, vec![model.clone()]);
         let q = &growth.q;
         let ends = [0.0, q.last().copied().unwrap_or(1.0)];
@@ -49,9 +48,7 @@ impl Drawn for RasterStabilityDocument {
 impl Drawn for RasterBoundaryDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
-        let across = parameters.stiffness_across;
-        let across = across.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
-        let law = terms_name(&parameters.law) + &across;
+        let law = terms_name(&parameters.law) + &stiffness_name(parameters.stiffness_across);
         let title =
             format!("{}, r = {}{law}", tip_name(&(&parameters.tip.0).into()), short(parameters.r));
         let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);

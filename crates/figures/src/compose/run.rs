@@ -2,7 +2,7 @@
 
 mod ground;
 
-use super::axes::{ACROSS, EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY};
+use super::axes::{ACROSS, EXTENSION, FORCE, L, LAG, NATURAL, POSITION, VELOCITY, WAY, evenly};
 #[cfg(feature = "animation")]
 use super::carving::Carving;
 use super::dense::{Part, Quantity};
@@ -12,7 +12,7 @@ use super::quantity::Quantity as Said;
 use super::tip::run_title;
 #[cfg(feature = "animation")]
 use super::wandering::Wandering;
-use crate::error::FigureError;
+use crate::error::{FigureError, damaged};
 use crate::number::short;
 #[cfg(feature = "animation")]
 use crate::scene::{Scene, Shot};
@@ -27,8 +27,8 @@ use stickslip_tip::{Scenario, Step, Support, Trajectory};
 const MANY: usize = 50;
 const SHOWN: f64 = 6.0;
 /// Number of points of a force, and of each pulse.
-const FORCE_POINTS: usize = 2000;
-const PULSE_POINTS: usize = 120;
+const FORCE_POINTS: u32 = 2000;
+const PULSE_POINTS: u32 = 120;
 /// Number of points of a friction loop.
 const LOOP_POINTS: u32 = 4000;
 
@@ -165,8 +165,7 @@ pub(super) fn support_level(r: f64) -> Level {
 /// The lag against the position of a support on a path: the friction loop.
 fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocument> {
     let Support::Path(path) = trajectory.support() else { return None };
-    let even =
-        (0..=LOOP_POINTS).map(|i| from + (to - from) * f64::from(i) / f64::from(LOOP_POINTS));
+    let even = evenly([from, to], LOOP_POINTS);
     let knots = path.knots().0.iter().copied().filter(|t| (from..=to).contains(t));
     let mut t: Vec<f64> = even.chain(knots).collect();
     t.sort_by(f64::total_cmp);
@@ -230,14 +229,12 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
         return None;
     }
     let force = run.scenario().ok()?.force;
-    let evenly = |from: f64, to: f64, n: usize| {
-        (0..=n).map(move |i| from + (to - from) * i as f64 / n as f64)
+    let near = |p: &PulseParameters| {
+        evenly([p.time - 5.0 * p.width, p.time + 5.0 * p.width], PULSE_POINTS)
     };
-    let near =
-        |p: &PulseParameters| evenly(p.time - 5.0 * p.width, p.time + 5.0 * p.width, PULSE_POINTS);
     let table = run.force.iter().flat_map(|table| table.t.iter().copied());
     let pulses = run.pulses.iter().flat_map(near);
-    let mut t: Vec<f64> = evenly(from, to, FORCE_POINTS).chain(pulses).chain(table).collect();
+    let mut t: Vec<f64> = evenly([from, to], FORCE_POINTS).chain(pulses).chain(table).collect();
     t.retain(|t| (from..=to).contains(t));
     t.sort_by(f64::total_cmp);
     let value: Vec<f64> = t.iter().map(|t| force.value(*t)).collect();
@@ -253,7 +250,7 @@ fn surfaces(
     trajectory: &Trajectory,
     shown: Shown,
 ) -> Result<Row, FigureError> {
-    let initial = scenario.initial_surface().map_err(|e| FigureError::Damaged(e.to_string()))?;
+    let initial = scenario.initial_surface().map_err(damaged)?;
     let surface = Surface::new(&scenario.model, &initial, trajectory);
     let (from, end) = shown.part.span;
     let (from, tip) = (trajectory.x0(from), trajectory.x0(end));

@@ -2,10 +2,9 @@
 
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
-use super::tip::model_name;
+use super::tip::{model_name, stiffness_name};
 use crate::axis::extremes;
 use crate::error::FigureError;
-use crate::number::short;
 use stickslip::{
     ColourName, ComplexDocument, CurveDocument, FigureDocument, PanelDocument, StabilityDocument,
     StyleName, WalkDocument, WalkingDocument,
@@ -27,9 +26,8 @@ impl Drawn for StabilityDocument {
             (_, true) => "stable",
             (_, false) => "unstable",
         };
-        let across = self.parameters.stiffness_across;
-        let across = across.map(|stiffness| format!(", κ_y = {}", short(stiffness)));
-        let title = format!("{}{}: {what}", model_name(&model), across.unwrap_or_default());
+        let across = stiffness_name(self.parameters.stiffness_across);
+        let title = format!("{}{across}: {what}", model_name(&model));
         let mut figure = FigureDocument::new("stability", &title, vec![model]);
         let name = if self.snaking.is_some() { "along the scan" } else { "" };
         figure.panels = vec![exponents(name, &self.roots, self.certificate.largest_error)];

@@ -41,15 +41,18 @@ pub(crate) fn run_title(run: &RunDocument) -> String {
         let period = to_its_digits(swing.period, swing.period_error);
         format!(", T = {}", Quantity { value, error, unit: "Γ/k" }.said(&period))
     });
-    let stiffness = run.parameters.stiffness_across;
-    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+    let stiffness = stiffness_name(run.parameters.stiffness_across);
     format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
+}
+
+/// The stiffness across the scan, such as ", κ_y = 2"; empty for a tip that is held on its line.
+pub(crate) fn stiffness_name(stiffness: Option<f64>) -> String {
+    stiffness.map_or(String::new(), |stiffness| format!(", κ_y = {}", short(stiffness)))
 }
 
 /// Model and path of a raster.
 pub(crate) fn raster_title(parameters: &Raster) -> String {
-    let stiffness = parameters.stiffness_across;
-    let stiffness = stiffness.map_or(String::new(), |k| format!(", κ_y = {}", short(k)));
+    let stiffness = stiffness_name(parameters.stiffness_across);
     format!("{}{stiffness}, {}", model_name(&parameters.model_parameters()), path_name(parameters))
 }
 

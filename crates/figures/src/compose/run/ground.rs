@@ -1,9 +1,9 @@
 //! The surface after a run, with the tip.
 
 use crate::axis::extremes;
-use crate::compose::axes::{NATURAL, SURFACE};
+use crate::compose::axes::{NATURAL, SURFACE, evenly};
 use crate::compose::quantity::Quantity;
-use crate::error::FigureError;
+use crate::error::{FigureError, damaged};
 use crate::number::short;
 use stickslip::{ArrowName, ColourName, CurveDocument, NoteDocument, PanelDocument, StyleName};
 use stickslip_surface::Surface;
@@ -100,7 +100,7 @@ impl Ground<'_> {
 
     fn heights(&self, t: f64, x: &[f64]) -> Result<Vec<f64>, FigureError> {
         let u = self.surface.heights(t, x);
-        u.map(|u| u.to_vec()).map_err(|error| FigureError::Damaged(error.to_string()))
+        u.map(|u| u.to_vec()).map_err(damaged)
     }
 
     fn panel(&self) -> PanelDocument {
@@ -157,8 +157,8 @@ fn height(u: f64) -> String {
 }
 
 fn points((low, high): (f64, f64)) -> Vec<f64> {
-    let count = ((high - low) / SPACING).clamp(POINTS.0, POINTS.1).floor();
-    (0..=count as usize).map(|i| low + (high - low) * i as f64 / count).collect()
+    let count = ((high - low) / SPACING).clamp(POINTS.0, POINTS.1);
+    evenly([low, high], count as u32).collect()
 }
 
 #[cfg(test)]

@@ -12,9 +12,9 @@ use std::io::Cursor;
 use stickslip::{
     Ask, Context, KnownScales, PathName, Raster, RasterDocument, Run, RunDocument, Tip,
 };
-use stickslip_raster::{Free, Line, Path, Plan, Scanned, Scanning};
+use stickslip_raster::{Line, Plan, Scanned, Scanning};
 use stickslip_surface::Surface;
-use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Trajectory, Wider};
+use stickslip_tip::{Model, Scenario, TipFunction, Trajectory};
 
 const SIZE: f64 = 400.0;
 /// Width of the line of the surface, in pixels.
@@ -304,53 +304,36 @@ fn no_trace_of_the_end_remains_at_the_beginning() {
     }
 }
 
-fn plan(path: Path, healing_time: Option<f64>) -> Plan {
-    let tip = TipFunction::gaussian(1.0).unwrap();
-    let wider = Wider { healing_time, ..Wider::default() };
-    let model = Model::under(wider, tip.clone(), 0.6, 1.0).unwrap();
-    let footprint = Footprint::separable(tip, 1.3).unwrap();
-    Plan::new(footprint, model, path, 0.7, 8, 14.0)
-}
-
-/// The question with this plan.
-fn question(plan: &Plan) -> Raster {
-    let (model, free) = (&plan.law.model, plan.free.as_ref());
-    let path = match plan.path {
-        Path::OneWay => PathName::OneWay,
-        Path::Zigzag => PathName::Zigzag,
-        Path::Repeat => PathName::Repeat,
-    };
+/// A raster of eight lines of length 14; of a free tip with this stiffness.
+fn question(path: PathName, healing_time: Option<f64>, stiffness: Option<f64>) -> Raster {
     let values = json!({
-        "tip": Tip(model.tip().clone()), "alpha": model.alpha(), "r": model.r(), "width_y": 1.3, "path": path,
-        "depth_limit": model.wider().depth_limit, "healing_time": model.wider().healing_time,
-        "pitch": plan.area.pitch(plan.path), "lines": plan.lines(), "length": plan.area.longest(),
-        "stiffness_across": free.map(|free| free.stiffness), "kick_across": free.map(|free| free.kick),
+        "tip": Tip(TipFunction::gaussian(1.0).unwrap()), "alpha": 0.6, "r": 1.0, "width_y": 1.3, "path": path,
+        "healing_time": healing_time, "pitch": 0.7, "lines": 8, "length": 14.0,
+        "stiffness_across": stiffness, "kick_across": stiffness.map(|_| 0.4),
     });
     serde_json::from_value(values).unwrap()
 }
 
-fn scanned(plan: &Plan) -> (Vec<Line>, RasterDocument) {
-    let mut scanning = Scanning::new(plan).unwrap();
+fn scanned(question: &Raster) -> (Plan, Vec<Line>, RasterDocument) {
+    let plan = question.plan().unwrap();
+    let mut scanning = Scanning::new(&plan).unwrap();
     while scanning.next_line().unwrap().is_some() {}
     let lines = scanning.into_lines();
-    let document = question(plan).document(plan, &lines, &[]);
-    (lines, document)
+    let document = question.clone().document(&plan, &lines, &[]);
+    (plan, lines, document)
 }
 
 /// The heights of a scene against those by the transform of all lines, at the end of each line and within a line.
 #[test]
 fn a_growing_raster_has_the_surface_of_its_lines() {
-    let free = Free { kick: 0.4, ..Free::new(0.5) };
-    for (path, healing_time, free) in [
-        (Path::OneWay, None, None),
-        (Path::Zigzag, None, None),
-        (Path::Zigzag, Some(40.0), None),
-        (Path::OneWay, None, Some(&free)),
-        (Path::Zigzag, Some(40.0), Some(&free)),
+    for (path, healing_time, stiffness) in [
+        (PathName::OneWay, None, None),
+        (PathName::Zigzag, None, None),
+        (PathName::Zigzag, Some(40.0), None),
+        (PathName::OneWay, None, Some(0.5)),
+        (PathName::Zigzag, Some(40.0), Some(0.5)),
     ] {
-        let plan = plan(path, healing_time);
-        let plan = free.map_or(plan.clone(), |free| plan.with_free(free.clone()));
-        let (lines, document) = scanned(&plan);
+        let (plan, lines, document) = scanned(&question(path, healing_time, stiffness));
         let mut scene = scene_of(&document, &Shot::default()).unwrap();
         let mut judge = |t: f64, lines: &[Line]| {
             let moment = scene.moment(t).unwrap();
@@ -359,7 +342,7 @@ fn a_growing_raster_has_the_surface_of_its_lines() {
             let off = map.z.iter().flatten().zip(&wanted).map(|(a, b)| (a - b).abs());
             let off = off.fold(0.0, f64::max);
             assert!(
-                off < 1e-10 && (map.z.len() == 8 || free.is_some()),
+                off < 1e-10 && (map.z.len() == 8 || stiffness.is_some()),
                 "{path:?} {healing_time:?} {t}: {off:e}"
             );
         };
@@ -367,7 +350,7 @@ fn a_growing_raster_has_the_surface_of_its_lines() {
         for n in [8, 1, 5, 3] {
             judge(14.0 * f64::from(n) - 1e-12, &lines[..n as usize]);
         }
-        if healing_time.is_none() && free.is_none() {
+        if healing_time.is_none() && stiffness.is_none() {
             let steps = lines[4].trajectory().steps();
             let some = steps[..steps.len() / 2].to_vec();
             let t = 4.0 * 14.0 + some[some.len() - 1].end();
@@ -383,8 +366,7 @@ fn a_growing_raster_has_the_surface_of_its_lines() {
 /// In each frame the map has the colours of the heights at its time, where these vary little.
 #[test]
 fn every_frame_of_a_raster_shows_the_heights_at_its_time() {
-    let plan = plan(Path::Zigzag, None);
-    let (_, document) = scanned(&plan);
+    let (_, _, document) = scanned(&question(PathName::Zigzag, None, None));
     let film = Film::new(Some(0.5), Some(10.0), Some(Width::Pixels(SIZE))).unwrap();
     for format in FORMATS {
         let mut scene = scene_of(&document, &Shot::default()).unwrap();

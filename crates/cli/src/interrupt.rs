@@ -91,9 +91,6 @@ pub(crate) struct Interrupt {
 
 impl Interrupt {
     /// Starts listening.
-    ///
-    /// # Errors
-    /// The system rejects the signal handler.
     pub(crate) fn listen(session: &Session) -> Result<Self, Failure> {
         let interrupt = Self { session: session.clone(), keeps: !session.has_host() };
         if !interrupt.keeps {

@@ -12,10 +12,6 @@ use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
 /// The document; `width` and `height` are in units, `size` is written as its size for the viewer.
-///
-/// # Errors
-///
-/// An image cannot be compressed.
 pub(crate) fn document(
     drawing: &Drawing,
     (width, height): (f64, f64),

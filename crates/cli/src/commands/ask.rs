@@ -90,9 +90,6 @@ impl<Q: Questions> Options<Q> {
     }
 
     /// The scales of a result whose r, if it is given, is among these values; `None` without physical units.
-    ///
-    /// # Errors
-    /// As [`scales`].
     pub(crate) fn scales(
         &self,
         session: &Session,
@@ -104,9 +101,6 @@ impl<Q: Questions> Options<Q> {
     }
 
     /// The values of the parameters: those of --parameters, replaced by those given as options.
-    ///
-    /// # Errors
-    /// A file cannot be read, or the footprint is invalid.
     pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
         let read = |path| read_parameters(session, path, (Q::formats, Q::parameters));
         let base = self.parameters.as_deref().map(read).transpose()?;
@@ -114,9 +108,6 @@ impl<Q: Questions> Options<Q> {
     }
 
     /// The values `base`, replaced by those given as options.
-    ///
-    /// # Errors
-    /// The footprint is invalid.
     pub(crate) fn values_instead_of(
         &self,
         session: &Session,
@@ -170,9 +161,6 @@ fn read_parameters(
 }
 
 /// Answers a question, with results in physical units if requested.
-///
-/// # Errors
-/// A parameter is invalid, or nothing is found.
 pub(crate) fn answered<Q: Ask>(
     session: &Session,
     question: Q,
@@ -183,9 +171,6 @@ pub(crate) fn answered<Q: Ask>(
 }
 
 /// Answers a question, writes and draws the answer, and prints a summary.
-///
-/// # Errors
-/// As [`answered`], or the answer cannot be written.
 pub(crate) fn answer<Q: Ask>(
     session: &Session,
     question: Q,
@@ -219,9 +204,6 @@ fn answered_into<Q: Ask, T>(
 }
 
 /// Answers the question with these values of options; `chosen_by` is the option that selects this question.
-///
-/// # Errors
-/// As [`answer`]; or a parameter is missing, or does not belong to the question.
 pub(crate) fn asked<Q: Ask, K: Questions>(
     session: &Session,
     options: &Options<K>,
@@ -238,9 +220,6 @@ where
 }
 
 /// Rejects options that do not belong to `Q`; `chosen_by` is the option that selects this question.
-///
-/// # Errors
-/// An option does not belong to `Q`.
 pub(crate) fn refuse_strangers<Q: Question, K: Questions>(
     _: &Options<K>,
     values: &Map<String, Value>,

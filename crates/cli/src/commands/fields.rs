@@ -11,18 +11,12 @@ pub(crate) struct Fields(Vec<String>);
 
 impl Fields {
     /// Fields of a document of this format, such as "stickslip/run".
-    ///
-    /// # Errors
-    /// A document of this kind has no such field; the message lists similar ones.
     pub(crate) fn asked(format: &str, paths: &[String]) -> Result<Self, Failure> {
         let name = format.trim_start_matches("stickslip/");
         Self::within(|| schema(name), paths)
     }
 
     /// Fields of the last line of a run that is written as lines.
-    ///
-    /// # Errors
-    /// As [`Fields::asked`].
     pub(crate) fn of_last_line(paths: &[String]) -> Result<Self, Failure> {
         let last = || json!({ "$ref": "#/$defs/RunEnd", "$defs": schema("run-lines")["$defs"] });
         Self::within(last, paths)

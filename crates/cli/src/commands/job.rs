@@ -53,9 +53,6 @@ pub(crate) struct Job {
 
 impl Job {
     /// The output for a document of this format, with its figure at `plot`.
-    ///
-    /// # Errors
-    /// The output cannot be written, or has no such format or field.
     pub(crate) fn open(
         session: &Session,
         document: &str,

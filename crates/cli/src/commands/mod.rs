@@ -38,9 +38,6 @@ use crate::failure::Failure;
 use crate::session::Session;
 
 /// Carries out a command.
-///
-/// # Errors
-/// Those of the command.
 pub(crate) fn carried_out(session: &Session, command: &Command) -> Result<(), Failure> {
     match command {
         Command::Run(arguments) => run::run(session, arguments),

@@ -73,9 +73,6 @@ fn needs(unit: &str) -> &'static str {
 }
 
 /// The command line with numbers in place of quantities.
-///
-/// # Errors
-/// A quantity is of another kind than its option, or the scale that it needs is unknown.
 pub(crate) fn translated(
     session: &Session,
     words: Vec<OsString>,

@@ -147,9 +147,6 @@ impl Place<'_> {
 }
 
 /// Computes those of the `missing` points that are not finished yet.
-///
-/// # Errors
-/// A signal arrived, or a point could not be saved.
 fn compute<Q: Points>(
     session: &Session,
     grid: &Q,

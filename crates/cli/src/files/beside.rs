@@ -44,9 +44,6 @@ pub(crate) fn ours(path: &Path, magic: &[u8]) -> io::Result<Option<File>> {
 }
 
 /// Creates and locks a new file; an old one is replaced if this program made it.
-///
-/// # Errors
-/// As [`ours`].
 pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<File> {
     if let Some(old) = ours(path, magic)? {
         // The name goes, not the contents: they may have another name.
@@ -65,9 +62,6 @@ pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Fil
 }
 
 /// The same, with the permissions of the file that it belongs to.
-///
-/// # Errors
-/// As [`ours`].
 pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result<File> {
     create(path, magic, &Looks::of(owner))
 }

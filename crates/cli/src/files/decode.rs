@@ -8,9 +8,6 @@ const WINDOWS_1252: [char; 32] = [
 ];
 
 /// The text of a file, without a byte order mark.
-///
-/// # Errors
-/// The file is not text, or is damaged; the message names the line if there is one.
 pub(crate) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => {

@@ -13,9 +13,6 @@ const ENDINGS: [&str; 3] = [".part", ".partial", ".journal"];
 
 /// Rejects an output that another option also writes or reads, or that is a derived file of another: one would
 /// overwrite the other. Links of both kinds are resolved.
-///
-/// # Errors
-/// The message names the option and the one that it conflicts with.
 pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure> {
     let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {

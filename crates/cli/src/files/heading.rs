@@ -25,9 +25,6 @@ impl Heading {
     }
 
     /// The heading with a unit that is given elsewhere.
-    ///
-    /// # Errors
-    /// The heading has another unit itself.
     pub(super) fn with_unit(self, unit: &str) -> Result<Self, String> {
         let unit = unit.trim();
         let is_same = |own: &str| {
@@ -61,9 +58,6 @@ impl Heading {
     }
 
     /// The unit of a quantity, and its value in SI units; `None` if there is none.
-    ///
-    /// # Errors
-    /// The unit belongs to another quantity, or is unknown.
     pub(crate) fn unit(&self, of: Unit) -> Result<Option<(&str, f64)>, String> {
         let Some(unit) = self.unit.as_deref() else { return Ok(None) };
         match of.one(unit) {

@@ -18,9 +18,6 @@ fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
 }
 
 /// The columns called `names`; those with a unit in their heading are divided by the scales.
-///
-/// # Errors
-/// A unit belongs to another quantity, is unknown, or lacks the scale that it needs.
 pub(super) fn in_model_units(
     columns: &mut [Vec<f64>],
     names: &str,

@@ -18,18 +18,12 @@ pub(crate) struct Journal {
 
 impl Journal {
     /// A new journal, which will begin with `magic`; an old one is replaced.
-    ///
-    /// # Errors
-    /// As [`beside::create`].
     pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Self> {
         let file = beside::create(path, magic, looks)?;
         Ok(Self { file: BufWriter::new(file), bytes: 0, hasher: Hasher::new() })
     }
 
     /// The journal at `path`, truncated to the mark.
-    ///
-    /// # Errors
-    /// As [`beside::ours`]; or the beginning does not agree with the mark.
     pub(super) fn resume(path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         let mut file = beside::ours(path, magic)?.ok_or(io::ErrorKind::NotFound)?;
         let hasher = verified(&file, mark)?;
@@ -44,9 +38,6 @@ impl Journal {
     }
 
     /// A new journal with the beginning of another file, up to the mark.
-    ///
-    /// # Errors
-    /// As [`beside::create`]; or the beginning of the other does not agree with the mark.
     pub(super) fn copy(from: &File, path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         verified(from, mark)?;
         let looks = Looks::of_file(from);

@@ -73,9 +73,6 @@ impl Common {
     }
 
     /// Lengths, in the unit of --unit if it is given: it also applies to columns without a unit.
-    ///
-    /// # Errors
-    /// It is no unit of length.
     pub(crate) fn lengths(unit: Option<&str>) -> Result<Self, Failure> {
         let mut lengths = Self::of(Unit::Length);
         if let Some(unit) = unit {
@@ -92,9 +89,6 @@ impl Common {
     }
 
     /// Takes the unit of a run, unless one is known.
-    ///
-    /// # Errors
-    /// The unit is another one than that of the first file.
     pub(crate) fn of_run(&mut self, named: &str, unit: &str) -> Result<(), Failure> {
         let one = self.of.one(unit);
         let Some(first) = &self.first else {
@@ -113,9 +107,6 @@ impl Common {
     }
 
     /// The factor from the unit of a column to the common unit.
-    ///
-    /// # Errors
-    /// The unit belongs to another quantity, or only one of the two columns has a unit.
     pub(crate) fn factor(&mut self, named: &str, heading: &Heading) -> Result<f64, Failure> {
         let refused = |message: String| Failure::input(named, message);
         let found = heading.unit(self.of).map_err(refused)?;

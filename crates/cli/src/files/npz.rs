@@ -10,9 +10,6 @@ const TIME_AND_DATE: [u8; 4] = [0, 0, 0x21, 0];
 const NEEDS: u16 = 20;
 
 /// Writes the arrays, each under its name.
-///
-/// # Errors
-/// The archive would exceed 4 GiB, or `out` cannot be written.
 pub(super) fn write<'a>(
     arrays: impl IntoIterator<Item = (impl AsRef<str>, Array<'a>)>,
     out: &mut dyn Write,

@@ -11,9 +11,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The format of an output by its extension, for a command that handles further extensions `more`, such as ", .gsf", itself.
-///
-/// # Errors
-/// No format has this extension.
 pub(crate) fn format_of(path: &Path, more: &str) -> Result<Format, Failure> {
     if path == Path::new("-") {
         return Ok(Format::Json);
@@ -44,9 +41,6 @@ pub(crate) struct Output {
 
 impl Output {
     /// Opens the output (`-`: standard output) that `option` named, and checks that it can be written.
-    ///
-    /// # Errors
-    /// The output cannot be written, or another process writes it.
     pub(crate) fn open(option: &str, path: &Path) -> Result<Self, Failure> {
         Ok(Self { path: path.into(), place: place(option, path)?, threads: 1 })
     }

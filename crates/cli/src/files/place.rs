@@ -43,17 +43,11 @@ impl Target {
 
 /// Checks, before the computation, that the output that `option` named (`-`: standard output) can be written, and
 /// locks it.
-///
-/// # Errors
-/// The output cannot be written, or another process writes it.
 pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
     writable(path).map_err(|error| refused(option, path, &error))
 }
 
 /// Locks an existing folder, for a command that fills it.
-///
-/// # Errors
-/// Another process has locked it.
 pub(crate) fn folder(option: &str, path: &Path) -> Result<Lock, Failure> {
     Lock::of(&resolved(path)).map_err(|_| Failure::input(named(option, path), IN_USE))
 }

@@ -41,9 +41,6 @@ impl From<&str> for Table<'_> {
 
 impl<'a> Table<'a> {
     /// The table in a file, or the columns that a host supplies.
-    ///
-    /// # Errors
-    /// The file cannot be read as text.
     pub(crate) fn open(session: &'a Session, option: &str, path: &Path) -> Result<Self, Failure> {
         match session.columns(path) {
             Some(columns) => Ok(Self::Columns(columns)),
@@ -52,9 +49,6 @@ impl<'a> Table<'a> {
     }
 
     /// The result of parsing the table in a file.
-    ///
-    /// # Errors
-    /// As [`open`](Self::open), or that of `parse`.
     pub(crate) fn read<T>(
         session: &'a Session,
         option: &str,
@@ -66,9 +60,6 @@ impl<'a> Table<'a> {
     }
 
     /// The sheet of this table, with one of the numbers of columns in `admissible`.
-    ///
-    /// # Errors
-    /// As [`parse_sheet`]; columns of different lengths, or with an infinite value.
     pub(crate) fn sheet(&self, admissible: &[usize]) -> Result<Sheet, String> {
         match self {
             Self::Text(text) => parse_sheet(text, admissible),
@@ -120,9 +111,6 @@ fn needed(count: usize, admissible: &[usize]) -> String {
 }
 
 /// The table in a text, with one of the numbers of columns in `admissible`.
-///
-/// # Errors
-/// The line that is not a row of numbers, or another error.
 pub(crate) fn parse_sheet(text: &str, admissible: &[usize]) -> Result<Sheet, String> {
     // The end of a file on DOS.
     let text = text.trim_end_matches('\u{1a}');

@@ -46,9 +46,6 @@ pub(crate) fn part_of(target: &Path) -> PathBuf {
 
 impl Stream {
     /// Opens the output (`-`: standard output) that `option` named.
-    ///
-    /// # Errors
-    /// The output cannot be written.
     pub(crate) fn open(option: &str, path: &Path, is_kept: bool) -> Result<Self, Failure> {
         let sink = match place(option, path)? {
             Place::Stdout => Sink::Stdout(BufWriter::new(io::stdout())),

@@ -59,9 +59,6 @@ impl Drawn for BoundaryDocument {
 
 /// d ln α/d(a²), with a = half the peak-to-peak of x0: the small oscillation exists above the boundary if it is
 /// positive, below if it is negative.
-///
-/// # Errors
-/// None of the points of the boundary has a criticality.
 pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
     let title = format!("Oscillation at onset, {}", law_name(&any(document)));
     let mut figure = FigureDocument::new("criticality", &title, models(document));

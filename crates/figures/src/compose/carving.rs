@@ -39,8 +39,6 @@ pub(super) struct Carving {
 }
 
 impl Carving {
-    /// # Errors
-    /// The run has no dense history along its line, or is damaged.
     pub(super) fn of(run: &RunDocument, shot: &Shot) -> Result<Self, FigureError> {
         let trajectory = run.trajectory()?;
         let scenario = run.parameters.scenario()?;

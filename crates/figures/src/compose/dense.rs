@@ -21,9 +21,6 @@ struct Columns {
 }
 
 /// The part of a motion between two times.
-///
-/// # Errors
-/// There is none.
 pub(super) fn shown(
     motion: &str,
     [start, end]: [f64; 2],

@@ -37,8 +37,6 @@ pub(super) struct Growing {
 }
 
 impl Growing {
-    /// # Errors
-    /// The raster is damaged, or has no time in common with the request.
     pub(super) fn of(raster: &RasterDocument, shot: &Shot) -> Result<Self, FigureError> {
         let (plan, lines) = raster.scanned()?;
         let duration = |n: usize| plan.duration(n);

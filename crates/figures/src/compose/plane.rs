@@ -32,9 +32,6 @@ pub(super) struct Plane {
 
 impl Plane {
     /// The surface between these times; by default where the tip went last.
-    ///
-    /// # Errors
-    /// The run has no dense history, is damaged, or has no time in common with the request.
     pub(super) fn of(run: &RunDocument, times: Option<[f64; 2]>) -> Result<Self, FigureError> {
         let (scenario, trajectory) = run.trajectory_across()?;
         let (start, end) = (trajectory.start(), trajectory.end());

@@ -29,8 +29,6 @@ struct Track {
 }
 
 impl Wandering {
-    /// # Errors
-    /// The run has no dense history, is damaged, or has no time in common with the request.
     pub(super) fn of(run: &RunDocument, shot: &Shot) -> Result<Self, FigureError> {
         let plane = Plane::of(run, shot.times)?;
         let times = plane.times();

@@ -24,8 +24,6 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// # Errors
-    /// A footprint that is no sum of Gaussians, or a grid that is not one of a plane.
     pub(super) fn of(grid: GridName, spacing: f64, footprint: &Footprint) -> Result<Self, Failure> {
         let products = footprint.layers().iter().map(product).collect::<Result<Vec<_>, _>>()?;
         let smallest = |of: fn(&Product) -> &Vec<Gaussian>| {

@@ -109,9 +109,6 @@ fn bytes(head: &CheckpointHead, state: &State) -> serde_json::Result<Vec<u8>> {
 }
 
 /// A checkpoint read from a file.
-///
-/// # Errors
-/// The file cannot be read, is damaged, or was written by another version of this program.
 pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     let refused = |message: String| Failure::file("--resume", path, message);
     let unreadable = |error: io::Error| refused(format!("cannot be read: {error}"));

@@ -319,9 +319,6 @@ impl Claims {
 
 /// The result of a repetition of the run with its own options; `witness` is called with each step and the motion
 /// within it.
-///
-/// # Errors
-/// The run cannot be repeated, or was interrupted.
 fn again(
     session: &Session,
     scenario: &RunScenario,
@@ -372,9 +369,6 @@ fn failed(error: impl Display) -> Failure {
 }
 
 /// Checks a document.
-///
-/// # Errors
-/// As [`again`].
 pub(super) fn of_document(
     session: &Session,
     run: &RunDocument,
@@ -417,9 +411,6 @@ pub(super) fn of_document(
 }
 
 /// Checks a run written as lines.
-///
-/// # Errors
-/// As [`again`]; or the lines cannot be read.
 pub(super) fn of_lines(
     session: &Session,
     whole: &RunScenario,

@@ -11,9 +11,6 @@ pub(super) enum Motion {
 
 impl Motion {
     /// The history in a document; `None` if it was left out.
-    ///
-    /// # Errors
-    /// The history is invalid.
     pub(super) fn of(run: &RunDocument, whole: &RunScenario) -> Result<Option<Self>, Unusable> {
         if run.history.is_none() {
             return Ok(None);

@@ -45,7 +45,6 @@ pub(crate) enum Failure {
     /// Stopped by a signal; the partial result was saved and can be resumed. Status 128 + signal.
     #[error("interrupted: {message}")]
     Unfinished {
-        /// The signal.
         signal: u8,
         /// Progress, and the command to resume.
         message: String,

@@ -198,7 +198,6 @@ impl Grooves {
         Some(sum)
     }
 
-    /// Adds the grooves of a row at y.
     fn add_groove(&self, row: &Row, y: f64, sum: &mut [Complex64]) {
         for (layer, transform) in self.footprint.layers().iter().zip(&self.stretch.layers) {
             let height = -self.alpha * self.height(layer.across, y - row.y);

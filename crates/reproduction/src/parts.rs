@@ -27,7 +27,6 @@ pub(super) fn failed(what: &str, error: &impl Display) -> Failed {
     Failed::new(format!("{what}: {error}"))
 }
 
-/// A finished run.
 pub(super) fn finished(scenario: &Scenario) -> Result<Run, Failed> {
     run(scenario).map_err(|error| failed("the run", &error))
 }

@@ -43,7 +43,6 @@ impl Probes {
         (self.end - self.start) / WINDOWS as f64
     }
 
-    /// The middle of a window.
     fn middle(&self, window: usize) -> f64 {
         self.start + self.width() * (window as f64 + 0.5)
     }

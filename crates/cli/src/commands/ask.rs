@@ -26,7 +26,6 @@ pub(crate) fn context(session: &Session) -> Context {
     context_cancelled_by(session, session.stop())
 }
 
-/// A context that is cancelled by a flag.
 pub(crate) fn context_cancelled_by(session: &Session, flag: Arc<AtomicBool>) -> Context {
     let progress: Mutex<Option<Progress>> = Mutex::new(None);
     let session = session.clone();

@@ -291,7 +291,6 @@ impl Line {
     }
 }
 
-/// An option of a command, by its name.
 fn option_of<'a>(parser: &'a Command, command: &[String], name: &str) -> Option<&'a Arg> {
     let command = command.iter().try_fold(parser, |at, name| at.find_subcommand(name))?;
     command.get_arguments().find(|argument| argument.get_long() == Some(name))

@@ -75,7 +75,6 @@ impl Output {
         })
     }
 
-    /// Writes bytes.
     pub(crate) fn write_bytes(self, bytes: &[u8]) -> Result<(), Failure> {
         self.write_with(|out| out.write_all(bytes))
     }

@@ -44,7 +44,6 @@ impl Rows {
         Ok((Self(journal), rows.iter().map(|row| row.map(f64::from_le_bytes)).collect()))
     }
 
-    /// Writes one row.
     pub(crate) fn write<const N: usize>(&mut self, row: [f64; N]) -> io::Result<()> {
         self.0.write_all(row.map(f64::to_le_bytes).as_flattened())
     }
@@ -67,7 +66,6 @@ fn head(numbers: usize) -> Vec<u8> {
     line
 }
 
-/// The journal of a checkpoint.
 pub(crate) fn journal_of(checkpoint: &Path) -> std::path::PathBuf {
     beside::with(checkpoint, ".journal")
 }

@@ -87,7 +87,6 @@ const KINDS: [(RasterKindName, ColourName); 3] = [
     (RasterKindName::Snaking, ColourName::Green),
 ];
 
-/// The threshold of each kind against the pitch.
 fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
     let ThresholdColumns { ripples, bunching, snaking, .. } = columns;
     let curves = KINDS.iter().zip([ripples, bunching, snaking]);

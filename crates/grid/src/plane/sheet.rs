@@ -12,7 +12,6 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// Adds values to cells of a column.
     pub(super) fn add(&mut self, column: i64, values: &Patch) {
         let own = self.column(column);
         cover(own, values);

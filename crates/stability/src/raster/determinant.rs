@@ -99,7 +99,6 @@ pub(super) struct Terms {
 pub(super) type Heights = Vec<Vec<Vec<f64>>>;
 
 impl Lines {
-    /// One way.
     pub(super) fn one_way(waves: Waves, terms: Terms, heights: &Heights) -> Self {
         let both = waves.fading > 0.0 && terms.steepness.abs() > 0.0;
         let kind = match (terms.across.is_some(), both) {

@@ -169,7 +169,6 @@ impl Walker {
             || self.trap.is_some_and(|trap| trap > 0.0)
     }
 
-    /// The scenario on a flat field.
     fn on_flat_field(&self) -> Result<WalkerScenario, Refused> {
         let pulses = self.pulses.iter().map(Into::into).collect();
         let force = Force::new(pulses, None).map_err(|error| Refused::whole("pulses", error))?;
@@ -188,7 +187,6 @@ impl Walker {
         Ok(scenario)
     }
 
-    /// The scenario, and its orbits.
     fn scenario(&self) -> Result<(WalkerScenario, Option<Vec<theory::Orbit>>), Failure> {
         let scenario = self.on_flat_field()?;
         let walks = scenario.free_speed() > 0.0;

@@ -189,7 +189,6 @@ impl Formatter for Bits {
     }
 }
 
-/// The text of a piece.
 fn text_of(piece: &[u8]) -> Vec<u8> {
     let (mut text, mut rest) = (Vec::with_capacity(5 * piece.len() / 2), piece);
     while let Some(at) = rest.iter().position(|byte| *byte == NUMBER) {

@@ -216,7 +216,6 @@ impl Fft {
         lattice
     }
 
-    /// The field of heights.
     fn heights(&mut self) -> &Field {
         let new = || {
             let value = |x: f64| self.tip.value(x);

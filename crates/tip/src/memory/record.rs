@@ -126,7 +126,6 @@ impl Record {
         self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
     }
 
-    /// Closes a block of the last nodes.
     fn close_block(&mut self, nodes: usize) {
         let end = self.nodes.len();
         let Kept::All(blocks) = &mut self.kept else { return };

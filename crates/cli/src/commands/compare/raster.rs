@@ -211,7 +211,6 @@ fn explain(error: GridError) -> Failure {
     Failure::Run(format!("grid: {error}; {advice}"))
 }
 
-/// The raster on cells of a plane.
 fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared, Failure> {
     let Asked { plan, stepping, times, x, .. } = asked;
     let (model, wider) = (&plan.law.model, plan.law.model.wider());

@@ -25,7 +25,6 @@ pub(super) struct Places {
     pub(super) spacing: Option<f64>,
     /// Positions across the path; empty for curves.
     pub(super) y: Vec<f64>,
-    /// Spacing of y.
     pub(super) spacing_y: f64,
 }
 

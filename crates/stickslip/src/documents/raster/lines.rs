@@ -151,7 +151,6 @@ impl LineHistory {
         Self { t, extension, displacement, height, y0 }
     }
 
-    /// Line `n` of a plan.
     fn line(
         &self,
         (nodes, weights): (&[f64], &[f64]),
@@ -333,7 +332,6 @@ fn numbers(step: &Step) -> [f64; 3 + STAGES] {
     numbers
 }
 
-/// The step with these numbers.
 fn step(numbers: &[f64; 3 + STAGES]) -> Step {
     let [t, h, extension, displacement @ ..] = *numbers;
     Step { t, h, extension, displacement, height: None }

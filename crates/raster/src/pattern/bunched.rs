@@ -12,7 +12,7 @@ use super::sheet::Sheet;
 use super::vector::{MOST_ANGLE, Vector};
 use super::wave::Wave;
 use super::window::Window;
-use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, felt, growth};
+use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, changing, felt, growth};
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
@@ -36,30 +36,16 @@ pub(super) fn bunched(plan: &Plan, lines: &[Line], window: &Window) -> Option<Wr
     }
     let waves = trenches(&sheet, window.pitch)?;
     let changes = waves[0].changes(&sheet).map(|factor| factor * healed);
-    let mut doubts = vec![];
-    if changes.iter().any(|factor| factor.ln().abs() > SETTLED) {
-        let most = changes.into_iter().max_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()));
-        doubts.extend(most.map(Doubt::Changing));
-    }
+    let mut doubts: Vec<Doubt> = changing(changes).into_iter().collect();
     let is_settled = changes[1].ln().abs() <= SETTLED;
     let measured = Measured::of(&sheet, &waves, is_settled, (lines.len(), plan.area.longest()));
     let Measured { angle, wavelength, local, doubts: others } = measured;
     doubts.extend(others);
     let coherence = local.coherence_along(ROWS);
     let same_way = (plan.path == Path::Zigzag).then(|| local.coherence_along(2 * ROWS));
-    let pattern = Pattern {
-        q: wavelength.map(|_| waves[0].q),
-        kappa: wavelength.and(angle).map(|_| waves[0].kappa),
-        wavelength: wavelength.map(|of| of.value),
-        wavelength_error: wavelength.map(|of| of.error),
-        crest_angle: angle.map(|of| of.value),
-        crest_angle_error: angle.map(|of| of.error),
-        coherence: coherence.value,
-        coherence_error: coherence.error,
-        coherence_same_way: same_way.map(|of| of.value),
-        amplitude,
-        defects: local.defects(),
-    };
+    let coherences = (coherence, same_way);
+    let pattern =
+        Pattern::of(&waves[0], (wavelength, angle), coherences, amplitude, local.defects());
     Some(Written { regime: Regime::Bunched, pattern: Some(pattern), doubts })
 }
 

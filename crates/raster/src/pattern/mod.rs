@@ -70,6 +70,38 @@ pub struct Pattern {
     pub defects: usize,
 }
 
+impl Pattern {
+    /// The ripple with this wave, of which wavelength and angle, and the coherence in the same direction, may be unknown.
+    fn of(
+        wave: &Wave,
+        (wavelength, angle): (Option<Estimate>, Option<Estimate>),
+        (coherence, same_way): (Estimate, Option<Estimate>),
+        amplitude: f64,
+        defects: usize,
+    ) -> Self {
+        Self {
+            q: wavelength.map(|_| wave.q),
+            kappa: wavelength.and(angle).map(|_| wave.kappa),
+            wavelength: wavelength.map(|of| of.value),
+            wavelength_error: wavelength.map(|of| of.error),
+            crest_angle: angle.map(|of| of.value),
+            crest_angle_error: angle.map(|of| of.error),
+            coherence: coherence.value,
+            coherence_error: coherence.error,
+            coherence_same_way: same_way.map(|of| of.value),
+            amplitude,
+            defects,
+        }
+    }
+}
+
+/// The larger of these changes of a wave, if it has not settled.
+fn changing(changes: [f64; 2]) -> Option<Doubt> {
+    let is_changing = changes.iter().any(|factor| factor.ln().abs() > SETTLED);
+    let most = changes.into_iter().max_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()));
+    most.filter(|_| is_changing).map(Doubt::Changing)
+}
+
 /// The regime of one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineRegime {
@@ -264,12 +296,8 @@ impl Seen {
         if !is_wave && measures.regime() != Regime::Steady {
             return Err(Doubt::NoWave(2.0 * length));
         }
-        let mut doubts = vec![];
         let changes = vector.changes(sheet).map(|factor| factor * sheets.healed);
-        if changes.iter().any(|factor| factor.ln().abs() > SETTLED) {
-            let most = changes.into_iter().max_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()));
-            doubts.extend(most.map(Doubt::Changing));
-        }
+        let mut doubts: Vec<Doubt> = changing(changes).into_iter().collect();
         if measures.regime() == Regime::Steady {
             doubts.extend(growing);
             return Ok(Self { measures, pattern: None, doubts });
@@ -277,19 +305,9 @@ impl Seen {
         let is_settled = changes[1].ln().abs() <= SETTLED;
         let angle = vector.crest_angle(&mut doubts);
         let wavelength = vector.wavelength(is_settled, &mut doubts);
-        let pattern = Pattern {
-            q: wavelength.map(|_| wave.q),
-            kappa: wavelength.and(angle).map(|_| wave.kappa),
-            wavelength: wavelength.map(|of| of.value),
-            wavelength_error: wavelength.map(|of| of.error),
-            crest_angle: angle.map(|of| of.value),
-            crest_angle_error: angle.map(|of| of.error),
-            coherence: coherence.value,
-            coherence_error: coherence.error,
-            coherence_same_way: same_way.map(|of| of.value),
-            amplitude: sheet.amplitude(),
-            defects: local.defects(),
-        };
+        let (coherences, amplitude) = ((coherence, same_way), sheet.amplitude());
+        let pattern =
+            Pattern::of(wave, (wavelength, angle), coherences, amplitude, local.defects());
         Ok(Self { measures, pattern: Some(pattern), doubts })
     }
 

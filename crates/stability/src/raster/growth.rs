@@ -2,7 +2,7 @@
 
 use super::Raster;
 use super::plane::Sideways;
-use num_complex::Complex64;
+use num_complex::{Complex64, ComplexFloat};
 
 /// Lines after which a growth from line to line has settled.
 const MOST_PASSES: usize = 100_000;
@@ -130,20 +130,25 @@ impl Raster {
     }
 }
 
-/// X of PX = Y, by Cramer's rule.
-fn solution(p: &Matrix, y: &Matrix) -> Matrix {
-    let determinant = |m: &Matrix| {
+/// x of the linear equations Mx = y, by Cramer's rule.
+pub(super) fn cramer<T: ComplexFloat>(matrix: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
+    let determinant = |m: [[T; 3]; 3]| {
         m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
             - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
             + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
     };
-    let all = determinant(p);
-    let entry = |row: usize, column: usize| {
-        let mut replaced = *p;
-        (0..3).for_each(|i| replaced[i][row] = y[i][column]);
-        determinant(&replaced) / all
-    };
-    std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)))
+    let all = determinant(matrix);
+    std::array::from_fn(|column| {
+        let mut replaced = matrix;
+        (0..3).for_each(|row| replaced[row][column] = right[row]);
+        determinant(replaced) / all
+    })
+}
+
+/// X of PX = Y.
+fn solution(p: &Matrix, y: &Matrix) -> Matrix {
+    let columns: [_; 3] = std::array::from_fn(|column| cramer(*p, y.map(|row| row[column])));
+    std::array::from_fn(|row| columns.map(|column| column[row]))
 }
 
 /// The ratio of one line to the last that comes to be after many, of a recurrence of vectors.

@@ -1,6 +1,7 @@
 //! Where T is largest, by Newton's method.
 
 use super::determinant::{Lines, Phase, Wave};
+use super::growth::cramer;
 use super::on_cell::Determinant;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -161,19 +162,8 @@ fn balance(slopes: &Slopes) -> f64 {
     (slopes.q * slopes.theta.conj()).im / slopes.theta.norm()
 }
 
-/// Of three linear equations, by Cramer's rule.
+/// Of three linear equations.
 fn solution(rows: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
-    let determinant = |m: [[f64; 3]; 3]| {
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    };
-    let all = determinant(rows);
-    let part = |column: usize| {
-        let mut replaced = rows;
-        (0..3).for_each(|row| replaced[row][column] = right[row]);
-        determinant(replaced) / all
-    };
-    let x = [part(0), part(1), part(2)];
+    let x = cramer(rows, right);
     x.iter().all(|x| x.is_finite()).then_some(x)
 }

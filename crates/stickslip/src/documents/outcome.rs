@@ -26,16 +26,10 @@ pub enum RegimeName {
 
 twins!(Regime => RegimeName: Steady | StickSlip | Trapped | Drifting | Transient);
 
+/// The word in documents.
 impl std::fmt::Display for RegimeName {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.write_str(match self {
-            Self::Steady => "steady",
-            Self::StickSlip => "stick-slip",
-            Self::Trapped => "trapped",
-            Self::Drifting => "drifting",
-            Self::Snaking => "snaking",
-            Self::Transient => "transient",
-        })
+        self.serialize(out)
     }
 }
 

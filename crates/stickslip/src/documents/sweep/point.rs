@@ -18,13 +18,10 @@ pub enum SourceName {
     Run,
 }
 
+/// The word in documents.
 impl std::fmt::Display for SourceName {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.write_str(match self {
-            Self::Stability => "stability",
-            Self::Cycle => "cycle",
-            Self::Run => "run",
-        })
+        self.serialize(out)
     }
 }
 

@@ -20,13 +20,13 @@ use stickslip_figures::Drawn;
 use stickslip_saved::Saved;
 
 /// The result of a command: a document with columns, a figure and a summary.
-pub(crate) trait Product: Saved + Serialize + Tabular {
+pub(crate) trait Product: Saved + Tabular {
     /// The summary for the user.
     fn summary(&self) -> Summary;
 
-    /// Writes the document as JSON: large ones on several threads.
+    /// Writes the document as JSON, by code for documents of all kinds; large ones have their own, which is faster.
     fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(self)
+        output.write_json(&self.serialized())
     }
 }
 
@@ -116,7 +116,7 @@ impl Job {
     pub(crate) fn write<P: Product>(self, product: P) -> Result<(), Failure> {
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let write = |output: Output| output.write_json(&product);
+        let write = |output: Output| product.write_json(output);
         self.write_by((&product, product.serialized()), &summary, &write)?;
         session.give(|| summary.of(plain(product)));
         Ok(())

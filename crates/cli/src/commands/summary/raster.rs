@@ -187,6 +187,10 @@ impl Product for RasterCompareDocument {
 }
 
 impl Product for RasterSweepDocument {
+    fn write_json(&self, output: Output) -> Result<(), Failure> {
+        output.write_json(self)
+    }
+
     fn summary(&self) -> Summary {
         let mut regimes: Vec<(String, usize)> = vec![];
         for point in &self.points {
@@ -204,6 +208,10 @@ impl Product for RasterSweepDocument {
 }
 
 impl Product for RasterSurfaceDocument {
+    fn write_json(&self, output: Output) -> Result<(), Failure> {
+        output.write_json(self)
+    }
+
     fn summary(&self) -> Summary {
         let all = |map: &HeightMap| map.u.concat();
         let heights: Vec<f64> = self.surfaces.iter().flat_map(all).collect();

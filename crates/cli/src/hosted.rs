@@ -53,7 +53,7 @@ pub fn call<'a>(
     let session = session.with_quantities(line.typed);
     match stop::where_asked_by(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
-        // Work that ends early has its own words for what it did not find.
+        // Work that ends early has its own message.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {
             Err(Refusal::Stopped(failure.to_string()))
         }
@@ -117,7 +117,7 @@ fn parse<'a>(
     let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
     let refused = |error: clap::Error| {
         let said = error.render().to_string();
-        // The words that say what is wrong, without usage and advice for a shell.
+        // The error, without usage and advice for a shell.
         let said = said.split("\n\nUsage:").next().unwrap_or_default();
         let said = said.split("\n\nFor more information").next().unwrap_or_default();
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())

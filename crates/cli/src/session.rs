@@ -1,4 +1,4 @@
-//! The surroundings of a command: files from memory, where its result, messages and progress go, and what cancels it.
+//! The surroundings of a command: files from memory, destinations of result, messages and progress, and cancellation.
 //!
 //! The program makes a session for its terminal: results go to files, messages to standard error, and signals stop it.
 //! A host, such as a Python interpreter, makes one for each call.

@@ -77,7 +77,7 @@ impl Frame<'_> {
             x.iter().zip(y).map(|(x, y)| self.place((*x, (*y)?))).collect();
         let in_reach =
             |p: &Option<Point>| p.is_some_and(|p| (self.at.left..=self.at.right).contains(&p.0));
-        // What is left and right of the axes shows only where it joins what is within.
+        // Points beside the axes show only where they are joined to a point within.
         let shows = |i: usize| {
             let crosses = |j: usize| match (places[i], places.get(j).copied().flatten()) {
                 (Some(a), Some(b)) => {

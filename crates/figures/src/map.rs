@@ -89,7 +89,7 @@ impl<'a> Map<'a> {
         for i in 0..BAR_STEPS {
             let colour = at(self.document.colours, (i as f64 + 0.5) / BAR_STEPS as f64);
             let bottom = bar.bottom - step * i as f64;
-            // The next one covers what is more: no seam is left.
+            // The next one covers the excess: no seam is left.
             let top = (bottom - step - 0.5).max(bar.top);
             drawing.rect(Rect { top, bottom, ..bar }, Paint::fill(colour));
         }

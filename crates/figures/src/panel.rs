@@ -203,7 +203,7 @@ impl<'a> Panel<'a> {
         let size = LABEL_SIZE;
         for note in &self.document.notes {
             let Some((x, y)) = frame.place((note.x, note.y)) else { continue };
-            // Within the axes, whole; beside an arrow, on a ground that keeps it apart from what is there.
+            // Within the axes, whole; beside an arrow, on a ground that separates it from the curves.
             let half = 0.5 * width(&note.text, size) + 6.0;
             let (from, to) = (frame.at.left + half, frame.at.right - half);
             let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };

@@ -1,9 +1,9 @@
-//! Moving pictures as data: axes that stay, and what they show at any time.
+//! Moving pictures as data: axes that stay, and their content at any time.
 
 use crate::error::FigureError;
 use stickslip::{FigureDocument, KnownScales, PanelDocument};
 
-/// What an animation shows, in addition to its document.
+/// Options of an animation, in addition to its document.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shot {
     /// First and last time shown, in Γ/k, or in the unit of the time axis if scales are known; for a raster, from the
@@ -35,7 +35,7 @@ pub struct Moment {
     pub t: f64,
     /// Unit of `t`.
     pub unit: String,
-    /// What is written beside the time; may be empty.
+    /// A text beside the time; may be empty.
     pub note: String,
     /// For each panel of the still figure, in its units: curves and maps that move. The first curve of the first
     /// panel is the surface, unless that panel has a map.

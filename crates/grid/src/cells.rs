@@ -40,7 +40,7 @@ impl<'a> Cells<'a> {
             self.first = first;
         }
         if first < self.first {
-            // Ahead by half of what there is, so that a long retreat costs linear time.
+            // By half of the present length, so that a long retreat costs linear time.
             let ahead = first - self.values.len() as i64 / 2;
             let new: Vec<f64> = (ahead..self.first).map(new_cell).collect();
             self.values.splice(0..0, new);

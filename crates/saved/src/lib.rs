@@ -1,7 +1,7 @@
 //! Documents, read back and handed on whatever their kind.
 //!
-//! The code that reads documents is a third of what a program of all commands compiles, and most of it runs once for a
-//! file. It is compiled here, once. A release build does not optimise this crate; the documents that may be large are
+//! The code that reads documents is a third of the compiled code of a program of all commands; most of it runs once
+//! per file. It is compiled here, once. A release build does not optimise this crate; the documents that may be large are
 //! read by code of `stickslip`, which it does.
 
 mod drawn;

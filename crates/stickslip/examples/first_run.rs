@@ -1,4 +1,4 @@
-//! A run, and what became of it: `cargo run --release --example first_run`.
+//! A run and its classification: `cargo run --release --example first_run`.
 
 use std::error::Error;
 use stickslip::outcome::{Regime, run_and_judge};

@@ -1,4 +1,4 @@
-//! Where steady motion becomes unstable, what is born there, and how fast it grows beyond.
+//! The onset of stick-slip: the critical point, the small oscillation there, and its growth beyond.
 
 use std::error::Error;
 use stickslip::stability::{Criticality, critical, leading_roots, onset};

@@ -6,7 +6,7 @@ use stickslip::tip::{Gaussian, TipFunction, Wider};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let lobe = |amplitude, center, width| Gaussian { amplitude, center, width };
-    // f is even: what stands on one side stands on the other.
+    // f is even: both sides are equal.
     let lobes = vec![lobe(1.0, 0.0, 1.0), lobe(-0.3, 2.5, 0.8), lobe(-0.3, -2.5, 0.8)];
     let sum = TipFunction::gaussian_sum(lobes)?;
     let x: Vec<f64> = (0..=80).map(|i| 0.1 * f64::from(i)).collect();

@@ -1,4 +1,4 @@
-//! What the tip settles into at points of the plane of r and α.
+//! The motion that the tip settles into, at points of the plane of r and α.
 
 use std::error::Error;
 use stickslip::outcome::{Motion, motion};

@@ -69,7 +69,7 @@ pub enum Kind {
     Other,
 }
 
-/// A type with parameters or names: what users may set.
+/// A type with parameters or names that users may set.
 pub trait Parameters: DeserializeOwned + 'static {
     /// JSON Schema of the type.
     const SCHEMA: &'static str;
@@ -109,7 +109,7 @@ struct PropertySchema<'a> {
     option: Option<OptionSchema>,
 }
 
-/// What [`option`] says of a property.
+/// The description of a property by [`option`].
 #[derive(Deserialize)]
 struct OptionSchema {
     symbol: String,

@@ -35,7 +35,7 @@ pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result
         (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
         (found, _) => found.map_err(refused)?,
     };
-    // What is complete can be computed again: from here on a first signal ends the program at once.
+    // The result can be computed again: from here on a first signal ends the program immediately.
     let _keeps = signal.map(|_| interrupt);
     job.finish(document.in_units(scales.as_ref()))?;
     signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))

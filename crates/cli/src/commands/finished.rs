@@ -327,7 +327,7 @@ fn open<P: Part>(
         if text == first {
             let (length, parts) = read::<P>(session, path, lines, first.len(), has)?;
             if !beside::has_other_names(&file)? {
-                // What a kill left of the last line goes.
+                // An incomplete last line is removed.
                 file.set_len(length as u64)?;
                 (&file).seek(SeekFrom::End(0))?;
                 return Ok((file, parts));

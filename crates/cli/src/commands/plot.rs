@@ -77,7 +77,7 @@ fn figure(
     }
     let document = stickslip_saved::drawn(open(session, option, path)?)
         .map_err(|error| Failure::input(named(), error))?;
-    // With the velocity of the support times need the one r of what is drawn.
+    // With the velocity of the support times need the single r of the document.
     let r = match &arguments.in_units.velocity {
         Some(_) => figures::of(&*document, view).map_err(refused)?.one_r(),
         None => None,

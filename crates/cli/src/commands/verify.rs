@@ -89,7 +89,7 @@ fn of_document(
     finish(session, run, job, (&found).into(), differences)
 }
 
-/// Writes the result, and says what is wrong.
+/// Writes the result, and reports differences.
 fn finish(
     session: &Session,
     run: RunDocument,

@@ -142,7 +142,7 @@ pub(super) fn whole(table: &Table, names: &[&str]) -> Result<Sheet, String> {
     let of = names.join("` or `");
     let mut sheet = table.sheet(&counts).map_err(|error| format!("{error} (columns `{of}`)"))?;
     if sheet.columns.is_empty() {
-        // What has no rows is judged by what is made of it.
+        // An empty table is rejected by its later use.
         sheet.columns = vec![vec![]; counts[0]];
         sheet.headings = vec![Heading::default(); counts[0]];
     }

@@ -83,7 +83,7 @@ impl Write for Journal {
     }
 }
 
-/// The checksum of what is written, none of which is kept.
+/// A writer that computes the checksum of its input and discards it.
 pub(crate) struct Hashing<'a>(pub(crate) &'a mut Hasher);
 
 impl Write for Hashing<'_> {

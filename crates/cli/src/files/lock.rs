@@ -24,7 +24,7 @@ impl Lock {
     pub(crate) fn of(target: &Path) -> io::Result<Self> {
         let place = std::env::temp_dir().join(name(target));
         loop {
-            // What cannot be locked is written without: a lock is a courtesy among equals.
+            // Without file locks the output is written all the same: locks only coordinate runs of this program.
             let Ok(file) = open(&place) else { return Ok(Self { held: None }) };
             lock(&file)?;
             // Its last holder removes it: the one that was opened may have lost its name since.

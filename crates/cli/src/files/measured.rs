@@ -119,7 +119,7 @@ impl Common {
             (Some(first), Some(one)) if first.to_bits() == one.to_bits() => Ok(1.0),
             (Some(first), Some(one)) => Ok(one / first),
             (None, None) => Ok(1.0),
-            // What an option says is said of all that does not.
+            // The unit of the option applies to all columns without a unit.
             (Some(_), None) if first.named.starts_with("--unit") => Ok(1.0),
             (Some(_), None) => Err(refused(format!(
                 "the heading `{}` has no unit, where {} has {}: add the unit to the heading",

@@ -49,7 +49,7 @@ pub(super) fn write<'a>(
     out.write_all(&[0; 2])
 }
 
-/// What a file .npy has before its values: 64-bit numbers, by rows.
+/// The header of a .npy file of 64-bit numbers, by rows.
 fn header(shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length}, ")).collect();
     let mut text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");

@@ -35,7 +35,7 @@ impl Looks {
         let made = new.mode() & 0o666;
         let mut mode = old.mode() & (made | (made & 0o444) >> 2);
         if file.metadata()?.gid() != old.gid() {
-            // What one group might do is not for another.
+            // Permissions of one group are not given to another.
             mode &= !0o070 | (mode & 0o007) << 3;
         }
         file.set_permissions(std::fs::Permissions::from_mode(mode))

@@ -22,7 +22,7 @@ pub(crate) struct Sheet {
     pub(crate) columns: Vec<Vec<f64>>,
     /// Numbers of the lines or rows with missing values, from 1.
     pub(crate) missing: Vec<usize>,
-    /// What these numbers count: `line` of a text, or `row` of columns.
+    /// The unit that these numbers count: `line` of a text, or `row` of columns.
     pub(crate) counted: &'static str,
 }
 

@@ -94,7 +94,7 @@ fn prefix(target: &Path) -> String {
 #[cfg(unix)]
 fn new(prefix: &str, folder: &Path) -> io::Result<NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
-    // As any new file: what the umask leaves of it.
+    // As of any new file, limited by the umask.
     let permissions = fs::Permissions::from_mode(0o666);
     Builder::new().prefix(prefix).permissions(permissions).tempfile_in(folder)
 }

@@ -1,4 +1,4 @@
-//! The drawing of a scene: a background with everything that stays, and what moves on top of it.
+//! The drawing of a scene: a background with everything that stays, and the moving parts on top of it.
 
 use super::film::Film;
 use crate::curve::{Frame, shape};

@@ -81,7 +81,7 @@ pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, Fi
         CurveDocument::new(StyleName::Dashed, "", &[first, last], &[0.0; 2]),
         CurveDocument::new(StyleName::Line, "", &document.r, &excess),
     ];
-    // Room on the other side of zero for the name of what would be there.
+    // Room on the other side of zero for the name of that side.
     let (low, high) = (low.min(-0.2 * high), high.max(-0.2 * low));
     let air = 0.06 * (high - low);
     panel.y_range = Some([low - air, high + air]);

@@ -111,7 +111,7 @@ impl Branches {
     ) -> PanelDocument {
         let mut panel = PanelDocument::new("", labels);
         let all = || self.pieces.iter().flat_map(|piece| piece.points.iter().map(of));
-        // Towards onset amplitudes go to 0 on any scale: what counts is how far they leave the size of the tip, σ.
+        // Towards onset amplitudes go to 0 on any scale: the criterion is their ratio to the size of the tip, σ.
         let least = if is_positive { 0.0 } else { 1.0 };
         let low = all().filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
         let high = all().fold(0.0, f64::max);

@@ -50,7 +50,7 @@ impl Drawn for CycleDocument {
 
 /// u far behind the tip, after infinitely long motion.
 fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, FigureError> {
-    // What is shown follows from the motion alone.
+    // The ripple follows from the motion alone.
     let period = motion.end() - motion.start();
     let wavelength = model.r() * period;
     if model.wider().healing_time.is_some() {

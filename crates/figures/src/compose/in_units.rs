@@ -19,7 +19,7 @@ struct Axis {
 impl Axis {
     fn of(label: &str, scales: &KnownScales) -> Self {
         let dimensionless = label;
-        // The extension of the spring in σ is its force in kσ, which is what an instrument measures.
+        // The extension of the spring in σ is its force in kσ, which an instrument measures.
         let is_extension = [LAG.1, LAG_OF_STEADY_SUPPORT, SPRING].contains(&label);
         let label = match label {
             R => V0,

@@ -83,7 +83,7 @@ fn map(document: &RasterSweepDocument) -> PanelDocument {
     let is_bunched = |point: &RasterSweepPoint| point.regime == Some(RasterRegimeName::Bunched);
     let hidden = usize::from(!document.points.iter().any(is_bunched));
     let named = &REGIMES[..REGIMES.len() - hidden];
-    // Whole cells, for what is written in them.
+    // Whole cells, for the numbers in them.
     (panel.x_range, panel.y_range) = (ends(&x), ends(&y));
     panel.cells = Some(CellsDocument {
         kinds: alphas.iter().map(row).collect(),

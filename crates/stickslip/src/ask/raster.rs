@@ -186,7 +186,7 @@ impl Raster {
     /// A parameter is out of its range, or contradicts another.
     pub fn prepared(&self) -> Result<Plan, Failure> {
         let model = self.indentation.model(&self.tip.0, self.law.into(), self.r)?;
-        // A saved question says what it was resolved to.
+        // A saved question contains the resolved values.
         let (footprint, _) = footprint(self.width_y, model.tip())?;
         let mut plan = Plan::over(footprint, model, Path::from(self.path), self.area()?);
         let pulses: Vec<Pulse> = self.pulses.iter().map(Into::into).collect();

@@ -100,7 +100,7 @@ impl Ask for RasterSweep {
             let why = format!("make {count} points; at most {MOST_POINTS} are accepted");
             return Err(Refused::whole("pitch and alpha", why).into());
         }
-        // Both ends: what is wrong with any is wrong with one of them.
+        // Both ends: an error of any point is one of an end.
         for index in [0, count - 1] {
             self.plan(index)?;
         }

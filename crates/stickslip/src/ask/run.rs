@@ -566,7 +566,7 @@ impl Run {
             ("until", self.until, "the support would go to r until =", model.r() * self.until),
             (name, value, "in steady motion the tip would lag behind by r + alpha f(0)/r =", lag),
         ];
-        // What is not finite is left to the validation of the scenario.
+        // Numbers that are not finite are left to the validation of the scenario.
         let far = |distance: f64| distance.abs() > FARTHEST;
         match distances.into_iter().find(|(.., distance)| far(*distance)) {
             None => Ok(()),

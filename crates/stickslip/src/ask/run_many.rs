@@ -81,7 +81,7 @@ pub fn ask_runs(
         });
         Ok(())
     };
-    // What fails is passed to `ended`.
+    // Errors are passed to `ended`.
     context.keeping(&mut of_lanes).ok();
     for (number, question) in others {
         ended(number, question.answered(context));

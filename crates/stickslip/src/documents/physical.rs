@@ -21,7 +21,7 @@ pub trait Physical: Serialize + Sized {
     #[must_use]
     fn in_units(mut self, scales: Option<&KnownScales>) -> Self {
         *self.physical_mut() = None;
-        // What has been serialised to be written is written, whether or not this fails.
+        // A failure here does not keep the document from being written.
         let lean = scales.map(|scales| (scales, self.lean()));
         let values = lean.and_then(|(scales, lean)| Some(InUnits::of(&lean.ok()?, scales)));
         *self.physical_mut() = values;

@@ -109,7 +109,7 @@ pub trait Tabular {
     }
 }
 
-/// Columns of numbers in variables, each called what its variable is.
+/// Columns of numbers in variables, named after them.
 macro_rules! columns {
     ($($column:ident),+) => {
         vec![$((stringify!($column), $crate::Column::from($column))),+]

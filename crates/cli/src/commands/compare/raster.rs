@@ -63,7 +63,7 @@ pub(super) fn compare(
     job.finish(document.in_units(scales.as_ref()))
 }
 
-/// What the grid is asked.
+/// The problem of the grid.
 struct Asked<'a> {
     session: &'a Session,
     plan: &'a Plan,

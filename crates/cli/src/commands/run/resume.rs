@@ -77,7 +77,7 @@ fn resumed<R: Motion>(
     let interrupt = Interrupt::listen(session)?;
     let (target, record) = if order.format == RunFormat::Jsonl {
         let target = file("--output", &order.output)?;
-        // What the run has written may have its name by now, and have kept the one from before.
+        // The lines may be complete, under either name, or still in the part of the earlier one.
         let others = [target.path().to_path_buf(), part_of(&before), before];
         let stream = Stream::resume(target, head.written, &others)?;
         let mut record = record(order, scenario, Sink::Lines(stream));
@@ -99,7 +99,7 @@ fn resumed<R: Motion>(
     let seconds = head.seconds;
     let mut integration = Integration { running, record, checkpoints, interrupt, seconds };
     if arguments.output.is_some() || arguments.plot.is_some() {
-        // From here on it is gone on with at the new places.
+        // A later resume continues at the new places.
         integration.checkpoint()?;
     }
     Ok((integration.finish(session, scenario)?, target))

@@ -90,7 +90,7 @@ pub(super) fn all<R: Motion>(
         document.answer = R::Step::along_path(document.answer, whole);
     }
     let asked = whole.as_ref().filter(|_| order.verify && signal.is_none());
-    // What was computed is written even if a signal ends its verification.
+    // The result is written even if a signal ends its verification.
     let found = asked.map(|whole| running.verified(session, &end.work.memory, whole));
     let found = found.transpose();
     document.verification = found.as_ref().ok().cloned().flatten();

@@ -49,7 +49,7 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     if parameters.alpha.as_ref().or(parameters.alpha_above.as_ref()).is_none_or(|a| a.len() < 2) {
         return vec![];
     }
-    // What the points say costs nothing.
+    // Values in the points cost nothing.
     let mut known = vec![None; slow.values.len()];
     for point in document.points.iter() {
         let known = &mut known[slow.place(&point)];

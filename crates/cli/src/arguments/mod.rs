@@ -42,7 +42,7 @@ pub(crate) use outlet::AnswerArguments;
 pub(crate) use outlet::InUnitsArguments;
 pub(crate) use outlet::{FieldArguments, Format, OutletArguments};
 pub(crate) use plot::PlotArguments;
-pub(crate) use question::{Either, Options, Questions};
+pub(crate) use question::{Either, Given, Options, Questions};
 pub(crate) use range::Range;
 pub(crate) use raster::{AreaArguments, RasterArguments};
 pub(crate) use raster_sweep::RasterSweepArguments;

@@ -7,6 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use serde_json::{Map, Value, json};
 use std::marker::PhantomData;
+use std::ops::Deref;
 use std::path::PathBuf;
 use stickslip::Question;
 use stickslip::parameter::{Kind, Parameter, parameters};
@@ -52,7 +53,11 @@ impl<A: Questions, B: Questions> Questions for Either<A, B> {
 
 /// The given parameters of `Q`.
 #[derive(Debug, Clone)]
-pub(crate) struct Options<Q> {
+pub(crate) struct Options<Q>(pub(crate) Given, PhantomData<fn() -> Q>);
+
+/// The given parameters of a command.
+#[derive(Debug, Clone)]
+pub(crate) struct Given {
     /// Values by the names of the parameters, except the footprint.
     pub(crate) given: Map<String, Value>,
     pub(crate) tip: TipArguments,
@@ -60,26 +65,19 @@ pub(crate) struct Options<Q> {
     pub(crate) parameters: Option<PathBuf>,
     /// An invalid range as typed, and the reason.
     pub(crate) refused_range: Option<(String, &'static str)>,
-    question: PhantomData<fn() -> Q>,
+}
+
+impl<Q> Deref for Options<Q> {
+    type Target = Given;
+
+    fn deref(&self) -> &Given {
+        &self.0
+    }
 }
 
 impl<Q: Questions> Args for Options<Q> {
     fn augment_args(command: Command) -> Command {
-        let command =
-            Q::parameters().into_iter().fold(command, |command, parameter| match parameter.kind {
-                Kind::Tip => TipArguments::augment_args(command),
-                _ => command.next_help_heading(None).arg(argument(parameter)),
-            });
-        if Q::formats().is_empty() {
-            return command.next_help_heading(None);
-        }
-        let file = Arg::new("parameters")
-            .long("parameters")
-            .value_name("FILE.json")
-            .value_parser(value_parser!(PathBuf))
-            .help_heading("Model")
-            .help("Parameters from a document of this program, or from its \"parameters\" alone; options take their place");
-        command.next_help_heading(None).arg(file)
+        augmented(command, Q::parameters(), !Q::formats().is_empty())
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -87,23 +85,24 @@ impl<Q: Questions> Args for Options<Q> {
     }
 }
 
+/// The command with options for these parameters, and for a file of them.
+fn augmented(command: Command, parameters: Vec<&Parameter>, has_file: bool) -> Command {
+    let command = parameters.into_iter().fold(command, |command, parameter| match parameter.kind {
+        Kind::Tip => TipArguments::augment_args(command),
+        _ => command.next_help_heading(None).arg(argument(parameter)),
+    });
+    let file = Arg::new("parameters")
+        .long("parameters")
+        .value_name("FILE.json")
+        .value_parser(value_parser!(PathBuf))
+        .help_heading("Model")
+        .help("Parameters from a document of this program, or from its \"parameters\" alone; options take their place");
+    command.next_help_heading(None).args(has_file.then_some(file))
+}
+
 impl<Q: Questions> FromArgMatches for Options<Q> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
-        let mut given = Map::new();
-        for parameter in Q::parameters() {
-            if parameter.kind != Kind::Tip && is_given(matches, &parameter.name) {
-                insert(&mut given, parameter, matches);
-            }
-        }
-        let refused_range = refused_range::<Q>(matches);
-        let has_tip = Q::parameters().iter().any(|parameter| parameter.kind == Kind::Tip);
-        let tip = if has_tip {
-            TipArguments::from_arg_matches(matches)?
-        } else {
-            TipArguments::default()
-        };
-        let parameters = matches.try_get_one("parameters").ok().flatten().cloned();
-        Ok(Self { given, tip, parameters, refused_range, question: PhantomData })
+        Ok(Self(Given::of(&Q::parameters(), matches)?, PhantomData))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -112,9 +111,26 @@ impl<Q: Questions> FromArgMatches for Options<Q> {
     }
 }
 
+impl Given {
+    fn of(all: &[&Parameter], matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut given = Map::new();
+        for parameter in all {
+            if parameter.kind != Kind::Tip && is_given(matches, &parameter.name) {
+                insert(&mut given, parameter, matches);
+            }
+        }
+        let tip = match all.iter().any(|parameter| parameter.kind == Kind::Tip) {
+            true => TipArguments::from_arg_matches(matches)?,
+            false => TipArguments::default(),
+        };
+        let parameters = matches.try_get_one("parameters").ok().flatten().cloned();
+        Ok(Self { given, tip, parameters, refused_range: refused_range(all, matches) })
+    }
+}
+
 /// An invalid range as typed, and the reason.
-fn refused_range<Q: Questions>(matches: &ArgMatches) -> Option<(String, &'static str)> {
-    let ranges = Q::parameters().into_iter().filter(|parameter| parameter.kind == Kind::Ends);
+fn refused_range(all: &[&Parameter], matches: &ArgMatches) -> Option<(String, &'static str)> {
+    let ranges = all.iter().filter(|parameter| parameter.kind == Kind::Ends);
     let named = ranges.filter_map(|parameter| {
         let interval: &Interval = matches.get_one(&parameter.name)?;
         Some((format!("--{} {interval}", long(&parameter.name)), interval))

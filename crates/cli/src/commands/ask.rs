@@ -4,7 +4,9 @@ use super::in_units::scales;
 use super::job::{Job, Product};
 use super::model::tip;
 use super::progress::Progress;
-use crate::arguments::{AnswerArguments, InUnitsArguments, Options, Questions, TipArguments};
+use crate::arguments::{
+    AnswerArguments, Given, InUnitsArguments, Options, Questions, TipArguments,
+};
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
@@ -78,6 +80,15 @@ pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[
 }
 
 impl<Q: Questions> Options<Q> {
+    /// The values of the parameters: those of --parameters, replaced by those given as options.
+    pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
+        let read = |path| read_parameters(session, path, (Q::formats, Q::parameters));
+        let base = self.parameters.as_deref().map(read).transpose()?;
+        self.values_instead_of(session, base.unwrap_or_default())
+    }
+}
+
+impl Given {
     /// The files that the options name.
     pub(crate) fn files(&self) -> [Named<'_>; 2] {
         [("--tip-file", self.tip.tip_file.as_deref()), ("--parameters", self.parameters.as_deref())]
@@ -97,13 +108,6 @@ impl<Q: Questions> Options<Q> {
     ) -> Result<Option<KnownScales>, Failure> {
         let r = values.get("r").and_then(Value::as_f64);
         scales(session, in_units, self.tip.tip_file.as_deref(), r)
-    }
-
-    /// The values of the parameters: those of --parameters, replaced by those given as options.
-    pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
-        let read = |path| read_parameters(session, path, (Q::formats, Q::parameters));
-        let base = self.parameters.as_deref().map(read).transpose()?;
-        self.values_instead_of(session, base.unwrap_or_default())
     }
 
     /// The values `base`, replaced by those given as options.
@@ -225,11 +229,19 @@ pub(crate) fn refuse_strangers<Q: Question, K: Questions>(
     chosen_by: &str,
 ) -> Result<(), Failure> {
     let Some(name) = parameter::stranger::<Q>(values) else { return Ok(()) };
-    if K::parameters().iter().all(|parameter| parameter.name != name) {
-        // No parameter of any question: that is said where the question is made.
+    refuse_stranger((name, &values[name]), &K::parameters(), chosen_by)
+}
+
+fn refuse_stranger(
+    (name, value): (&str, &Value),
+    all: &[&Parameter],
+    chosen_by: &str,
+) -> Result<(), Failure> {
+    if all.iter().all(|parameter| parameter.name != name) {
+        // Unknown to all questions: reported with the question.
         return Ok(());
     }
-    let named = format!("{} {}", option(name), parameter::typed(&values[name]));
+    let named = format!("{} {}", option(name), parameter::typed(value));
     Err(Failure::input(named, format!("has no meaning with {chosen_by}: leave one of them out")))
 }
 

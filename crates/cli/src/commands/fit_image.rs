@@ -84,7 +84,7 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
 /// The options without --width, which is σ of measured data, and no width of a footprint.
 pub(super) fn without_width(arguments: &FitArguments) -> Options<Either<Fit, FitImage>> {
     let mut options = arguments.options.clone();
-    options.tip.width = None;
+    options.0.tip.width = None;
     options
 }
 

@@ -156,7 +156,7 @@ impl Claims {
         field: &str,
         claimed: &Value,
         computed: &Value,
-        allowed: &impl Fn(&str, f64) -> f64,
+        allowed: &dyn Fn(&str, f64) -> f64,
     ) {
         match (claimed, computed) {
             (Value::Object(ours), Value::Object(theirs)) => {
@@ -204,7 +204,7 @@ impl Claims {
         field: &str,
         claimed: Option<&T>,
         computed: Option<&T>,
-        allowed: &impl Fn(&str, f64) -> f64,
+        allowed: &dyn Fn(&str, f64) -> f64,
     ) {
         let value = |part: Option<&T>| json!(part);
         if claimed.is_some() || computed.is_some() {

@@ -3,7 +3,6 @@
 use super::places::{MOST_PIXELS, Places};
 use super::write::{self, SurfaceFormat};
 use crate::arguments::SurfaceArguments;
-use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
 use crate::session::Session;
 use stickslip::{
@@ -35,16 +34,9 @@ pub(super) fn surface(
     let steps = trajectory.steps().iter().map(|step| step.along).collect();
     let along = Trajectory::under(*scenario.along.model.wider(), scenario.along.support(), steps);
     let places = Places::asked(arguments, &along, MOST_PIXELS)?;
-    let is_gsf = format == SurfaceFormat::Gsf;
-    let scales = scales_of(
-        session,
-        &arguments.in_units,
-        document.physical.as_ref(),
-        scenario.along.model.r(),
-        is_gsf,
-    )?;
-    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
-    let job = format.job(session, arguments)?;
+    let (physical, r) = (document.physical.as_ref(), scenario.along.model.r());
+    let (scales, in_metres) = format.scales(session, arguments, physical, r)?;
+    let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;
     let surface = SurfaceAcross::new(&scenario, &trajectory);
     let surface = surface.map_err(|error| Failure::Run(error.to_string()))?;
     let found = found(&surface, &places)?;

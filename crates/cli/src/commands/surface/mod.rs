@@ -9,7 +9,6 @@ mod write;
 pub(crate) use places::evenly;
 
 use crate::arguments::SurfaceArguments;
-use crate::commands::in_units::{in_metres, scales_of};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::input::{RunOrRaster, read_scanned};
@@ -46,10 +45,8 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::asked(arguments, &trajectory, format.most_pixels())?;
-    let is_gsf = format == SurfaceFormat::Gsf;
-    let scales =
-        scales_of(session, &arguments.in_units, document.physical.as_ref(), model.r(), is_gsf)?;
-    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
+    let physical = document.physical.as_ref();
+    let (scales, in_metres) = format.scales(session, arguments, physical, model.r())?;
     let images = Images::asked(arguments, &model, &places)?;
     let surface = Surface::new(&model, &initial, &trajectory);
     if let (Some(images), Some(unit), true) = (&images, in_metres, places.is_large(&places.y)) {
@@ -59,7 +56,7 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
         let rows = |y: &[f64]| images.heights(&surface, t, (&places.x, y));
         return write::large(arguments, (&places, &places.y), &title, unit, rows);
     }
-    let job = format.job(session, arguments)?;
+    let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;
     let found = match &images {
         Some(images) => {
             images.warn(session);

@@ -2,9 +2,7 @@
 
 use super::places::{OR_GSF, Places, evenly};
 use super::write::{SurfaceFormat, large};
-use crate::arguments::{Format, SurfaceArguments};
-use crate::commands::in_units::{in_metres, scales_of};
-use crate::commands::job::Job;
+use crate::arguments::SurfaceArguments;
 use crate::commands::raster::field;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -36,36 +34,16 @@ pub(super) fn surface(
         }
     };
     judge_size(&places, &y, format.most_pixels())?;
-    let is_gsf = format == SurfaceFormat::Gsf;
-    let scales = scales_of(
-        session,
-        &arguments.in_units,
-        raster.physical.as_ref(),
-        plan.law.model.r(),
-        is_gsf,
-    )?;
-    if places.is_large(&y) {
+    let (physical, r) = (raster.physical.as_ref(), plan.law.model.r());
+    let (scales, in_metres) = format.scales(session, arguments, physical, r)?;
+    if let (Some(unit), true) = (in_metres, places.is_large(&y)) {
         let model = &plan.law.model;
         let title = format!("u(x,y) of a raster, alpha {}, r {}", model.alpha(), model.r());
         let scanned = Scanned::new(&plan, &lines);
         let rows = |y: &[f64]| Ok(scanned.heights(&places.x, y));
-        let unit = in_metres(scales.as_ref())?;
         return large(arguments, (&places, &y), &title, unit, rows);
     }
-    let written = match format {
-        SurfaceFormat::Document(format) => format,
-        SurfaceFormat::Gsf => Format::Json,
-    };
-    let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-    let job = Job::of_format(
-        session,
-        RasterSurfaceDocument::FORMAT,
-        written,
-        output,
-        &arguments.fields,
-        plot,
-    )?;
-    let in_metres = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
+    let job = format.job(session, RasterSurfaceDocument::FORMAT, arguments)?;
     let document = RasterSurfaceDocument::of(raster, places.x, y).map_err(damaged)?;
     let document = document.in_units(scales.as_ref());
     let Some(unit) = in_metres else { return job.finish(document) };

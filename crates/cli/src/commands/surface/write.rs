@@ -2,6 +2,7 @@
 
 use super::places::{MOST_PIXELS, MOST_PIXELS_OF_GSF, Places};
 use crate::arguments::{Format, SurfaceArguments};
+use crate::commands::in_units::{in_metres, scales_of};
 use crate::commands::job::{Job, format};
 use crate::failure::Failure;
 use crate::files::gsf::{Frame, gsf, header, pixels};
@@ -9,7 +10,7 @@ use crate::files::output::Output;
 use crate::session::Session;
 use ndarray::Array2;
 use std::io;
-use stickslip::SurfaceDocument;
+use stickslip::{InUnits, KnownScales, SurfaceDocument};
 
 /// The output: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,11 +65,29 @@ impl SurfaceFormat {
     }
 }
 
+/// The unit of length and the unit of height in m.
+type InMetres = (f64, f64, &'static str);
+
 impl SurfaceFormat {
-    /// The output of surfaces.
+    /// The scales of surfaces of a document with this r, and the units of a .gsf file.
+    pub(super) fn scales(
+        self,
+        session: &Session,
+        arguments: &SurfaceArguments,
+        physical: Option<&InUnits>,
+        r: f64,
+    ) -> Result<(Option<KnownScales>, Option<InMetres>), Failure> {
+        let is_gsf = self == Self::Gsf;
+        let scales = scales_of(session, &arguments.in_units, physical, r, is_gsf)?;
+        let unit = is_gsf.then(|| in_metres(scales.as_ref())).transpose()?;
+        Ok((scales, unit))
+    }
+
+    /// The output of a document with surfaces.
     pub(super) fn job(
         self,
         session: &Session,
+        document: &str,
         arguments: &SurfaceArguments,
     ) -> Result<Job, Failure> {
         let format = match self {
@@ -76,7 +95,7 @@ impl SurfaceFormat {
             Self::Gsf => Format::Json,
         };
         let (output, plot) = (&arguments.output, arguments.plot.as_deref());
-        Job::of_format(session, SurfaceDocument::FORMAT, format, output, &arguments.fields, plot)
+        Job::of_format(session, document, format, output, &arguments.fields, plot)
     }
 }
 

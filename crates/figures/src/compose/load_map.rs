@@ -44,39 +44,8 @@ impl Drawn for LoadMapDocument {
             short(parameters.load)
         );
         let mut panel = PanelDocument::new("", ("velocity (kσ/Γ)", "load (nN)"));
-        let mut lengths: Vec<f64> = self.points.iter().filter_map(|p| p.wavelength).collect();
-        lengths.sort_by(f64::total_cmp);
-        let ends = lengths.first().zip(lengths.get(lengths.len() * SHOWN / 100));
-        panel.map = ends.map(|(low, high)| MapDocument {
-            x: self.velocity.clone(),
-            y: loads.clone(),
-            // Cells cover the others.
-            z: self
-                .points
-                .chunks(columns)
-                .map(|row| row.iter().map(|p| p.wavelength.unwrap_or(*low)).collect())
-                .collect(),
-            z_label: "distance of ripples (σ)".into(),
-            colours: ColoursName::Cividis,
-            z_range: (low < high).then_some([*low, *high]),
-        });
-        let named: Vec<_> = OTHERS
-            .iter()
-            .filter(|(_, regime, _)| {
-                self.points.iter().any(|p| is_bare(p) && kind_of(p) == *regime)
-            })
-            .collect();
-        let kind = |point: &LoadPoint| {
-            let regime = kind_of(point);
-            named.iter().position(|(_, of, _)| *of == regime).filter(|_| is_bare(point))
-        };
-        panel.cells = Some(CellsDocument {
-            x: self.velocity.clone(),
-            y: loads.clone(),
-            kinds: self.points.chunks(columns).map(|row| row.iter().map(kind).collect()).collect(),
-            names: named.iter().map(|(name, ..)| (*name).into()).collect(),
-            colours: named.iter().map(|(.., colour)| *colour).collect(),
-        });
+        panel.map = wavelengths(self, &loads);
+        panel.cells = Some(regimes(self, &loads));
         let [bottom, top] = parameters.load_range;
         let inside = |load: &Option<f64>| {
             load.filter(|load| (bottom..=top).contains(load)).unwrap_or(f64::NAN)
@@ -98,6 +67,41 @@ impl Drawn for LoadMapDocument {
         let mut figure = FigureDocument::new("load-map", &title, vec![]);
         figure.panels = vec![panel];
         Ok(figure)
+    }
+}
+
+/// The wavelength where there are ripples; cells cover the other points.
+fn wavelengths(document: &LoadMapDocument, loads: &[f64]) -> Option<MapDocument> {
+    let points = &document.points;
+    let mut lengths: Vec<f64> = points.iter().filter_map(|p| p.wavelength).collect();
+    lengths.sort_by(f64::total_cmp);
+    let (low, high) = (*lengths.first()?, *lengths.get(lengths.len() * SHOWN / 100)?);
+    let row = |row: &[LoadPoint]| row.iter().map(|p| p.wavelength.unwrap_or(low)).collect();
+    Some(MapDocument {
+        x: document.velocity.clone(),
+        y: loads.to_vec(),
+        z: points.chunks(document.velocity.len()).map(row).collect(),
+        z_label: "distance of ripples (σ)".into(),
+        colours: ColoursName::Cividis,
+        z_range: (low < high).then_some([low, high]),
+    })
+}
+
+/// The regimes of the points without ripples.
+fn regimes(document: &LoadMapDocument, loads: &[f64]) -> CellsDocument {
+    let (points, columns) = (&document.points, document.velocity.len());
+    let occurs = |of: &Option<RegimeName>| points.iter().any(|p| is_bare(p) && kind_of(p) == *of);
+    let named: Vec<_> = OTHERS.iter().filter(|(_, regime, _)| occurs(regime)).collect();
+    let kind = |point: &LoadPoint| {
+        let regime = kind_of(point);
+        named.iter().position(|(_, of, _)| *of == regime).filter(|_| is_bare(point))
+    };
+    CellsDocument {
+        x: document.velocity.clone(),
+        y: loads.to_vec(),
+        kinds: points.chunks(columns).map(|row| row.iter().map(kind).collect()).collect(),
+        names: named.iter().map(|(name, ..)| (*name).into()).collect(),
+        colours: named.iter().map(|(.., colour)| *colour).collect(),
     }
 }
 

@@ -61,18 +61,26 @@ impl Interval {
         self.points
     }
 
-    /// The number of values, if given; at least 2.
-    pub(crate) fn points(&self, option: &str) -> Result<Option<usize>, Failure> {
-        match self.points {
-            Some(points) if points < 2 => {
+    /// The number of values, if given: at least 2, and not by an `other` option too.
+    pub(crate) fn points(
+        &self,
+        option: &str,
+        other: Option<&str>,
+    ) -> Result<Option<usize>, Failure> {
+        match (self.points, other) {
+            (Some(_), Some(other)) => {
+                let both = "gives the number of values, and so does";
+                Err(self.refused(option, format!("{both} {other}: leave one of them out")))
+            }
+            (Some(0 | 1), None) => {
                 Err(self.refused(option, "needs 2 values or more: LO:HI:N with N of at least 2"))
             }
-            points => Ok(points),
+            (points, _) => Ok(points),
         }
     }
 
     /// The rejection of the range, with its value as typed.
-    pub(crate) fn refused(&self, option: &str, message: impl std::fmt::Display) -> Failure {
+    fn refused(&self, option: &str, message: impl Display) -> Failure {
         Failure::input(format!("{option} {}", self.typed), message)
     }
 }
@@ -88,7 +96,7 @@ mod tests {
             let (low, high) = ends(text);
             assert!((low - 0.1).abs() + (high - 3.0).abs() < 1e-15, "{text}");
         }
-        let points = |text: &str| text.parse::<Interval>().unwrap().points("--range");
+        let points = |text: &str| text.parse::<Interval>().unwrap().points("--range", None);
         assert_eq!(points("0.1:3:5").unwrap(), Some(5));
         assert_eq!(points("-5,460").unwrap(), None);
         assert!(points("1:2:1").is_err());

@@ -63,8 +63,10 @@ pub(crate) struct Given {
     pub(crate) tip: TipArguments,
     /// A file with further parameters.
     pub(crate) parameters: Option<PathBuf>,
-    /// An invalid range as typed, and the reason.
-    pub(crate) refused_range: Option<(String, &'static str)>,
+    /// Ranges by their options.
+    pub(crate) ranges: Vec<(String, Interval)>,
+    /// The option that gives the number of values in a range.
+    pub(crate) counted_by: Option<&'static str>,
 }
 
 impl<Q> Deref for Options<Q> {
@@ -124,30 +126,16 @@ impl Given {
             false => TipArguments::default(),
         };
         let parameters = matches.try_get_one("parameters").ok().flatten().cloned();
-        Ok(Self { given, tip, parameters, refused_range: refused_range(all, matches) })
+        let ends = all.iter().filter(|parameter| parameter.kind == Kind::Ends);
+        let range = |parameter: &&Parameter| {
+            let interval: &Interval = matches.get_one(&parameter.name)?;
+            Some((format!("--{}", long(&parameter.name)), interval.clone()))
+        };
+        let ranges = ends.filter_map(range).collect();
+        let counts = |name: &str| name == "points" && is_given(matches, name);
+        let counted_by = all.iter().any(|parameter| counts(&parameter.name)).then_some("--points");
+        Ok(Self { given, tip, parameters, ranges, counted_by })
     }
-}
-
-/// An invalid range as typed, and the reason.
-fn refused_range(all: &[&Parameter], matches: &ArgMatches) -> Option<(String, &'static str)> {
-    let ranges = all.iter().filter(|parameter| parameter.kind == Kind::Ends);
-    let named = ranges.filter_map(|parameter| {
-        let interval: &Interval = matches.get_one(&parameter.name)?;
-        Some((format!("--{} {interval}", long(&parameter.name)), interval))
-    });
-    let (typed, interval) = named.into_iter().next()?;
-    let [low, high] = interval.numbers();
-    let why = match interval.counted() {
-        _ if !(low.is_finite() && high.is_finite() && low < high) => {
-            "needs two finite numbers LO:HI with LO below HI"
-        }
-        Some(_) if is_given(matches, "points") => {
-            "gives the number of values, and so does --points: leave one of them out"
-        }
-        Some(0 | 1) => "needs 2 values or more: LO:HI:N with N of at least 2",
-        _ => return None,
-    };
-    Some((typed, why))
 }
 
 fn is_given(matches: &ArgMatches, name: &str) -> bool {

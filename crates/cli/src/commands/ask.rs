@@ -116,8 +116,9 @@ impl Given {
         session: &Session,
         base: Map<String, Value>,
     ) -> Result<Map<String, Value>, Failure> {
-        if let Some((range, why)) = &self.refused_range {
-            return Err(Failure::input(range, why));
+        for (option, range) in &self.ranges {
+            range.ends(option)?;
+            range.points(option, self.counted_by)?;
         }
         let mut given = self.given.clone();
         if self.tip.is_given() {

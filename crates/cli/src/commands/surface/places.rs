@@ -121,17 +121,9 @@ fn range(
     spacing: f64,
 ) -> Result<Range, Failure> {
     let (low, high) = typed.ends(option)?;
-    match (typed.points(option)?, given) {
-        (None, _) => Ok(Range { low, high, spacing }),
-        (Some(points), None) => {
-            Ok(Range { low, high, spacing: (high - low) / (points - 1) as f64 })
-        }
-        (Some(_), Some(_)) => {
-            let message =
-                format!("gives the number of values, and so does {other}: leave one of them out");
-            Err(typed.refused(option, message))
-        }
-    }
+    let points = typed.points(option, given.map(|_| other))?;
+    let spacing = points.map_or(spacing, |points| (high - low) / (points - 1) as f64);
+    Ok(Range { low, high, spacing })
 }
 
 fn spacing(option: &str, typed: Option<f64>, default: f64) -> Result<f64, Failure> {

@@ -107,9 +107,6 @@ fn safely<Q: Points>(question: &Q, indices: &[usize], take: &mut dyn FnMut(Q::Po
 }
 
 /// All points of this part, by rising index, with progress.
-///
-/// # Errors
-/// As [`each_point`].
 pub(crate) fn all_points<Q: Points>(
     question: &Q,
     context: &Context,

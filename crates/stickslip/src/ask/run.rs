@@ -431,17 +431,11 @@ impl Run {
     }
 
     /// The start time of a run with a steady start.
-    ///
-    /// # Errors
-    /// The start is not before the end, or a parameter is out of its range.
     pub(crate) fn started_at(&self) -> Result<f64, Failure> {
         Ok(Self { start: Some(StartName::Steady), ..self.clone() }.checked()?.start_time())
     }
 
     /// The motion along the scan of a resolved question.
-    ///
-    /// # Errors
-    /// A parameter is out of its range, or contradicts another.
     pub(super) fn checked(&self) -> Result<Scenario, Failure> {
         let scenario = self.assembled()?;
         scenario.validate().map_err(|error| self.refused(&error))?;

@@ -102,9 +102,6 @@ impl RunFound {
 }
 
 /// The result of a run whose steps an observer has seen.
-///
-/// # Errors
-/// The run has no steps.
 pub(super) fn observed(
     (scenario, initial): (&Scenario, &InitialSurface),
     observer: &Observer,

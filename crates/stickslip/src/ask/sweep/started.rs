@@ -11,9 +11,6 @@ use stickslip_tip::motion::{Extremum, extrema_within};
 use stickslip_tip::{Model, Scenario, Step, collect_each};
 
 /// The run of this model.
-///
-/// # Errors
-/// As for `stickslip run`.
 pub(super) fn scenario(
     model: Model,
     run: &SweepRunParameters,

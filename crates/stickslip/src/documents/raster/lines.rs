@@ -201,9 +201,6 @@ impl RasterHistory {
     }
 
     /// The lines of a plan with this history; their counts of work are unknown.
-    ///
-    /// # Errors
-    /// The number of lines differs from the plan, or a line is damaged.
     pub(crate) fn lines(&self, plan: &Plan) -> Result<Vec<Line>, Unusable> {
         let (found, wanted) = (self.lines.len(), plan.lines());
         if found != wanted {

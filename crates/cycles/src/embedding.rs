@@ -64,17 +64,17 @@ impl Embedding {
     /// # Errors
     /// A footprint that never fades, or one with too much detail for this residual.
     pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, CycleError> {
-        Self::of_sums(model, allowed, false)
+        Self::of_sums(model, allowed, None)
     }
 
-    /// The same equations with sums of more terms, valid farther behind the farthest point reached.
+    /// The same equations with sums of more terms, valid up to this distance behind the farthest point reached.
     ///
     /// # Errors
-    /// These are such sums already, or no such sum is accurate enough.
-    pub(super) fn reaching_back(&self, allowed: f64) -> Result<Self, CycleError> {
+    /// No such sum reaches farther than these, or none is accurate enough.
+    pub(super) fn reaching_back(&self, retreat: f64, allowed: f64) -> Result<Self, CycleError> {
         let Self { alpha, r, .. } = *self;
         let model = self.model().ok_or(CycleError::NotConverged { alpha, r })?;
-        let far = Self::of_sums(&model, allowed, true)?;
+        let far = Self::of_sums(&model, allowed, Some(retreat))?;
         if far.retreat() > self.retreat() {
             Ok(far)
         } else {
@@ -82,12 +82,12 @@ impl Embedding {
         }
     }
 
-    fn of_sums(model: &Model, allowed: f64, far: bool) -> Result<Self, CycleError> {
+    fn of_sums(model: &Model, allowed: f64, far: Option<f64>) -> Result<Self, CycleError> {
         let (tip, alpha, r) = (model.tip().clone(), model.alpha(), model.r());
         let sum = |accuracy: f64, most: usize| {
             let needed = accuracy_needed(model, accuracy);
-            if far {
-                return lattice::reaching_back(&tip, needed, most);
+            if let Some(retreat) = far {
+                return lattice::reaching_back(&tip, (needed, retreat), most);
             }
             match Fit::cached(&tip, needed, Retreat::Small) {
                 Err(FitError::NotMet { .. }) => lattice::fit(&tip, needed, most),

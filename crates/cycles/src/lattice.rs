@@ -61,18 +61,26 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
 const FAR: f64 = 0.25;
 const FAR_PERIOD: f64 = 2.4;
 
-/// A lattice that is valid far behind the farthest point that the tip has reached.
+/// Largest factor of this length, and of the period with it: the farthest retreat is a reach.
+const MOST_TIMES: f64 = 4.0;
+
+/// A lattice that is valid far behind the farthest point that the tip has reached: at least up to this retreat, if any
+/// lattice is.
 ///
 /// # Errors
 /// A footprint that never fades.
 pub(super) fn reaching_back(
     tip: &TipFunction,
-    wanted: f64,
+    (wanted, retreat): (f64, f64),
     most: usize,
 ) -> Result<Arc<Fit>, FitError> {
     let reach = tip.reach().ok_or(FitError::NeverFades)?;
-    let fit = Fit::from_terms_within(tip, terms(tip, (wanted, FAR_PERIOD), most)?, FAR * reach);
-    fit.map(Arc::new)
+    let mut times = 1.0;
+    while times < MOST_TIMES && retreat > times * FAR * reach {
+        times *= 2.0;
+    }
+    let terms = terms(tip, (wanted, times * FAR_PERIOD), most)?;
+    Fit::from_terms_within(tip, terms, times * FAR * reach).map(Arc::new)
 }
 
 /// The sum of these terms with its certificate, or one from the cache.

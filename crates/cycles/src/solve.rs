@@ -82,6 +82,8 @@ const NEARLY_MET: f64 = 100.0;
 /// mesh then aims at a multiple of the allowed residual, and costs half as much.
 const FAR_OFF: f64 = 3000.0;
 const HALFWAY: f64 = 40.0;
+/// Retreat of the sums of a tip that swings back, over the retreat found with sums that do not reach as far.
+const MARGIN_OF_RETREAT: f64 = 1.05;
 /// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that
 /// amplify deviations amplify its errors.
 const SLOW: f64 = 0.1;
@@ -112,10 +114,13 @@ pub(super) fn close_if(
         return Ok(closed);
     }
     // A tip with inertia overshoots, and swings back after each slip.
-    let far = equation.reaching_back(allowed).map_err(|error| match error {
-        CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
-        _ => NotClosed::Lost,
-    })?;
+    let far =
+        equation.reaching_back(MARGIN_OF_RETREAT * orbit.retreat(), allowed).map_err(|error| {
+            match error {
+                CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
+                _ => NotClosed::Lost,
+            }
+        })?;
     close_in_sums(far, closed.orbit, condition, allowed, &is_wanted)
 }
 

@@ -218,3 +218,17 @@ fn a_branch_goes_on_where_a_tip_with_inertia_swings_back_farther() {
     assert_eq!(branch.end, End::Reached);
     assert!((branch.last.period() - 29.001_173_605).abs() < 5e-9, "{}", branch.last.period());
 }
+
+/// From α = 1.4806 on the tip moves back by more than a quarter of the reach of the footprint after each slip. For the
+/// period at α = 1.6 shooting in Python (f as a sum over a lattice of Gaussians, extrapolated midpoint rule at 1e-11)
+/// gives this α to 1e-12, and the multiplier -4.4327385.
+#[test]
+fn a_branch_goes_on_where_a_tip_swings_back_by_more_than_two_widths() {
+    let before = cycle(&model(0.5, 1.48, 0.8475, [0.0, 84.6, 2.55]), 1e-9).unwrap();
+    let settings = Continuation { to: 1.6, ..Continuation::default() };
+    let branch = settings.from_cycle(&before, |_| std::ops::ControlFlow::Continue(())).unwrap();
+    assert_eq!(branch.end, End::Reached);
+    assert!((branch.last.period() - 36.780_143_239).abs() < 2e-9, "{}", branch.last.period());
+    let multiplier = branch.points.last().unwrap().leading;
+    assert!((multiplier + 4.432_738_5).norm() < 1e-7, "{multiplier}");
+}

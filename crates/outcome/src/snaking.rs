@@ -1,5 +1,6 @@
 //! Oscillation of a tip across the scan: whether it is periodic, and the errors of its figures.
 
+use num_complex::Complex;
 use std::collections::VecDeque;
 use stickslip_tip::Support;
 use stickslip_tip::planar::{PlanarScenario, Step, Trajectory};
@@ -14,6 +15,8 @@ const LOOKS: u32 = 8;
 const ERRORS: f64 = 10.0;
 /// is taken to be this factor per period.
 const SLOWEST: f64 = 0.98;
+/// Squared sine of the angle between changes and those before them, below which they are one geometric series.
+const GEOMETRIC: f64 = 1e-12;
 
 /// The periodic motion across the scan at the end of a run. The limiting motion lies within the errors if the changes
 /// from period to period decay geometrically.
@@ -93,10 +96,10 @@ impl Cycles {
         }
     }
 
-    /// The sizes of the changes of a number from period to period, the last at the end.
+    /// The changes of a number from period to period, the last at the end.
     fn changes(&self, number: fn(&Cycle) -> f64) -> Vec<f64> {
         let later = self.all.iter().skip(1);
-        self.all.iter().zip(later).map(|(a, b)| (number(b) - number(a)).abs()).collect()
+        self.all.iter().zip(later).map(|(a, b)| number(b) - number(a)).collect()
     }
 
     fn save(&self, state: &mut State) {
@@ -177,11 +180,10 @@ impl SnakingObserver {
         let lowest = cycles.changes(|cycle| cycle.lowest);
         let along = cycles.changes(|cycle| cycle.along);
         let of_time = last.period / amplitude;
-        let all = |i: usize| {
-            [period[i] / of_time, highest[i], lowest[i], along[i]].into_iter().fold(0.0, f64::max)
-        };
-        let fading = fading(&(0..period.len()).map(all).collect::<Vec<_>>(), ERRORS * tolerance)?;
-        let left = |changes: &[f64]| left(changes, fading);
+        let in_space: Vec<f64> = period.iter().map(|change| change / of_time).collect();
+        let all = [in_space.as_slice(), &highest, &lowest, &along];
+        let remains = Remains::of(&all, ERRORS * tolerance)?;
+        let left = |changes: &[f64]| remains.after(changes);
         // Round-off of positions moves a turning point by that over the curvature there.
         let period_error = left(&period) + 10.0 * tolerance * of_time;
         let amplitude_error = 0.5 * (left(&highest) + left(&lowest)) + 4.0 * tolerance;
@@ -194,7 +196,7 @@ impl SnakingObserver {
             amplitude_error,
             amplitude_along: last.along,
             amplitude_along_error: left(&along) + 4.0 * tolerance,
-            drift: highest.last()? / amplitude,
+            drift: highest.last()?.abs() / amplitude,
         })
     }
 
@@ -289,27 +291,76 @@ impl Largest {
     }
 }
 
-/// The factor by which changes decay per period, from the largest of their earlier half to that of their later one:
-/// a single change of a motion that rings may pass 0. `None` if they do not decay and are not below `errors`. The last
-/// change is at the end.
-fn fading(changes: &[f64], errors: f64) -> Option<f64> {
-    let largest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
-    let (earlier, later) = changes.split_at(changes.len() / 2);
-    let fading = (largest(later) / largest(earlier)).powf(2.0 / changes.len() as f64);
-    let fading = if largest(later) <= errors { fading.min(SLOWEST) } else { fading };
-    Some(fading).filter(|fading| *fading < 1.0)
+/// How changes of several numbers from period to period go on.
+#[derive(Debug, Clone, Copy)]
+struct Remains {
+    /// The factor by which they decay per period.
+    fading: f64,
+    /// The multiplier of changes that ring, as they decay.
+    ringing: Option<Complex<f64>>,
 }
 
-/// Twice the sum of all later changes, for the largest geometric series of this factor that touches the later half of
-/// these.
-fn left(changes: &[f64], fading: f64) -> f64 {
-    let later = changes[changes.len() / 2..].iter().rev();
-    let faded = later.scan(1.0, |factor, change| {
-        let size = *factor * change;
-        *factor *= fading;
-        Some(size)
-    });
-    2.0 * faded.fold(0.0, f64::max) / (1.0 - fading)
+impl Remains {
+    /// `None` if changes do not decay and are not below `errors`. The last change of each number is at the end.
+    fn of(changes: &[&[f64]], errors: f64) -> Option<Self> {
+        let largest = |part: std::ops::Range<usize>| {
+            let sizes = changes.iter().flat_map(|changes| &changes[part.clone()]);
+            sizes.map(|change| change.abs()).fold(0.0, f64::max)
+        };
+        // From the largest of the earlier half to that of the later one: a single change may pass 0.
+        let count = changes.first()?.len();
+        let (earlier, later) = (largest(0..count / 2), largest(count / 2..count));
+        let fading = (later / earlier).powf(2.0 / count as f64);
+        if later <= errors {
+            return Some(Self { fading: fading.min(SLOWEST), ringing: None });
+        }
+        let ringing = multiplier(changes);
+        let decays = fading < 1.0 && ringing.is_none_or(|multiplier| multiplier.norm() < 1.0);
+        decays.then_some(Self { fading, ringing })
+    }
+
+    /// Twice what later changes can add up to: for the largest geometric series that touches the later half of these,
+    /// and for the ringing that has the last two.
+    fn after(&self, changes: &[f64]) -> f64 {
+        let later = changes[changes.len() / 2..].iter().rev();
+        let faded = later.scan(1.0, |factor, change| {
+            let size = *factor * change.abs();
+            *factor *= self.fading;
+            Some(size)
+        });
+        let steady = faded.fold(0.0, f64::max) / (1.0 - self.fading);
+        let ringing = match (self.ringing, changes) {
+            (Some(multiplier), [.., before, last]) => {
+                // The changes are Re(bμⁿ), n = 0 and -1 for the last two.
+                let (re, im) = (multiplier.re, multiplier.im);
+                let b = Complex::new(*last, (multiplier.norm_sqr() * before - re * last) / im);
+                (b * multiplier / (1.0 - multiplier)).norm()
+            }
+            _ => 0.0,
+        };
+        2.0 * steady.max(ringing)
+    }
+}
+
+/// The complex multiplier of changes that obey `c_n = p c_{n-1} + q c_{n-2}`, by least squares over all numbers; `None`
+/// if they do not ring.
+fn multiplier(changes: &[&[f64]]) -> Option<Complex<f64>> {
+    let mut sums = [0.0; 5];
+    for triple in changes.iter().flat_map(|changes| changes.windows(3)) {
+        let &[c, b, a] = triple else { continue };
+        for (sum, product) in sums.iter_mut().zip([b * b, b * c, c * c, a * b, a * c]) {
+            *sum += product;
+        }
+    }
+    let [bb, bc, cc, ab, ac] = sums;
+    let determinant = bb * cc - bc * bc;
+    if determinant <= GEOMETRIC * bb * cc {
+        return None;
+    }
+    let p = (ab * cc - ac * bc) / determinant;
+    let q = (ac * bb - ab * bc) / determinant;
+    let im = (-q - 0.25 * p * p).sqrt();
+    (im > 0.0).then(|| Complex::new(0.5 * p, im))
 }
 
 /// Turning points within a step of a quantity, given its rate and its value as functions of t.
@@ -336,18 +387,18 @@ mod tests {
     use super::*;
 
     /// Numbers that approach 0 as Re(e^{iφ} (ϱe^{iω})ⁿ), for all phases φ, also where the last change is nearly 0:
-    /// within 0.74 of the error. If they turn by 0 < ω < 0.3 in a period, too few periods are kept for that.
+    /// within 0.74 of the error.
     #[test]
     fn a_number_that_rings_is_within_its_error_of_its_limit() {
         let mut largest = 0.0_f64;
         for (decay, length) in [(0.3_f64, 5), (0.6, 8), (0.8, 13), (0.9, 13)] {
-            for turn in (3..30).map(|i| 0.1 * f64::from(i)).chain([0.0]) {
+            for turn in (1..60).map(|i| 0.05 * f64::from(i)).chain([0.0, 0.01]) {
                 for phase in (0..100).map(|i| 0.0628 * f64::from(i)) {
                     let number = |n: i32| decay.powi(n) * (phase + turn * f64::from(n)).cos();
                     let changes: Vec<f64> =
-                        (1..length).map(|n| (number(n) - number(n - 1)).abs()).collect();
-                    let Some(fading) = fading(&changes, 0.0) else { continue };
-                    let off = number(length - 1).abs() / left(&changes, fading);
+                        (1..length).map(|n| number(n) - number(n - 1)).collect();
+                    let Some(remains) = Remains::of(&[&changes], 0.0) else { continue };
+                    let off = number(length - 1).abs() / remains.after(&changes);
                     largest = largest.max(off);
                 }
             }

@@ -59,6 +59,26 @@ fn a_free_raster_is_that_of_the_library() {
     assert_eq!(folder.read("again.svg"), folder.read("raster.svg"));
 }
 
+/// Tables have all columns of the samples in the document.
+#[test]
+fn a_table_of_a_raster_has_every_column_of_its_samples() {
+    let folder = Folder::new("raster_columns");
+    let line = format!("{LINES} --stiffness-across 0.8 --depth-limit 3");
+    folder.prints(&format!("{line} -o raster.json"));
+    folder.prints(&format!("{line} -o raster.csv"));
+    let document = folder.json("raster.json");
+    let samples = document["lines"][0]["samples"].as_object().unwrap();
+    let csv = String::from_utf8(folder.read("raster.csv")).unwrap();
+    let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    for name in samples.keys() {
+        let column = head.iter().position(|head| head == name).expect(name);
+        for (row, sample) in csv.lines().skip(1).zip(samples[name].as_array().unwrap()) {
+            let written: f64 = row.split(',').nth(column).unwrap().parse().unwrap();
+            assert_eq!(written.to_bits(), number(sample).to_bits(), "{name}");
+        }
+    }
+}
+
 /// Without the option documents say nothing of it, and pictures draw no path.
 #[test]
 fn a_held_raster_says_nothing_of_motion_across() {

@@ -68,12 +68,15 @@ impl RasterFound {
     }
 }
 
-/// A column of samples that exists only for a tip that is free to move across the lines.
-type SamplesAcross = fn(&RasterSamples) -> Option<&Vec<f64>>;
+/// A column of samples that not every raster has.
+type SomeSamples = fn(&RasterSamples) -> Option<&Vec<f64>>;
 
-/// The samples of a tip that is free to move across the lines.
-const ACROSS: [(&str, SamplesAcross); 2] =
-    [("y0", |samples| samples.y0.as_ref()), ("velocity_y", |samples| samples.velocity_y.as_ref())];
+/// The samples under a depth limit, and those of a tip that is free to move across the lines.
+const SOME: [(&str, SomeSamples); 3] = [
+    ("height", |samples| samples.height.as_ref()),
+    ("y0", |samples| samples.y0.as_ref()),
+    ("velocity_y", |samples| samples.velocity_y.as_ref()),
+];
 
 impl Tabular for RasterFound {
     /// The samples as a table, line after line.
@@ -94,7 +97,7 @@ impl Tabular for RasterFound {
             ("lag", joined(|samples| &samples.lag)),
             ("velocity", joined(|samples| &samples.velocity)),
         ];
-        for (name, of) in ACROSS {
+        for (name, of) in SOME {
             let all = self.lines.iter().map(|line| of(&line.samples));
             let all: Option<Vec<&Vec<f64>>> = all.collect();
             let joined = all.map(|all| all.into_iter().flatten().copied().collect::<Vec<_>>());
@@ -127,7 +130,7 @@ impl Tabular for RasterFound {
             ("lag", rows(|samples| &samples.lag)),
             ("velocity", rows(|samples| &samples.velocity)),
         ];
-        for (name, of) in ACROSS {
+        for (name, of) in SOME {
             let rows = self.lines.iter().map(|line| of(&line.samples).map(whole));
             let rows: Option<Vec<Vec<f64>>> = rows.collect();
             arrays.extend(rows.map(|rows| (name, Array::matrix(&rows))));

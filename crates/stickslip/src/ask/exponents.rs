@@ -39,6 +39,9 @@ pub fn failed(error: &StabilityError, advice: &str) -> Failure {
             let values = format!("{} and {}", Typed(*alpha), Typed(*r));
             Refused::word("alpha and r", values, error).into()
         }
+        StabilityError::Corner => {
+            Failure::Failed(format!("{error}; a run shows whether they grow"))
+        }
         error => Failure::Failed(format!("{error}; {advice}")),
     }
 }

@@ -110,7 +110,7 @@ impl Serialize for Tip {
 /// The fields of all forms of a footprint in one struct: the error of an untagged enumeration would only be that no
 /// variant fits.
 #[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = r#"an object such as {"name": "gaussian"}"#)]
 struct TipFields {
     /// gaussians, bessel, cosine or footprint, as in documents; or triple-gaussian or gaussian.
     name: Option<String>,

@@ -72,7 +72,7 @@ pub enum PlanarError {
     },
     /// The tip and its past span too wide a range across the scan.
     #[error(
-        "at t = {t}: the tip and the groove that it feels span {range} widths across the scan, more than a sum of layers can represent"
+        "at t = {t}: the tip and the groove that it feels span {range} widths across the scan, more than a sum of layers can represent: take a smaller α, or a stiffer spring across"
     )]
     Range {
         /// Time reached.

@@ -15,7 +15,7 @@ use stickslip_tip::{Model, TipFunction, Wider};
 /// Lower end of the search for speeds, as a fraction of the largest possible one, and samples per decade.
 const SLOWEST: f64 = 1e-7;
 const PER_DECADE: u32 = 60;
-/// Largest round-off of the root 0, which belongs to a shift of the whole walk.
+/// Largest round-off of the root 0, which belongs to a shift of the whole walk, where the certificate allows no larger one.
 const NEUTRAL: f64 = 1e-9;
 
 /// A steady walk with the roots of small deviations from it.
@@ -34,6 +34,15 @@ impl Walk {
     #[must_use]
     pub fn unstable_count(&self) -> usize {
         self.spectrum.roots.iter().filter(|z| z.re > 0.0).count()
+    }
+
+    /// Whether every deviation decays, except a shift along the scan; `None` if an error of the roots could change it.
+    #[must_use]
+    pub fn is_stable(&self) -> Option<bool> {
+        let error = self.spectrum.certificate.largest_error;
+        let others = self.spectrum.roots.iter().filter(|z| z.norm() > 0.0);
+        let leading = others.map(|z| z.re).fold(f64::NEG_INFINITY, f64::max);
+        (leading.abs() > error).then_some(leading < 0.0)
     }
 }
 
@@ -78,8 +87,9 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
     }
     let weight = law.density * speed / model.alpha();
     let mut spectrum = leading(&Characteristic::of(law), count)?;
+    let error = spectrum.certificate.largest_error.max(NEUTRAL * (1.0 + speed));
     let neutral = spectrum.roots.iter_mut().min_by(|a, b| a.norm().total_cmp(&b.norm()));
-    if let Some(neutral) = neutral.filter(|z| z.norm() < NEUTRAL * (1.0 + speed)) {
+    if let Some(neutral) = neutral.filter(|z| z.norm() < error) {
         *neutral = Complex64::ZERO;
     }
     Ok(Walk { speed, weight, spectrum })

@@ -89,7 +89,11 @@ impl Drawn for WalkingDocument {
         let title = format!("Steady walks, {}", model_name(model));
         let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {
-            let state = if walk.stable { "stable" } else { "unstable" };
+            let state = match walk.stable {
+                Some(true) => "stable",
+                Some(false) => "unstable",
+                None => "stable or not, within errors",
+            };
             let name = format!(
                 "v = {}: {state}",
                 Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed))

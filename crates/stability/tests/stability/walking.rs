@@ -101,6 +101,21 @@ fn fitted(y: &[f64]) -> (f64, f64) {
     ((ca * bb - cb * ab) / determinant, (cb * aa - ca * ab) / determinant)
 }
 
+/// Just above the onset of walking a walk is stable, and its exponent is small. It is called stable unless the error of
+/// the exponent is larger, and never unstable.
+#[test]
+fn a_walk_next_to_onset_is_stable_or_undecided() {
+    for (tip, onset) in
+        [(triple(0.0), -1.0), (TipFunction::Cosine, -1.0), (TipFunction::Bessel, -2.0)]
+    {
+        for (above, wanted) in [(1e-3, Some(true)), (1e-7, None)] {
+            let walker = walker(&tip, None, 1.0, onset * (1.0 + above));
+            let walk = walk(&walker, walking_speeds(&walker).unwrap()[0], 2).unwrap();
+            assert_eq!(walk.is_stable(), wanted, "{tip:?} {above:e} {:?}", walk.spectrum);
+        }
+    }
+}
+
 /// A tip set going on a flat surface settles into the walk, with and without a depth limit, where that is stable.
 #[test]
 fn runs_settle_into_the_walk_at_its_speed() {

@@ -119,8 +119,9 @@ pub struct WalkDocument {
     pub speed: f64,
     /// Rate of indentation relative to α: below 1 under a depth limit.
     pub weight: f64,
-    /// Whether every deviation decays, except a shift along the scan.
-    pub stable: bool,
+    /// Whether every deviation decays, except a shift along the scan; null if an error of the roots could change it,
+    /// as next to the onset of walking.
+    pub stable: Option<bool>,
     /// Growth exponents λ by falling real part, in k/Γ; of each pair the one above the real axis comes first. The 0
     /// of a shift is included.
     pub roots: Vec<ComplexDocument>,
@@ -134,7 +135,7 @@ impl From<&Walk> for WalkDocument {
         Self {
             speed: walk.speed,
             weight: walk.weight,
-            stable: walk.unstable_count() == 0,
+            stable: walk.is_stable(),
             roots: roots.map(|z| ComplexDocument { re: z.re, im: z.im }).collect(),
             certificate: (&walk.spectrum.certificate).into(),
         }

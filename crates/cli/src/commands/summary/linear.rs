@@ -164,7 +164,7 @@ const WALK: usize = 10;
 impl Product for WalkingDocument {
     fn summary(&self) -> Summary {
         let alpha = digits(self.parameters.indentation.alpha.unwrap_or(f64::NAN), WALK);
-        let stable = self.walks.iter().filter(|walk| walk.stable).count();
+        let stable = self.walks.iter().filter(|walk| walk.stable == Some(true)).count();
         let headline = match self.walks.len() {
             0 => format!("no steady walk at α = {alpha}"),
             1 => format!("one steady walk at α = {alpha}: {}", state(&self.walks[0])),
@@ -181,7 +181,11 @@ impl Product for WalkingDocument {
 }
 
 fn state(walk: &WalkDocument) -> &'static str {
-    if walk.stable { "stable" } else { "unstable" }
+    match walk.stable {
+        Some(true) => "stable",
+        Some(false) => "unstable",
+        None => "stable or not, within errors",
+    }
 }
 
 fn tell(summary: Summary, walk: &WalkDocument) -> Summary {

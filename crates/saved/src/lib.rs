@@ -1,22 +1,23 @@
-//! Documents, read back and handed on whatever their kind.
+//! Documents, read back, written and handed on whatever their kind.
 //!
-//! The code that reads documents is a third of the compiled code of a program of all commands; most of it runs once
-//! per file. It is compiled here, once. A release build does not optimise this crate; the documents that may be large are
-//! read by code of `stickslip`, which it does.
+//! The code that reads and writes documents is a third of what a program of all commands compiles, and most of it runs
+//! once for a file. It is compiled here, once. A release build does not optimise this crate; the documents that may be
+//! large are read and written by code of `stickslip`, which it does.
 
 mod drawn;
 
 pub use drawn::{Taker, drawn, drawn_as};
 
-use std::io::Read;
+use std::io::{self, Read, Write};
 use stickslip::{
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument, MeasuredTipDocument,
     RasterBoundaryDocument, RasterCompareDocument, RasterDocument, RasterStabilityDocument,
-    RasterSurfaceDocument, RasterSweepDocument, ResponseDocument, RunDocument,
-    SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument, UnitsDocument,
-    Unusable, VerifyDocument, WalkerDocument, WalkingDocument, read_from, read_raster, read_run,
-    read_sweep,
+    RasterSurfaceDocument, RasterSweepDocument, ReproductionDocument, ResponseDocument,
+    RunDocument, SnakingBoundaryDocument, StabilityDocument, SurfaceDocument, SweepDocument,
+    UnitsDocument, Unusable, VerifyDocument, WalkerDocument, WalkingDocument, read_from,
+    read_raster, read_run, read_sweep, write_any, write_raster, write_raster_surface,
+    write_raster_sweep, write_run, write_surface, write_sweep,
 };
 
 /// A document that commands write and read.
@@ -30,12 +31,18 @@ pub trait Saved: Clone + Send + Sync + 'static {
     /// The stream is not JSON, is a document of another format or version, is damaged, or fails.
     fn read(source: &mut dyn Read) -> Result<Self, Unusable>;
 
+    /// Writes the document as JSON, by this number of threads if its kind may be large enough for several.
+    ///
+    /// # Errors
+    /// The output fails.
+    fn write(&self, out: &mut dyn Write, threads: usize) -> io::Result<()>;
+
     /// The document for a serializer of any type.
     fn serialized(&self) -> &dyn erased_serde::Serialize;
 }
 
 macro_rules! saved {
-    ($($document:ident: $read:expr),+ $(,)?) => {
+    ($($document:ident: $read:expr, $write:expr;)+) => {
         $(impl Saved for $document {
             const FORMAT: &'static str = $document::FORMAT;
 
@@ -43,22 +50,39 @@ macro_rules! saved {
                 $read(source)
             }
 
+            fn write(&self, out: &mut dyn Write, threads: usize) -> io::Result<()> {
+                $write(out, self, threads)
+            }
+
             fn serialized(&self) -> &dyn erased_serde::Serialize {
                 self
             }
         })+
     };
-    ($($document:ident),+ $(,)?) => {
-        saved!($($document: |source| read_from(source, $document::FORMAT)),+);
+    ($($document:ident,)+) => {
+        saved! { $(
+            $document: |source| read_from(source, $document::FORMAT),
+                |out, document, _| write_any(out, document);
+        )+ }
     };
 }
 
-saved! { RunDocument: read_run, RasterDocument: read_raster, SweepDocument: read_sweep }
+saved! {
+    RunDocument: read_run, |out, document, _| write_run(out, document);
+    SweepDocument: read_sweep, |out, document, _| write_sweep(out, document);
+    RasterDocument: read_raster, write_raster;
+    SurfaceDocument: |source| read_from(source, SurfaceDocument::FORMAT),
+        |out, document, _| write_surface(out, document);
+    RasterSweepDocument: |source| read_from(source, RasterSweepDocument::FORMAT),
+        |out, document, _| write_raster_sweep(out, document);
+    RasterSurfaceDocument: |source| read_from(source, RasterSurfaceDocument::FORMAT),
+        |out, document, _| write_raster_surface(out, document);
+}
 
 saved! {
     BoundaryDocument, CompareDocument, ContinueDocument, CycleDocument, FigureDocument,
     FitDocument, FitImageDocument, FrictionDocument, LoadMapDocument, MeasuredTipDocument,
-    RasterBoundaryDocument, RasterCompareDocument, RasterStabilityDocument, RasterSurfaceDocument,
-    RasterSweepDocument, ResponseDocument, SnakingBoundaryDocument, StabilityDocument,
-    SurfaceDocument, UnitsDocument, VerifyDocument, WalkerDocument, WalkingDocument,
+    RasterBoundaryDocument, RasterCompareDocument, RasterStabilityDocument, ReproductionDocument,
+    ResponseDocument, SnakingBoundaryDocument, StabilityDocument, UnitsDocument, VerifyDocument,
+    WalkerDocument, WalkingDocument,
 }

@@ -65,7 +65,10 @@ pub use documents::figure::{
 };
 pub use documents::history::{FARTHEST, History};
 pub use documents::in_units::{Dimension, InUnits, KnownScales, dimension};
-pub use documents::large::{read_raster, read_run, read_sweep};
+pub use documents::large::{
+    read_raster, read_run, read_sweep, write_any, write_raster, write_raster_surface,
+    write_raster_sweep, write_run, write_surface, write_sweep,
+};
 pub use documents::outcome::{
     CreepDocument, DriftDocument, OscillationDocument, RegimeName, SwingDocument,
     TransientDocument, digits, to_its_digits,

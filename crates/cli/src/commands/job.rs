@@ -12,7 +12,6 @@ use crate::files::table::{write_csv, write_npz};
 use crate::made::{pictured, plain};
 use crate::session::Session;
 use crate::sign_of_life;
-use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use stickslip::Tabular;
@@ -23,11 +22,6 @@ use stickslip_saved::Saved;
 pub(crate) trait Product: Saved + Tabular {
     /// The summary for the user.
     fn summary(&self) -> Summary;
-
-    /// Writes the document as JSON, by code for documents of all kinds; large ones have their own, which is faster.
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(&self.serialized())
-    }
 }
 
 /// Rejects an output that is also an input of the command, or that is named twice.
@@ -105,8 +99,7 @@ impl Job {
         // The document first: a picture that fails costs no result.
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let write = |output: Output| product.write_json(output);
-        let figure = self.write_by((&product, product.serialized()), &summary, &write)?;
+        let figure = self.write_with(&product, &product, &summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
         session.give(|| summary.of(pictured(product)));
         drawn
@@ -116,38 +109,29 @@ impl Job {
     pub(crate) fn write<P: Product>(self, product: P) -> Result<(), Failure> {
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let write = |output: Output| product.write_json(output);
-        self.write_by((&product, product.serialized()), &summary, &write)?;
+        self.write_with(&product, &product, &summary)?;
         session.give(|| summary.of(plain(product)));
         Ok(())
     }
 
-    /// Writes a result and prints the given summary; returns the figure still to be drawn.
+    /// Writes a result, as a document or as this table, and prints the summary; returns the figure still to be drawn.
     pub(crate) fn write_with(
         self,
-        product: &(impl Serialize + Tabular),
+        document: &impl Saved,
+        table: &dyn Tabular,
         summary: &Summary,
-    ) -> Result<Option<Figure>, Failure> {
-        self.write_by((product, product), summary, &|output| output.write_json(product))
-    }
-
-    fn write_by(
-        self,
-        (table, document): (&dyn Tabular, &dyn erased_serde::Serialize),
-        summary: &Summary,
-        write_json: &dyn Fn(Output) -> Result<(), Failure>,
     ) -> Result<Option<Figure>, Failure> {
         sign_of_life::end();
         // Fields take the place of the document, and a host takes it as it is.
         if self.is_file || (self.fields.is_empty() && !self.session.has_host()) {
             match self.format {
-                Format::Json => write_json(self.output)?,
+                Format::Json => self.output.write_json(document)?,
                 Format::Csv => write_csv(table, self.output)?,
                 Format::Npz => write_npz(table, self.output)?,
                 Format::Text => self.output.write_bytes(summary.text().as_bytes())?,
             }
         }
-        after(&self.session, document, summary, &self.fields, self.has_summary)?;
+        after(&self.session, document.serialized(), summary, &self.fields, self.has_summary)?;
         Ok(self.figure)
     }
 

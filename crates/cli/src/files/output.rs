@@ -6,9 +6,9 @@ use super::temporary::kept_elsewhere;
 use super::temporary::through;
 use crate::arguments::Format;
 use crate::failure::Failure;
-use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use stickslip_saved::Saved;
 
 /// The format of an output by its extension, for a command that handles further extensions `more`, such as ", .gsf", itself.
 pub(crate) fn format_of(path: &Path, more: &str) -> Result<Format, Failure> {
@@ -59,18 +59,10 @@ impl Output {
     }
 
     /// Writes the document as JSON, followed by a line break.
-    pub(crate) fn write_json(self, document: &impl Serialize) -> Result<(), Failure> {
-        self.write_with(|out| {
-            stickslip::write(out, document)?;
-            out.write_all(b"\n")
-        })
-    }
-
-    /// Writes the same bytes by the number of threads that was set.
-    pub(crate) fn write_json_on_threads(self, document: &impl Serialize) -> Result<(), Failure> {
+    pub(crate) fn write_json(self, document: &impl Saved) -> Result<(), Failure> {
         let threads = self.threads;
         self.write_with(|out| {
-            stickslip::write_on_threads(out, document, threads)?;
+            document.write(out, threads)?;
             out.write_all(b"\n")
         })
     }

@@ -1,7 +1,10 @@
-//! Reading of the documents that may be large, compiled and optimised here.
+//! Reading and writing of the documents that may be large, compiled and optimised here.
 
-use crate::{RasterDocument, RunDocument, SweepDocument, Unusable, read_from};
-use std::io::Read;
+use crate::{
+    RasterDocument, RasterSurfaceDocument, RasterSweepDocument, RunDocument, SurfaceDocument,
+    SweepDocument, Unusable, read_from, write, write_on_threads,
+};
+use std::io::{self, Read, Write};
 
 /// Reads a document of `stickslip run`.
 ///
@@ -25,4 +28,44 @@ pub fn read_raster(source: &mut dyn Read) -> Result<RasterDocument, Unusable> {
 /// As [`read_from`].
 pub fn read_sweep(source: &mut dyn Read) -> Result<SweepDocument, Unusable> {
     read_from(source, SweepDocument::FORMAT)
+}
+
+macro_rules! written {
+    ($($name:ident: $document:ident, $of:literal;)+) => {$(
+        #[doc = concat!("Writes a document of ", $of, " as JSON.")]
+        ///
+        /// # Errors
+        /// As [`write`].
+        pub fn $name(out: &mut dyn Write, document: &$document) -> io::Result<()> {
+            write(out, document)
+        }
+    )+};
+}
+
+written! {
+    write_run: RunDocument, "a run";
+    write_sweep: SweepDocument, "a sweep";
+    write_surface: SurfaceDocument, "a surface";
+    write_raster_sweep: RasterSweepDocument, "a sweep of rasters";
+    write_raster_surface: RasterSurfaceDocument, "the surface of a raster";
+}
+
+/// Writes a document of any kind as JSON, more slowly, by code that is compiled once for all.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_any(out: &mut dyn Write, document: &dyn erased_serde::Serialize) -> io::Result<()> {
+    write(out, &document)
+}
+
+/// Writes a document of a raster as JSON, by this number of threads.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_raster(
+    out: &mut dyn Write,
+    document: &RasterDocument,
+    threads: usize,
+) -> io::Result<()> {
+    write_on_threads(out, document, threads)
 }

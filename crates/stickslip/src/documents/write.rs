@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
 use std::collections::VecDeque;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -56,8 +56,9 @@ pub fn is_harmful(c: char) -> bool {
 /// # Errors
 /// The output fails.
 pub fn write(out: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
-    document.serialize(&mut Serializer::with_formatter(out, Harmless))?;
-    Ok(())
+    let mut out = BufWriter::with_capacity(PIECE, out);
+    document.serialize(&mut Serializer::with_formatter(&mut out, Harmless))?;
+    out.flush()
 }
 
 /// Writes the same bytes as [`write`], by this number of threads.

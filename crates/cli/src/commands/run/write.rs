@@ -9,7 +9,6 @@ use crate::commands::{summary, verify};
 use crate::failure::Failure;
 use crate::made::pictured;
 use crate::session::Session;
-use serde::Serialize;
 use std::path::Path;
 use stickslip::{
     Array, InUnits, Moved, Named, Order, Physical, RunDocument, RunEnd, RunFormat, RunHead,
@@ -99,7 +98,7 @@ pub(super) fn all<R: Motion>(
     let mut document = document.in_units(order.scales.as_ref());
     let summary = summary::of_run(&document, &end).in_units(document.physical.as_ref());
     let reached = signal.map(|_| end.end);
-    let figure = job.write_with(&Written { document: &document, reached }, &summary)?;
+    let figure = job.write_with(&document, &Written { document: &document, reached }, &summary)?;
     if let (Some(figure), Some(whole)) = (figure, &whole) {
         // Drawn from the history, whether or not it is written.
         document.history.get_or_insert_with(|| R::Step::history(whole));
@@ -115,13 +114,10 @@ pub(super) fn all<R: Motion>(
     interrupted.or(failure).map_or(Ok(()), Err)
 }
 
-/// A document for output. An incomplete one is marked as such in every format, in JSON by `interrupted`.
-#[derive(Serialize)]
-#[serde(transparent)]
+/// A run as a table. An incomplete one is marked as such, as a document is by `interrupted`.
 struct Written<'a> {
     document: &'a RunDocument,
     /// Time at which a signal ended the run.
-    #[serde(skip)]
     reached: Option<f64>,
 }
 

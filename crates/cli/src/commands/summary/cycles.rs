@@ -2,8 +2,6 @@
 
 use super::{Summary, again, digits};
 use crate::commands::job::Product;
-use crate::failure::Failure;
-use crate::files::output::Output;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
     SpecialName, StatisticsDocument, SweepDocument, SweepPoint, to_its_digits,
@@ -99,10 +97,6 @@ fn name(kind: SpecialName) -> &'static str {
 }
 
 impl Product for SweepDocument {
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(self)
-    }
-
     fn summary(&self) -> Summary {
         let count = |regime: RegimeName| {
             self.points.iter().filter(|point| point.regime == Some(regime)).count()

@@ -2,15 +2,9 @@
 
 use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
-use crate::failure::Failure;
-use crate::files::output::Output;
 use stickslip::{CompareDocument, CompareFound, SurfaceDocument, UnitsDocument};
 
 impl Product for SurfaceDocument {
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(self)
-    }
-
     fn summary(&self) -> Summary {
         let curves = self.surfaces.iter().map(|s| (s.t, &s.x, s.u.to_vec()));
         let images = self.images.iter().map(|image| {

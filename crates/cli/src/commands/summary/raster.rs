@@ -2,8 +2,6 @@
 
 use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
-use crate::failure::Failure;
-use crate::files::output::Output;
 use stickslip::{
     HeightMap, LoadMapDocument, PathName, PatternDocument, RasterBoundaryDocument,
     RasterCompareDocument, RasterCompareFound, RasterCriticalDocument, RasterDocument,
@@ -12,10 +10,6 @@ use stickslip::{
 };
 
 impl Product for RasterDocument {
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json_on_threads(self)
-    }
-
     fn summary(&self) -> Summary {
         let (count, regime) = (self.lines.len(), self.regime);
         let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));
@@ -187,10 +181,6 @@ impl Product for RasterCompareDocument {
 }
 
 impl Product for RasterSweepDocument {
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(self)
-    }
-
     fn summary(&self) -> Summary {
         let mut regimes: Vec<(String, usize)> = vec![];
         for point in &self.points {
@@ -208,10 +198,6 @@ impl Product for RasterSweepDocument {
 }
 
 impl Product for RasterSurfaceDocument {
-    fn write_json(&self, output: Output) -> Result<(), Failure> {
-        output.write_json(self)
-    }
-
     fn summary(&self) -> Summary {
         let all = |map: &HeightMap| map.u.concat();
         let heights: Vec<f64> = self.surfaces.iter().flat_map(all).collect();

@@ -114,13 +114,11 @@ pub(super) fn close_if(
         return Ok(closed);
     }
     // A tip with inertia overshoots, and swings back after each slip.
-    let far =
-        equation.reaching_back(MARGIN_OF_RETREAT * orbit.retreat(), allowed).map_err(|error| {
-            match error {
-                CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
-                _ => NotClosed::Lost,
-            }
-        })?;
+    let retreat = MARGIN_OF_RETREAT * orbit.retreat();
+    let far = equation.reaching_back(retreat, allowed).map_err(|error| match error {
+        CycleError::Rough { reached, .. } => NotClosed::Coarse(reached),
+        _ => NotClosed::Lost,
+    })?;
     close_in_sums(far, closed.orbit, condition, allowed, &is_wanted)
 }
 

@@ -89,15 +89,8 @@ impl Drawn for WalkingDocument {
         let title = format!("Steady walks, {}", model_name(model));
         let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {
-            let state = match walk.stable {
-                Some(true) => "stable",
-                Some(false) => "unstable",
-                None => "stable or not, within errors",
-            };
-            let name = format!(
-                "v = {}: {state}",
-                Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed))
-            );
+            let speed = Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed));
+            let name = format!("v = {speed}: {}", walk.stability());
             exponents(&name, &walk.roots, walk.certificate.largest_error)
         };
         figure.panels = self.walks.iter().map(panel).collect();

@@ -1,7 +1,7 @@
 //! A run of a tip that is free to move across the scan.
 
 use super::moving::{Moved, Moving};
-use super::run_found::{RunEnd, SampleLine};
+use super::run_found::{RunEnd, SampleLine, no_steps};
 use crate::{Failure, History, OscillationDocument, RegimeName, SwingDocument, WorkDocument};
 use stickslip_outcome::{Classified, Outcome, Prospect, Regime, WatchedAcross, judge};
 use stickslip_stability::Snaking;
@@ -15,8 +15,7 @@ const LATE: f64 = 0.25;
 
 impl Moving for WatchedAcross<'_> {
     fn became(&self, seconds: f64) -> Result<RunEnd, Failure> {
-        let none = || Failure::Failed("the run has no steps".into());
-        let end = self.last().ok_or_else(none)?.end();
+        let end = self.last().ok_or_else(no_steps)?.end();
         let scenario = self.scenario();
         let along = &scenario.along;
         let made = self.running();

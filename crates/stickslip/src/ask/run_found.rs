@@ -108,13 +108,18 @@ pub(super) fn observed(
     work: WorkDocument,
 ) -> Result<RunEnd, Failure> {
     let seen = observer.tail().zip(observer.t());
-    let (tail, t) = seen.ok_or_else(|| Failure::Failed("the run has no steps".into()))?;
+    let (tail, t) = seen.ok_or_else(no_steps)?;
     let outcome = judge(scenario, initial, observer);
     let oscillation = outcome.oscillation.as_ref().map(|found| {
         let surface = Surface::new(&scenario.model, initial, &tail);
         OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
     });
     Ok(RunEnd::of(t, outcome, oscillation, work))
+}
+
+/// The failure of a run that ended before its first step.
+pub(super) fn no_steps() -> Failure {
+    Failure::Failed("the run has no steps".into())
 }
 
 /// l, x0 and x0' at one time.

@@ -129,6 +129,18 @@ pub struct WalkDocument {
     pub certificate: CertificateDocument,
 }
 
+impl WalkDocument {
+    /// The stability in words.
+    #[must_use]
+    pub fn stability(&self) -> &'static str {
+        match self.stable {
+            Some(true) => "stable",
+            Some(false) => "unstable",
+            None => "stable or not, within errors",
+        }
+    }
+}
+
 impl From<&Walk> for WalkDocument {
     fn from(walk: &Walk) -> Self {
         let roots = walk.spectrum.roots.iter();

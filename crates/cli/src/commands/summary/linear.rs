@@ -167,7 +167,7 @@ impl Product for WalkingDocument {
         let stable = self.walks.iter().filter(|walk| walk.stable == Some(true)).count();
         let headline = match self.walks.len() {
             0 => format!("no steady walk at α = {alpha}"),
-            1 => format!("one steady walk at α = {alpha}: {}", state(&self.walks[0])),
+            1 => format!("one steady walk at α = {alpha}: {}", self.walks[0].stability()),
             more => format!("{more} steady walks at α = {alpha}, {stable} of them stable"),
         };
         let begins = self.walking_alpha.map(|least| format!("α = {}", digits(least, WALK)));
@@ -180,14 +180,6 @@ impl Product for WalkingDocument {
     }
 }
 
-fn state(walk: &WalkDocument) -> &'static str {
-    match walk.stable {
-        Some(true) => "stable",
-        Some(false) => "unstable",
-        None => "stable or not, within errors",
-    }
-}
-
 fn tell(summary: Summary, walk: &WalkDocument) -> Summary {
     let error = walk.certificate.largest_error;
     // The first of the others: 0 is that of a shift.
@@ -197,7 +189,7 @@ fn tell(summary: Summary, walk: &WalkDocument) -> Summary {
     });
     let certain = if walk.certificate.complete { "none is missing" } else { "some may be missing" };
     summary
-        .row("speed", format!("{} kσ/Γ, {}", digits(walk.speed, WALK), state(walk)))
+        .row("speed", format!("{} kσ/Γ, {}", digits(walk.speed, WALK), walk.stability()))
         .maybe("leading growth exponent", leading)
         .row("growth exponents", format!("{}, {certain}", walk.roots.len()))
 }

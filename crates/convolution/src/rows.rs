@@ -35,13 +35,11 @@ impl Rows {
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
 
     /// Valid positions of sources and targets.
-    #[must_use]
     pub fn range(&self) -> RangeInclusive<f64> {
         let length = self.cells.len() / self.stride.max(1);
         let at = |cell: i64| (self.first + cell) as f64 * self.lattice.spacing;

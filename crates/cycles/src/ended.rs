@@ -25,7 +25,6 @@ pub enum Ended {
 
 impl Tried {
     /// The state at the end of this run.
-    #[must_use]
     pub fn ended(&self) -> Ended {
         let trajectory = &self.run.trajectory;
         let extrema = latest_extrema(trajectory);

@@ -132,25 +132,21 @@ impl Cycle {
     }
 
     /// The model: footprint, α and r.
-    #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
     }
 
     /// Period T.
-    #[must_use]
     pub fn period(&self) -> f64 {
         self.closed.orbit.period
     }
 
     /// rT, the wavelength of the surface far behind the tip.
-    #[must_use]
     pub fn wavelength(&self) -> f64 {
         self.model.r() * self.period()
     }
 
     /// Half the peak-to-peak value of l, that is, of x0 minus its steady advance.
-    #[must_use]
     pub fn amplitude_x0(&self) -> f64 {
         0.5 * (self.extremes.1 - self.extremes.0)
     }
@@ -158,7 +154,6 @@ impl Cycle {
     /// Half the peak-to-peak value of the surface far behind the tip, (35), in kσ²/a. If the surface heals, u at the
     /// distance D behind the support is U(x) e^{-D/(rT)} with a periodic U, and this is half the peak-to-peak value of
     /// U, at most `f64::MAX`.
-    #[must_use]
     pub fn amplitude_u(&self) -> f64 {
         let amplitude = || self.ripple().amplitude();
         *self
@@ -168,7 +163,6 @@ impl Cycle {
 
     /// u(x) far behind the tip, (35), a periodic function of x for the x0(t) of [`motion`](Self::motion). It is 0 if
     /// the surface heals.
-    #[must_use]
     pub fn surface_behind(&self, x: &[f64]) -> Vec<f64> {
         if self.model.wider().healing_time.is_some() {
             return vec![0.0; x.len()];
@@ -182,19 +176,16 @@ impl Cycle {
     }
 
     /// Smallest and largest l.
-    #[must_use]
     pub fn extremes(&self) -> (f64, f64) {
         self.extremes
     }
 
     /// Number of maxima of l in one period.
-    #[must_use]
     pub fn slips(&self) -> usize {
         self.slips
     }
 
     /// x0(t) over one period from t = 0, where l is at its maximum.
-    #[must_use]
     pub fn motion(&self) -> &Trajectory {
         &self.motion
     }
@@ -203,7 +194,6 @@ impl Cycle {
     /// a period. One of them is 1, that of a shift in time. Spurious multipliers of the sum of exponentials, which a
     /// second sum does not reproduce, are left out. For a footprint with much detail the list is complete only above
     /// 0.01.
-    #[must_use]
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
         &self.multipliers[..count]
@@ -220,19 +210,16 @@ impl Cycle {
     }
 
     /// Whether every small deviation except a shift in time decays.
-    #[must_use]
     pub fn is_stable(&self) -> bool {
         self.nontrivial_multipliers().all(|m| m.norm() < 1.0 + ON_THE_CIRCLE)
     }
 
     /// Estimate of the largest residual of (18) at any time.
-    #[must_use]
     pub fn residual(&self) -> f64 {
         self.closed.residual
     }
 
     /// The largest modulus of the multipliers except that of a shift in time.
-    #[must_use]
     pub fn leading_multiplier(&self) -> f64 {
         self.nontrivial_multipliers().map(|m| m.norm()).fold(0.0, f64::max)
     }
@@ -246,7 +233,6 @@ impl Cycle {
     /// of 1e-11, from αc + 1e-5 to relaxation oscillations, with a safety factor of ten, and of two and a half for the
     /// contribution of the sum. Long slips increase both errors in proportion to their length: of 29 cycles with
     /// amplitudes from 0.02 to 785 at residuals from 3e-10 to 1e-5, the largest error was two thirds of the estimate.
-    #[must_use]
     pub fn error(&self) -> f64 {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);
         let over_residual = ERROR_OVER_RESIDUAL * (1.0 + self.residual() / COARSE).sqrt();
@@ -265,14 +251,12 @@ impl Cycle {
     }
 
     /// The corresponding error of the amplitude of the surface far behind the tip, in kσ²/a.
-    #[must_use]
     pub fn amplitude_u_error(&self) -> f64 {
         let relative = self.error() / self.amplitude_x0() + self.error() / self.period();
         3.0 * relative * self.amplitude_u()
     }
 
     /// Number of steps of the mesh.
-    #[must_use]
     pub fn steps(&self) -> usize {
         self.closed.orbit.stages.len()
     }
@@ -283,7 +267,6 @@ impl Cycle {
     }
 
     /// Number of linearisations in the solution.
-    #[must_use]
     pub fn iterations(&self) -> usize {
         self.closed.iterations
     }

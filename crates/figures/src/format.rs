@@ -57,7 +57,6 @@ pub enum AnimationFormat {
 
 impl AnimationFormat {
     /// The format by the extension of `path`, in any case; `None` for any other than .gif, .webp and .apng.
-    #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         match extension.as_deref() {

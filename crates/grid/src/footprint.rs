@@ -26,7 +26,6 @@ impl<'a> Footprint<'a> {
     }
 
     /// f(x), without a cutoff.
-    #[must_use]
     pub fn value(&self, x: f64) -> f64 {
         (self.value)(x)
     }
@@ -42,7 +41,6 @@ impl<'a> Footprint<'a> {
     }
 
     /// Distance beyond which f is taken as 0.
-    #[must_use]
     pub fn reach(&self) -> f64 {
         self.reach
     }

@@ -58,7 +58,6 @@ impl<'a> Problem<'a> {
     }
 
     /// The initial condition.
-    #[must_use]
     pub fn start(&self) -> &Start<'a> {
         &self.start
     }

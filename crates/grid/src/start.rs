@@ -23,7 +23,6 @@ impl<'a> Start<'a> {
     }
 
     /// A flat surface, the support above the tip, the spring relaxed: t1 = X/r, u0 = 0.
-    #[must_use]
     pub fn flat(r: f64, position: f64) -> Self {
         Self::new(position / r, position, |_| 0.0, |_| 0.0)
     }
@@ -33,7 +32,6 @@ impl<'a> Start<'a> {
     /// u0(x) = -(α/r) ∫_{x-X}^∞ f,  u0'(x) = (α/r) f(x - X).
     ///
     /// The tip starts at X - `kick`; the surface remains that of X.
-    #[must_use]
     pub fn steady(alpha: f64, r: f64, footprint: Footprint<'a>, position: f64, kick: f64) -> Self {
         let steady_l = alpha * footprint.value(0.0) / r;
         let tail = footprint.tail(0.0);
@@ -47,7 +45,6 @@ impl<'a> Start<'a> {
 
     /// The same for the extended model: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the weight at
     /// this depth, and l0 the slope under the tip. On a path the start is at t = 0.
-    #[must_use]
     pub fn steady_under(
         wider: &Wider,
         (alpha, r): (f64, f64),
@@ -73,7 +70,6 @@ impl<'a> Start<'a> {
     }
 
     /// The same initial condition with `height` added to the surface; `slope` is its derivative.
-    #[must_use]
     pub fn on_top_of(
         self,
         height: impl Fn(f64) -> f64 + 'a,
@@ -84,25 +80,21 @@ impl<'a> Start<'a> {
     }
 
     /// t1
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
     /// x0(t1)
-    #[must_use]
     pub fn x0(&self) -> f64 {
         self.x0
     }
 
     /// u0(x)
-    #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         (self.height)(x)
     }
 
     /// u0'(x)
-    #[must_use]
     pub fn slope(&self, x: f64) -> f64 {
         (self.slope)(x)
     }

@@ -17,19 +17,16 @@ pub struct Stepping {
 
 impl Stepping {
     /// ode45 with its defaults, 1e-3 and 1e-6, and the paper's Δt ≈ 0.04 as the longest step.
-    #[must_use]
     pub fn ode45() -> Self {
         Self { rtol: 1e-3, atol: 1e-6, max_step: 0.04, first_step: 0.01 }
     }
 
     /// A constant absolute tolerance without a limit on the step.
-    #[must_use]
     pub fn absolute(atol: f64) -> Self {
         Self { rtol: 0.0, atol, max_step: f64::INFINITY, first_step: 0.01 }
     }
 
     /// Steps of constant length without error control.
-    #[must_use]
     pub fn fixed(step: f64) -> Self {
         Self { rtol: 0.0, atol: f64::INFINITY, max_step: step, first_step: step }
     }

@@ -117,7 +117,6 @@ impl FrictionLoop {
     }
 
     /// Positions, and forces on the way there and back.
-    #[must_use]
     pub fn rows(&self) -> [&[f64]; 3] {
         [&self.x, &self.there, &self.back]
     }

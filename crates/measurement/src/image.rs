@@ -92,19 +92,16 @@ impl Image {
     }
 
     /// Positions of the columns.
-    #[must_use]
     pub fn x(&self) -> &[f64] {
         &self.x
     }
 
     /// Positions of the rows.
-    #[must_use]
     pub fn y(&self) -> &[f64] {
         &self.y
     }
 
     /// Heights, a row for each y.
-    #[must_use]
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
     }

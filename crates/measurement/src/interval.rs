@@ -15,13 +15,11 @@ pub struct Estimate {
 
 impl Estimate {
     /// Half the length of the interval, relative to the value.
-    #[must_use]
     pub fn relative(&self) -> f64 {
         0.5 * (self.high - self.low) / self.value.abs()
     }
 
     /// Whether the interval contains a value.
-    #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
@@ -53,7 +51,6 @@ impl Estimate {
     }
 
     /// The interval of resampled values, by percentiles; of several resampling methods the widest.
-    #[must_use]
     pub fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
         let mut found: Option<Self> = None;
         for resamples in ways {

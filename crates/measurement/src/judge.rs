@@ -53,7 +53,6 @@ const SIXTH: [f64; 7] = [1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0];
 const SIXTH_NORM: f64 = 30.397;
 
 /// Classifies the table from which `tip` was made.
-#[must_use]
 pub fn judge((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Verdict {
     let rows = x.len();
     let Ok(at) = critical(&Wider::default(), tip, 1.0) else { return Verdict::Sound };

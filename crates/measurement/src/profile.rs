@@ -64,13 +64,11 @@ impl Profile {
     }
 
     /// Positions, ascending.
-    #[must_use]
     pub fn x(&self) -> &[f64] {
         &self.x
     }
 
     /// Heights.
-    #[must_use]
     pub fn f(&self) -> &[f64] {
         &self.f
     }
@@ -92,7 +90,6 @@ impl Profile {
     }
 
     /// Whether the profile may be one half of an even one about position 0: it begins there, with its apex.
-    #[must_use]
     pub fn is_half(&self) -> bool {
         let (first, last) = self.ends();
         let extent = last - first;

@@ -44,7 +44,6 @@ const ON_THE_CIRCLE: f64 = 1e-7;
 ///
 /// # Panics
 /// Before the first step.
-#[must_use]
 pub fn judge(scenario: &Scenario, surface: &InitialSurface, observer: &Observer) -> Outcome {
     let last = observer.last().expect("a run has at least one step");
     let tail = observer.tail().expect("a run has at least one step");

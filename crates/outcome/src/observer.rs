@@ -38,7 +38,6 @@ pub struct Observer {
 
 impl Observer {
     /// An observer before the first step.
-    #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let Scenario { model, tolerance, .. } = scenario;
         let most = model.tip().widths(STEADY_AT_MOST);
@@ -119,20 +118,17 @@ impl Observer {
     }
 
     /// The latest step.
-    #[must_use]
     pub fn last(&self) -> Option<Step> {
         self.tail.back().copied()
     }
 
     /// The last steps; `None` before the first.
-    #[must_use]
     pub fn tail(&self) -> Option<Trajectory> {
         let steps: Vec<Step> = self.tail.iter().copied().collect();
         (!steps.is_empty()).then(|| Trajectory::under(self.wider, self.support.clone(), steps))
     }
 
     /// Time reached; `None` before the first step.
-    #[must_use]
     pub fn t(&self) -> Option<f64> {
         self.last().map(|last| last.end())
     }

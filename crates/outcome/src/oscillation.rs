@@ -32,7 +32,6 @@ pub struct Oscillation {
 
 impl Oscillation {
     /// Error of the amplitude of the surface far behind the tip, for an amplitude measured on the run.
-    #[must_use]
     pub fn amplitude_u_error(&self, amplitude_u: f64) -> f64 {
         let relative =
             self.amplitude_x0_error / self.amplitude_x0 + self.period_error / self.period;

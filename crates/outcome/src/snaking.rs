@@ -136,7 +136,6 @@ pub struct SnakingObserver {
 
 impl SnakingObserver {
     /// An observer before the first step.
-    #[must_use]
     pub fn new(scenario: &PlanarScenario) -> Self {
         Self::of(scenario.along.support())
     }
@@ -167,7 +166,6 @@ impl SnakingObserver {
 
     /// The periodic motion of y0 at the end of a run with this tolerance; `None` if the amplitude of y0 is not above
     /// the tolerance, y0 has oscillated less than five times, or the motion is not periodic.
-    #[must_use]
     pub fn snaking(&self, tolerance: f64) -> Option<Snaking> {
         let cycles = &self.cycles;
         let last = *cycles.all.back().filter(|_| cycles.all.len() >= FEWEST_CYCLES)?;
@@ -201,13 +199,11 @@ impl SnakingObserver {
     }
 
     /// The largest |y0| at the ends of steps in about the last part of the run, given as a fraction of it.
-    #[must_use]
     pub fn largest_late(&self, part: f64) -> f64 {
         self.span.map_or(0.0, |(start, end)| self.deviations.since((1.0 - part) * (end - start)))
     }
 
     /// The last step.
-    #[must_use]
     pub fn last(&self) -> Option<&Step> {
         self.last.as_ref()
     }
@@ -240,7 +236,6 @@ impl SnakingObserver {
 }
 
 /// The periodic motion of y0 at the end of a trajectory; see [`SnakingObserver::snaking`].
-#[must_use]
 pub fn snaking(trajectory: &Trajectory, tolerance: f64) -> Option<Snaking> {
     let mut observer = SnakingObserver::of(trajectory.support().clone());
     trajectory.steps().iter().for_each(|step| observer.observe(step));

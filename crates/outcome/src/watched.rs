@@ -69,25 +69,21 @@ impl<'a> Watched<'a> {
     ///
     /// # Panics
     /// Before the first step.
-    #[must_use]
     pub fn outcome(&self) -> Outcome {
         judge(self.scenario, self.surface, &self.observer)
     }
 
     /// The scenario, and the surface on which it begins.
-    #[must_use]
     pub fn origin(&self) -> (&'a Scenario, &'a InitialSurface) {
         (self.scenario, self.surface)
     }
 
     /// The observer of the steps, from which the outcome follows.
-    #[must_use]
     pub fn observer(&self) -> &Observer {
         &self.observer
     }
 
     /// The run, with its work and its memory.
-    #[must_use]
     pub fn running(&self) -> &Running<'a> {
         &self.running
     }
@@ -133,7 +129,6 @@ pub fn run_and_judge(scenario: &Scenario) -> Result<(Run, Outcome), RunError> {
 }
 
 /// Classifies the motion at the end of a trajectory, computed from this scenario.
-#[must_use]
 pub fn judge_trajectory(
     scenario: &Scenario,
     surface: &InitialSurface,

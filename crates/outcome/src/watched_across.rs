@@ -43,25 +43,21 @@ impl<'a> WatchedAcross<'a> {
     }
 
     /// The scenario.
-    #[must_use]
     pub fn scenario(&self) -> &'a PlanarScenario {
         self.scenario
     }
 
     /// The motion along the scan.
-    #[must_use]
     pub fn along(&self) -> &Observer {
         &self.along
     }
 
     /// The motion across it.
-    #[must_use]
     pub fn across(&self) -> &SnakingObserver {
         &self.across
     }
 
     /// The run, with its work, its memory and its layers.
-    #[must_use]
     pub fn running(&self) -> &PlanarRunning<'a> {
         &self.running
     }

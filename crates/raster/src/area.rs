@@ -26,7 +26,6 @@ const EVEN: f64 = 1e-9;
 
 impl Area {
     /// Number of lines.
-    #[must_use]
     pub fn len(&self) -> usize {
         match self {
             Self::Rectangle { lines, .. } => *lines,
@@ -35,13 +34,11 @@ impl Area {
     }
 
     /// Whether there are no lines.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// The path of the support along line n, counted from 0.
-    #[must_use]
     pub fn track(&self, path: Path, n: usize) -> Track {
         match self {
             Self::Rectangle { pitch, length, .. } => path.track(n, *pitch, *length),
@@ -50,7 +47,6 @@ impl Area {
     }
 
     /// Smallest and largest x that a support reaches.
-    #[must_use]
     pub fn ends(&self) -> (f64, f64) {
         match self {
             Self::Rectangle { length, .. } => (0.0, *length),
@@ -63,7 +59,6 @@ impl Area {
     }
 
     /// The length of the longest line.
-    #[must_use]
     pub fn longest(&self) -> f64 {
         match self {
             Self::Rectangle { length, .. } => *length,
@@ -72,7 +67,6 @@ impl Area {
     }
 
     /// The distance from each line to the next, if it is constant and positive.
-    #[must_use]
     pub fn pitch(&self, path: Path) -> Option<f64> {
         match self {
             Self::Rectangle { pitch, .. } => (path != Path::Repeat).then_some(*pitch),

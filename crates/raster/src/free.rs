@@ -17,7 +17,6 @@ pub struct Free {
 
 impl Free {
     /// Free motion on a spring of this stiffness, not disturbed.
-    #[must_use]
     pub fn new(stiffness: f64) -> Self {
         Self { stiffness, kick: 0.0, disturbance: Force::default() }
     }

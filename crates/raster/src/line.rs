@@ -21,7 +21,6 @@ impl Line {
     ///
     /// # Panics
     /// There is no step.
-    #[must_use]
     pub fn new(track: Track, model: &Model, steps: Vec<Step>, work: Work) -> Self {
         let trajectory = Trajectory::under(*model.wider(), Support::Moving(model.r()), steps);
         Self { track, trajectory, across: vec![], work }
@@ -31,7 +30,6 @@ impl Line {
     ///
     /// # Panics
     /// There is no step.
-    #[must_use]
     pub fn free(track: Track, model: &Model, steps: &[planar::Step], work: Work) -> Self {
         let along = steps.iter().map(|step| step.along).collect();
         let across = steps.iter().map(|step| (step.y, step.across)).collect();
@@ -53,19 +51,16 @@ impl Line {
     }
 
     /// Whether the tip is free to move across the line.
-    #[must_use]
     pub fn is_free(&self) -> bool {
         !self.across.is_empty()
     }
 
     /// y0 on the surface: that of the line if the tip is held on it.
-    #[must_use]
     pub fn y0(&self, t: f64) -> f64 {
         self.track.y + self.planar_step(t).map_or(0.0, |step| step.y0(t))
     }
 
     /// y0'
-    #[must_use]
     pub fn velocity_y(&self, t: f64) -> f64 {
         self.planar_step(t).map_or(0.0, |step| step.velocity(t)[1])
     }
@@ -77,37 +72,31 @@ impl Line {
     }
 
     /// The path of the support.
-    #[must_use]
     pub fn track(&self) -> Track {
         self.track
     }
 
     /// The motion in the frame of the line, in which the support starts at 0 and moves to larger x.
-    #[must_use]
     pub fn trajectory(&self) -> &Trajectory {
         &self.trajectory
     }
 
     /// Counts of the integrator.
-    #[must_use]
     pub fn work(&self) -> Work {
         self.work
     }
 
     /// x0 on the surface.
-    #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
         self.at(t)[0]
     }
 
     /// R - x0 on the surface: the lateral force. Negative on a line towards smaller x, where the tip lags behind.
-    #[must_use]
     pub fn lag(&self, t: f64) -> f64 {
         self.at(t)[1]
     }
 
     /// x0' on the surface.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
         self.at(t)[2]
     }
@@ -120,7 +109,6 @@ impl Line {
     }
 
     /// x0, the lag and x0' on the surface at t, as [`x0`](Self::x0), [`lag`](Self::lag) and [`velocity`](Self::velocity).
-    #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {
         let (step, r, sign) = (self.trajectory.step_at(t), self.trajectory.r(), self.track.sign());
         let l = step.l(r, t);
@@ -128,7 +116,6 @@ impl Line {
     }
 
     /// The height of the surface under the tip, in kσ²/a, if there is a depth limit.
-    #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {
         self.trajectory.height(t)
     }
@@ -140,7 +127,6 @@ impl Line {
 
     /// The residence of the tip on the surface: positions and weights such that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ
     /// `w_j` g(`x_j`) at the end of the line, with w and T of the extended model.
-    #[must_use]
     pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());
         positions.iter_mut().for_each(|x| *x = self.track.x(*x));
@@ -148,13 +134,11 @@ impl Line {
     }
 
     /// The residence in both coordinates at the end of the line.
-    #[must_use]
     pub fn visits(&self) -> Vec<Visit> {
         self.visits_until(self.trajectory.end())
     }
 
     /// The residence in both coordinates at t.
-    #[must_use]
     pub fn visits_until(&self, t: f64) -> Vec<Visit> {
         let wider = self.trajectory.wider();
         let mut visits = vec![];

@@ -53,19 +53,16 @@ impl Path {
 
 impl Track {
     /// x at this distance along the line.
-    #[must_use]
     pub fn x(&self, along: f64) -> f64 {
         self.start + self.sign() * along
     }
 
     /// Distance of x along the line: the inverse of [`x`](Self::x).
-    #[must_use]
     pub fn along(&self, x: f64) -> f64 {
         self.sign() * (x - self.start)
     }
 
     /// Direction of the line: 1 towards larger x, -1 towards smaller.
-    #[must_use]
     pub fn sign(&self) -> f64 {
         if self.backward { -1.0 } else { 1.0 }
     }

@@ -40,7 +40,6 @@ pub(crate) const WIDTHS: f64 = 9.0;
 
 impl Plan {
     /// Lines on a flat surface with the law of `model` and a tolerance of 1e-9.
-    #[must_use]
     pub fn new(
         footprint: Footprint,
         model: Model,
@@ -53,7 +52,6 @@ impl Plan {
     }
 
     /// The same for any area.
-    #[must_use]
     pub fn over(footprint: Footprint, model: Model, path: Path, area: Area) -> Self {
         let law = Scenario::new(model, area.longest());
         Self { footprint, path, area, free: None, disturbance: Force::default(), law }
@@ -137,25 +135,21 @@ impl Plan {
     }
 
     /// Number of lines.
-    #[must_use]
     pub fn lines(&self) -> usize {
         self.area.len()
     }
 
     /// Line number n, counted from 0.
-    #[must_use]
     pub fn track(&self, n: usize) -> Track {
         self.area.track(self.path, n)
     }
 
     /// Duration X/r of line number n, counted from 0.
-    #[must_use]
     pub fn duration(&self, n: usize) -> f64 {
         self.duration_of(self.track(n).length)
     }
 
     /// Time in which the support moves this distance.
-    #[must_use]
     pub fn duration_of(&self, length: f64) -> f64 {
         length / self.law.model.r()
     }
@@ -182,7 +176,6 @@ impl Plan {
     }
 
     /// Largest distance in y over which a line has an effect.
-    #[must_use]
     pub fn reach_across(&self) -> f64 {
         let of = |across: &stickslip_tip::Across| across.center + WIDTHS * across.width;
         self.footprint.layers().iter().map(|layer| of(&layer.across)).fold(0.0, f64::max)

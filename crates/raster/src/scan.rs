@@ -57,14 +57,12 @@ impl<'a> Scanning<'a> {
     }
 
     /// The finished lines.
-    #[must_use]
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 
     /// The initial surface of the next line, in the frame of that line: the sum of all grooves within reach; flat
     /// after the last line.
-    #[must_use]
     pub fn surface_ahead(&mut self) -> InitialSurface {
         if self.lines.len() >= self.plan.lines() {
             return InitialSurface::flat();

@@ -13,14 +13,12 @@ pub struct Scanned {
 
 impl Scanned {
     /// The surface of all these lines.
-    #[must_use]
     pub fn new(plan: &Plan, lines: &[Line]) -> Self {
         Self { grooves: Grooves::of_all(plan, lines) }
     }
 
     /// u(x,y) at every y (rows) and every x (columns), in kσ²/a. The cost of a row is proportional to the number of
     /// lines within its reach, plus a bounded number of operations for each x.
-    #[must_use]
     pub fn heights(&self, x: &[f64], y: &[f64]) -> Array2<f64> {
         self.grooves.heights(x, y)
     }
@@ -28,7 +26,6 @@ impl Scanned {
 
 /// ∫∫ u dx dy after these lines: -α ∫∫f times the time that the tip was there, weighted by the depth limit and
 /// reduced by healing. In the basic model it is -α (X/r) ∫∫f for each line.
-#[must_use]
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
     let left =
         |line: &Line| plan.law.model.wider().left_after(plan.duration_of(line.track().length));

@@ -61,7 +61,6 @@ const NO_CURVE: StabilityError =
 
 impl Boundary {
     /// Scans the imaginary axis over the band of `tip`.
-    #[must_use]
     pub fn new(law: &Wider, tip: &TipFunction) -> Self {
         let search = match tip {
             TipFunction::Gaussians(_) if law.is_papers() => Search::Curve(Axis::of(tip)),

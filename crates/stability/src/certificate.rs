@@ -45,7 +45,6 @@ pub struct Certificate {
 
 impl Certificate {
     /// Whether the list is complete and each of its members a root.
-    #[must_use]
     pub fn is_complete(&self) -> bool {
         self.counted == self.found && self.largest_residual <= LARGEST_RESIDUAL
     }

@@ -30,14 +30,12 @@ pub struct Creep {
 
 impl Creep {
     /// The real ones, ascending: at each of them x0 ~ (1/p) ln t solves (10) for large t.
-    #[must_use]
     pub fn rates(&self) -> Vec<f64> {
         self.roots.iter().rev().filter(|p| p.im.abs() <= 0.0).map(|p| p.re).collect()
     }
 
     /// The attracting rate: the root of largest real part, if it is real. If it is not, no tip is trapped
     /// permanently.
-    #[must_use]
     pub fn attracting(&self) -> Option<f64> {
         self.roots.first().filter(|p| p.im.abs() <= 0.0).map(|p| p.re)
     }

@@ -64,7 +64,6 @@ impl Inversion {
     }
 
     /// l(t) - l0.
-    #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         self.nodes.iter().map(|(lambda, value)| ((lambda * t).exp() * value).re).sum()
     }

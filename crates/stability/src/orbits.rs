@@ -44,13 +44,11 @@ const NEUTRAL: f64 = 1e-7;
 
 impl Orbit {
     /// |ρω|
-    #[must_use]
     pub fn speed(&self) -> f64 {
         (self.radius * self.frequency).abs()
     }
 
     /// Number of exponents right of the imaginary axis.
-    #[must_use]
     pub fn unstable_count(&self, scenario: &WalkerScenario) -> Option<usize> {
         let grows = |z: &&Complex64| z.re * scenario.healing_time > NEUTRAL;
         Some(self.exponents.as_ref()?.iter().filter(grows).count())

@@ -57,7 +57,6 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
 impl Response {
     /// l(t) - l0 at all times up to `until`, also during the pulses, with an error of 1e-9 of its largest value.
     /// `None` if the pulses are too short compared with `until`. `model` is that of the response.
-    #[must_use]
     pub fn while_pulses_last(&self, model: &Model, until: f64) -> Option<Inversion> {
         let rightmost = self.modes.first().map_or(0.0, |mode| mode.lambda.re);
         let h = Characteristic::new(model).ok()?;
@@ -69,7 +68,6 @@ impl Response {
     /// Before a pulse it is 0, as it must be. During a pulse the missing modes cause errors of up to a quarter of the
     /// response; use [`while_pulses_last`](Self::while_pulses_last). At 3 time units after a pulse of width 0.5, ten
     /// modes have an error of 1e-8.
-    #[must_use]
     pub fn at(&self, t: f64) -> f64 {
         let mode = |(mode, weight): (&ResponseMode, &Complex64)| {
             let driven: Complex64 = self.pulses.iter().map(|p| driven(p, mode.lambda, t)).sum();

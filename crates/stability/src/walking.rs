@@ -31,13 +31,11 @@ pub struct Walk {
 
 impl Walk {
     /// Number of roots right of the imaginary axis.
-    #[must_use]
     pub fn unstable_count(&self) -> usize {
         self.spectrum.roots.iter().filter(|z| z.re > 0.0).count()
     }
 
     /// Whether every deviation decays, except a shift along the scan; `None` if an error of the roots could change it.
-    #[must_use]
     pub fn is_stable(&self) -> Option<bool> {
         let error = self.spectrum.certificate.largest_error;
         let others = self.spectrum.roots.iter().filter(|z| z.norm() > 0.0);
@@ -100,7 +98,6 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
 ///
 /// At rest λ(Mλ + 1) = αw f''(0) λT/(λ + 1/T): at the threshold 0 is a double root for any M. A depth limit b changes
 /// only the weight w = e^{-|h|/b} of the height h = αwT f(0).
-#[must_use]
 pub fn walking_alpha(tip: &TipFunction, wider: &Wider) -> Option<f64> {
     let healing_time = wider.healing_time?;
     let curvature = tip.slope_and_curvature(0.0).1;

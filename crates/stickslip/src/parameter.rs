@@ -135,7 +135,6 @@ struct NameSchema<'a> {
 }
 
 /// The names that a type has, each with its meaning.
-#[must_use]
 pub fn names<T: Parameters>() -> Vec<(String, String)> {
     names_of(&Schema::of::<T>().names)
 }
@@ -367,7 +366,6 @@ pub fn stranger<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
 
 /// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) +
 /// D replace each other, a hold replaces the path of a support, and a critical α or r that was computed is computed anew.
-#[must_use]
 pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Map<String, Value> {
     if base.remove("at_critical_point") == Some(Value::Bool(true)) {
         let is_r = base.get("solve_for").is_some_and(|name| name == "r");

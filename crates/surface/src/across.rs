@@ -98,7 +98,6 @@ fn reach(layer: &Layer) -> f64 {
 
 /// Σ weight f(x - x0) h(y - y0) of a layer over the visits within reach, for each x and each y in turn. The profile h of
 /// a visit is computed once for all x. The visits are in the order of x0.
-#[must_use]
 pub fn carved_across(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
     let reach = reach(layer);
     let low = x.iter().copied().fold(f64::INFINITY, f64::min) - reach;

@@ -40,7 +40,6 @@ pub(crate) fn cells(tip: &TipFunction, positions: &[f64], (c, d): (f64, f64)) ->
 impl Method {
     /// The cheaper method for these positions and points; the definition if no lattice over their extent fits in
     /// memory.
-    #[must_use]
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
         let (sources, targets) = (positions.len() as f64, x.len() as f64);
         let cells = cells(tip, positions, span(x));
@@ -53,7 +52,6 @@ impl Method {
 ///
 /// # Panics
 /// The numbers of weights and positions differ, or a position or x is not finite.
-#[must_use]
 pub fn carved(tip: &TipFunction, positions: &[f64], weights: &[f64], x: &[f64]) -> Array1<f64> {
     carved_by(Method::cheaper(tip, positions, x), tip, positions, weights, x)
 }
@@ -62,7 +60,6 @@ pub fn carved(tip: &TipFunction, positions: &[f64], weights: &[f64], x: &[f64]) 
 ///
 /// # Panics
 /// As [`carved`].
-#[must_use]
 pub fn carved_by(
     method: Method,
     tip: &TipFunction,

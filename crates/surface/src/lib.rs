@@ -66,7 +66,6 @@ pub struct Surface<'a> {
 
 impl<'a> Surface<'a> {
     /// The surface of a tip that moved along `trajectory` over `initial`.
-    #[must_use]
     pub fn new(model: &'a Model, initial: &'a InitialSurface, trajectory: &'a Trajectory) -> Self {
         Self { model, initial, trajectory }
     }
@@ -108,7 +107,6 @@ impl<'a> Surface<'a> {
 }
 
 /// The profile (24) of steady motion, -(α/r) ∫_{x-x0}^∞ f, with the tip at x0.
-#[must_use]
 pub fn steady_profile(model: &Model, x0: f64, x: &[f64]) -> Array1<f64> {
     let (depth, fading) = (model.steady_density(), model.fading());
     x.iter().map(|x| -depth * model.tip().fading_tail(x - x0, fading)).collect()

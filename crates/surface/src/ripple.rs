@@ -27,7 +27,6 @@ const REFINEMENTS: usize = 4;
 
 /// The ripple over the last whole wavelength out of reach of the tip, in the carved groove without the initial
 /// surface. `None` for a footprint without reach, or if the run has not left one wavelength behind.
-#[must_use]
 pub fn ripple_behind(
     surface: &Surface,
     trajectory: &Trajectory,

@@ -162,7 +162,6 @@ impl Collocation {
 }
 
 /// Nodes c and weights b of the method, both on the unit step.
-#[must_use]
 pub fn nodes_and_weights() -> (Stages, Stages) {
     (RADAU.c, *RADAU.b())
 }

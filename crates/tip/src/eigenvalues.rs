@@ -33,7 +33,6 @@ const PATIENCE: usize = 40;
 /// let found = stickslip_tip::eigenvalues(turn).unwrap();
 /// assert!((found[0].im - 1.0).abs() < 1e-15 && (found[1].im + 1.0).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let largest = matrix.amax();
     if !matrix.is_square() || !matrix.iter().all(|entry| entry.is_finite()) {

@@ -59,7 +59,6 @@ pub(crate) fn exp_within(x: f64) -> f64 {
 }
 
 /// e^z.
-#[must_use]
 pub fn complex_exp(z: Complex<f64>) -> Complex<f64> {
     let (sin, cos) = sin_cos(z.im);
     let size = exp(z.re);

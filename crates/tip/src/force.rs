@@ -119,13 +119,11 @@ impl Force {
     }
 
     /// The pulses.
-    #[must_use]
     pub fn pulses(&self) -> &[Pulse] {
         &self.pulses
     }
 
     /// Fext(t).
-    #[must_use]
     pub fn value(&self, t: f64) -> f64 {
         let pulses = self.pulses.iter().map(|p| {
             let z = (t - p.time) / p.width;
@@ -154,7 +152,6 @@ impl Force {
     }
 
     /// The time after which the force is 0: -∞ without any force, infinite for a function of time.
-    #[must_use]
     pub fn ends(&self) -> f64 {
         let pulses = self.pulses.iter().map(Pulse::ends);
         let table = self.table.iter().map(CubicSpline::last);
@@ -163,7 +160,6 @@ impl Force {
     }
 
     /// The time before which the force is 0: infinite without any force, -∞ for a function of time.
-    #[must_use]
     pub fn begins(&self) -> f64 {
         let acting = self.pulses.iter().filter(|pulse| pulse.amplitude.abs() > 0.0);
         let pulses = acting.map(Pulse::begins);

@@ -47,7 +47,6 @@ static GAUSS: LazyLock<GaussLegendre> =
 
 /// Successive loops of a support on a path. Each ends when the support returns to its first position and moves in its
 /// first direction, or when it stops there. A support of constant velocity has no loops.
-#[must_use]
 pub fn loops(motion: &Trajectory) -> Vec<Loop> {
     let Support::Path(path) = motion.support() else { return vec![] };
     let ends = ends_of_loops(path);
@@ -63,7 +62,6 @@ pub fn loops(motion: &Trajectory) -> Vec<Loop> {
 }
 
 /// The rests of a support on a path after which it moves on, as far as the motion includes the end of the rest.
-#[must_use]
 pub fn holds(motion: &Trajectory) -> Vec<Hold> {
     let Support::Path(path) = motion.support() else { return vec![] };
     let (t, way) = path.knots();
@@ -118,7 +116,6 @@ fn peak(motion: &Trajectory, phase: Phase) -> Option<Peak> {
 }
 
 /// Work ∫ (R - x0)dR of the support between two times.
-#[must_use]
 pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
     let support = motion.support();
     let of_step = |step: &Step| {
@@ -135,7 +132,6 @@ pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
 
 /// Times after the start at which the support is at its first position again, and moves in its first direction or is
 /// at the end of its path: there a closed loop ends.
-#[must_use]
 pub fn ends_of_loops(path: &SupportPath) -> Vec<f64> {
     let (t, way) = path.knots();
     let pieces = || t.windows(2).zip(way.windows(2));

@@ -40,32 +40,27 @@ pub const STEP_NUMBERS: usize = 4 + 2 * STAGES;
 
 impl Step {
     /// Time at the end of the step.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.t + self.h
     }
 
     /// rt - x0 at the end of the step, for support velocity r.
-    #[must_use]
     pub fn extension_at_end(&self, r: f64) -> f64 {
         self.extension + (r * self.h - self.displacement[STAGES - 1])
     }
 
     /// l(t) = rt - r - x0(t) on its polynomial, for support velocity r.
-    #[must_use]
     pub fn l(&self, r: f64, t: f64) -> f64 {
         let moved = RADAU.value(&self.displacement, self.part(t));
         self.extension - r + (r * (t - self.t) - moved)
     }
 
     /// x0(t) on its polynomial.
-    #[must_use]
     pub fn x0(&self, r: f64, t: f64) -> f64 {
         r * t - r - self.l(r, t)
     }
 
     /// x0'(t) on its polynomial: one order less accurate than x0.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
         RADAU.slope(&self.displacement, self.part(t)) / self.h
     }
@@ -76,14 +71,12 @@ impl Step {
     }
 
     /// R(t) - x0(t), the extension of the spring, on its polynomial.
-    #[must_use]
     pub fn lag(&self, support: &Support, t: f64) -> f64 {
         let moved = RADAU.value(&self.displacement, self.part(t));
         self.extension + (support.advance(self.t, t - self.t) - moved)
     }
 
     /// The variable that describes the motion: l; for a support on a path the lag R - x0, without a support x0.
-    #[must_use]
     pub fn followed(&self, support: &Support, t: f64) -> f64 {
         match support {
             Support::Moving(r) => self.l(*r, t),
@@ -93,7 +86,6 @@ impl Step {
     }
 
     /// x0(t) on its polynomial, for any support.
-    #[must_use]
     pub fn position(&self, support: &Support, t: f64) -> f64 {
         match support {
             Support::Moving(r) => self.x0(*r, t),
@@ -102,13 +94,11 @@ impl Step {
     }
 
     /// The height under the tip at t, on its polynomial, with a depth limit.
-    #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {
         self.height.map(|height| height.at(self.part(t)))
     }
 
     /// All data of the step: t, h, extension, displacements and heights.
-    #[must_use]
     pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
         let mut numbers = [f64::NAN; STEP_NUMBERS];
         numbers[..3].copy_from_slice(&[self.t, self.h, self.extension]);
@@ -122,7 +112,6 @@ impl Step {
     }
 
     /// Whether the step is valid: its duration is finite and above 0, and all its numbers are finite.
-    #[must_use]
     pub fn is_sound(&self) -> bool {
         let heights = self.height.into_iter().flat_map(|h| h.nodes.into_iter().chain([h.start]));
         let numbers = [self.t, self.h, self.extension].into_iter().chain(self.displacement);
@@ -130,7 +119,6 @@ impl Step {
     }
 
     /// A step from its [`numbers`](Self::numbers).
-    #[must_use]
     pub fn from_numbers([t, h, extension, rest @ ..]: [f64; STEP_NUMBERS]) -> Self {
         let displacement = std::array::from_fn(|i| rest[i]);
         let nodes = std::array::from_fn(|i| rest[1 + STAGES + i]);
@@ -194,7 +182,6 @@ enum At {
 
 impl Moment {
     /// What has its value at the nodes in `stages` and is 0 at the start of the step, at this moment.
-    #[must_use]
     pub fn value(&self, stages: &Stages) -> f64 {
         match self.at {
             At::Node(i) => stages[i],
@@ -205,13 +192,11 @@ impl Moment {
 
 impl Heights {
     /// The heights at the fraction τ of the step.
-    #[must_use]
     pub fn at(&self, tau: f64) -> f64 {
         self.start + RADAU.value(&self.rise(), tau)
     }
 
     /// Increase of the height since the start of the step, at the nodes.
-    #[must_use]
     pub fn rise(&self) -> Stages {
         self.nodes.map(|height| height - self.start)
     }
@@ -250,62 +235,52 @@ impl<S: AsRef<Step>> Trajectory<S> {
     ///
     /// # Panics
     /// If there are no steps.
-    #[must_use]
     pub fn under(wider: Wider, support: Support, steps: Vec<S>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
         Self { support, wider, steps }
     }
 
     /// The motion of the support.
-    #[must_use]
     pub fn support(&self) -> &Support {
         &self.support
     }
 
     /// Parameters of the extended model.
-    #[must_use]
     pub fn wider(&self) -> &Wider {
         &self.wider
     }
 
     /// The steps, in order.
-    #[must_use]
     pub fn steps(&self) -> &[S] {
         &self.steps
     }
 
     /// Start time.
-    #[must_use]
     pub fn start(&self) -> f64 {
         self.steps[0].as_ref().t
     }
 
     /// End time.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.steps[self.steps.len() - 1].as_ref().end()
     }
 
     /// R(t) - x0(t).
-    #[must_use]
     pub fn lag(&self, t: f64) -> f64 {
         self.step_at(t).as_ref().lag(&self.support, t)
     }
 
     /// x0(t).
-    #[must_use]
     pub fn x0(&self, t: f64) -> f64 {
         self.step_at(t).as_ref().position(&self.support, t)
     }
 
     /// The height of the surface under the tip, where there is a depth limit.
-    #[must_use]
     pub fn height(&self, t: f64) -> Option<f64> {
         self.step_at(t).as_ref().height(t)
     }
 
     /// The step that contains t; before the first and after the last, that one.
-    #[must_use]
     pub fn step_at(&self, t: f64) -> &S {
         let after = self.steps.partition_point(|step| step.as_ref().t <= t);
         &self.steps[after.max(1) - 1]
@@ -317,38 +292,32 @@ impl Trajectory {
     ///
     /// # Panics
     /// If there are no steps.
-    #[must_use]
     pub fn new(r: f64, steps: Vec<Step>) -> Self {
         Self::under(Wider::default(), Support::Moving(r), steps)
     }
 
     /// Velocity of the support at the start.
-    #[must_use]
     pub fn r(&self) -> f64 {
         self.support.velocity(self.start())
     }
 
     /// l(t) = rt - r - x0(t). Outside of the run, the polynomial of the first or last step.
-    #[must_use]
     pub fn l(&self, t: f64) -> f64 {
         self.step_at(t).l(self.r(), t)
     }
 
     /// As [`Step::followed`].
-    #[must_use]
     pub fn followed(&self, t: f64) -> f64 {
         self.step_at(t).followed(&self.support, t)
     }
 
     /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
         self.step_at(t).velocity(t)
     }
 
     /// Where the tip was until time t, and for how long: positions and weights such that
     /// ∫_{start}^t w(t') e^{-(t-t')/T} g(x0(t'))dt' = Σ `w_j` g(`x_j`), with w and T of the wider law.
-    #[must_use]
     pub fn residence(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
@@ -365,7 +334,6 @@ impl Trajectory {
     /// ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor. Behind a
     /// support of velocity r the surface is then -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt',
     /// with R at the time of the surface in the first factor. Where nothing heals, all factors are 1.
-    #[must_use]
     pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
         let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);

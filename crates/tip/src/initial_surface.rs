@@ -31,19 +31,16 @@ pub(crate) struct Stretch {
 
 impl InitialSurface {
     /// u0 = 0.
-    #[must_use]
     pub fn flat() -> Self {
         Self::default()
     }
 
     /// The groove of a tip in steady motion, now at `position`.
-    #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         Self::flat().with(Relief::steady(model, position))
     }
 
     /// Whether u0 = 0 everywhere.
-    #[must_use]
     pub fn is_flat(&self) -> bool {
         self.reliefs.is_empty()
     }
@@ -70,7 +67,6 @@ impl InitialSurface {
     }
 
     /// u0(x).
-    #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         let carved = |relief: &&Relief| relief.steady_position().is_some();
         let carved = self.reliefs.iter().filter(carved).fold(0.0, |sum, r| sum + r.height(x));
@@ -78,26 +74,22 @@ impl InitialSurface {
     }
 
     /// The part of u0(x) that no tip has carved: the given profile and the noise.
-    #[must_use]
     pub fn texture(&self, x: f64) -> f64 {
         let texture = |relief: &&Relief| relief.steady_position().is_none();
         self.reliefs.iter().filter(texture).fold(0.0, |sum, r| sum + r.height(x))
     }
 
     /// The end of the given profile and the noise, if there are any.
-    #[must_use]
     pub fn texture_ends(&self) -> Option<f64> {
         self.reliefs.iter().filter_map(Relief::end).reduce(f64::max)
     }
 
     /// Position of the tip whose groove in steady motion, (24), is part of u0.
-    #[must_use]
     pub fn steady_position(&self) -> Option<f64> {
         self.reliefs.iter().find_map(Relief::steady_position)
     }
 
     /// u0'(x) and u0''(x).
-    #[must_use]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         sum(self.reliefs.iter().map(|relief| relief.slope_and_curvature(x)))
     }

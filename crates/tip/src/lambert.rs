@@ -5,7 +5,6 @@ use crate::elementary::ln;
 /// W(c) e^{W(c)} = c, the branch W ≥ 0 for c ≥ 0.
 ///
 /// Newton's iteration for W + ln W = ln c, which is concave and increasing: from below it never overshoots.
-#[must_use]
 pub(crate) fn w0(c: f64) -> f64 {
     if c <= 0.0 {
         return 0.0;

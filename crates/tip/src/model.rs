@@ -70,37 +70,31 @@ impl Model {
     }
 
     /// The same model for a tip that moves to smaller x, in the frame of its motion: with the footprint f(-x).
-    #[must_use]
     pub fn mirrored(&self) -> Self {
         Self { tip: self.tip.mirrored(), ..self.clone() }
     }
 
     /// The footprint f.
-    #[must_use]
     pub fn tip(&self) -> &TipFunction {
         &self.tip
     }
 
     /// Dimensionless indentation rate α (13).
-    #[must_use]
     pub fn alpha(&self) -> f64 {
         self.alpha
     }
 
     /// Dimensionless support velocity r (12).
-    #[must_use]
     pub fn r(&self) -> f64 {
         self.r
     }
 
     /// Terms of the extended model.
-    #[must_use]
     pub fn wider(&self) -> &Wider {
         &self.wider
     }
 
     /// Decay rate s = 1/(rT), per unit length, of the groove of steady motion behind the tip; 0 without healing.
-    #[must_use]
     pub fn fading(&self) -> f64 {
         self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
     }
@@ -109,7 +103,6 @@ impl Model {
     ///
     /// With b of (61) the height under the tip is h0 = -(α w0/r)φ, φ = ∫_0^∞ f(y) e^{-sy}dy, and
     /// w0 = e^{-|h0|/b}, so that w0 = W(c)/c with c = α|φ|/(rb) and Lambert's W.
-    #[must_use]
     pub fn steady_weight(&self) -> f64 {
         let Some(limit) = self.wider.depth_limit else { return 1.0 };
         let depth = self.tip.fading_tail(0.0, self.fading()).abs();
@@ -118,20 +111,17 @@ impl Model {
     }
 
     /// Height h0 of the surface under a tip in steady motion.
-    #[must_use]
     pub fn steady_height(&self) -> f64 {
         0.0 - self.steady_density() * self.tip.fading_tail(0.0, self.fading())
     }
 
     /// Indentation α w0/r per unit length of the path in steady motion.
-    #[must_use]
     pub fn steady_density(&self) -> f64 {
         self.alpha * self.steady_weight() / self.r
     }
 
     /// Value l0 of l = rt - r - x0 in steady motion: α f(0)/r. Equation (21) has α/r, which requires f(0) = 1. In the
     /// extended model it is (α w0/r)(f(0) - sφ), with the φ of [`steady_weight`](Self::steady_weight).
-    #[must_use]
     pub fn steady_l(&self) -> f64 {
         let apex = self.tip.value(0.0);
         match self.wider.healing_time {
@@ -144,13 +134,11 @@ impl Model {
     }
 
     /// Lag r + l0 of the tip behind the support in steady motion, (23).
-    #[must_use]
     pub fn steady_lag(&self) -> f64 {
         self.r + self.steady_l()
     }
 
     /// Height of the surface far behind a tip in steady motion, (25); 0 if the surface heals.
-    #[must_use]
     pub fn steady_surface_behind(&self) -> f64 {
         if self.wider.healing_time.is_some() {
             return 0.0;

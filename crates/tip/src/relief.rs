@@ -83,7 +83,6 @@ impl Piece {
 impl Relief {
     /// The profile -(α/r) ∫_{x-X}^∞ f, (24), for a tip at `position` X; in the extended model -(α w0/r) ∫_0^∞
     /// f(x-X+y) e^{-sy}dy, s = 1/(rT).
-    #[must_use]
     pub fn steady(model: &Model, position: f64) -> Self {
         let tip = model.tip().clone();
         let reach = tip.reach().unwrap_or(f64::INFINITY);
@@ -105,7 +104,6 @@ impl Relief {
     }
 
     /// Noise on grid points `from`, `from` + spacing, … up to `to`.
-    #[must_use]
     pub fn noise(noise: Noise, from: f64, to: f64) -> Self {
         let points = noise_points(noise, from, to);
         let u = noise_heights(noise, points, 0);
@@ -117,20 +115,17 @@ impl Relief {
     /// A height and its slope as fields on one lattice, and 0 beyond their ends, where both must have decayed: the
     /// groove of other scans of a tip. With `along` = (X, mirrored) the relief at x is the field at X + x, or at X -
     /// x if it is mirrored.
-    #[must_use]
     pub fn on_lattice(heights: Field, slopes: Field, along: (f64, bool)) -> Self {
         Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }
 
     /// A height that is known by power series: the groove of earlier lines. `along` is as in
     /// [`on_lattice`](Self::on_lattice).
-    #[must_use]
     pub fn expanded(ground: Arc<dyn Ground>, along: (f64, bool)) -> Self {
         Self(Shape::Expanded(Expanded::new(ground, along)))
     }
 
     /// Height at x.
-    #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         match &self.0 {
             Shape::SteadyPast(past) => past.height(x),
@@ -153,7 +148,6 @@ impl Relief {
     }
 
     /// Slope and curvature at x.
-    #[must_use]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         self.slope_and_curvature_on(self.piece(x, true, 0.0).index, x)
     }
@@ -197,7 +191,6 @@ impl Relief {
     }
 
     /// Position of the tip in steady motion that carved the profile; `None` for other reliefs.
-    #[must_use]
     pub fn steady_position(&self) -> Option<f64> {
         match &self.0 {
             Shape::SteadyPast(past) => Some(past.position),

@@ -52,19 +52,16 @@ const LARGEST_WHOLE: u64 = 1 << 61;
 
 impl State {
     /// A state from words of another source.
-    #[must_use]
     pub fn from_words(words: Vec<u64>) -> Self {
         Self { words }
     }
 
     /// The words.
-    #[must_use]
     pub fn words(&self) -> &[u64] {
         &self.words
     }
 
     /// A reader at the beginning of the state.
-    #[must_use]
     pub fn reader(&self) -> Reader<'_> {
         Reader { words: &self.words }
     }

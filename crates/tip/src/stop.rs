@@ -36,13 +36,11 @@ pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T 
 }
 
 /// The flag of this thread, to be shared with other threads that take part in its computation.
-#[must_use]
 pub fn flag() -> Option<Arc<AtomicBool>> {
     FLAG.with_borrow(Clone::clone)
 }
 
 /// Whether the computation on this thread is to end.
-#[must_use]
 pub fn is_asked() -> bool {
     FLAG.with_borrow(|flag| flag.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
 }

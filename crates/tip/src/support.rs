@@ -64,13 +64,11 @@ impl SupportPath {
     }
 
     /// The last time of the path.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.t[self.t.len() - 1]
     }
 
     /// Knots: times, and displacements from the start.
-    #[must_use]
     pub fn knots(&self) -> (&[f64], &[f64]) {
         (&self.t, &self.displacement)
     }
@@ -93,7 +91,6 @@ impl SupportPath {
 
 impl Support {
     /// Position R(t).
-    #[must_use]
     pub fn position(&self, t: f64) -> f64 {
         match self {
             Self::Moving(r) => r * t,
@@ -103,7 +100,6 @@ impl Support {
     }
 
     /// Advance R(t + dt) - R(t), for dt ≥ 0 within the piece that contains t or begins there.
-    #[must_use]
     pub fn advance(&self, t: f64, dt: f64) -> f64 {
         match self {
             Self::Moving(r) => r * dt,
@@ -113,7 +109,6 @@ impl Support {
     }
 
     /// Velocity R'(t); at a knot, that after it.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> f64 {
         match self {
             Self::Moving(r) => *r,

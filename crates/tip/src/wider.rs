@@ -87,32 +87,27 @@ impl Wider {
     }
 
     /// Whether the tip is resonant: for M > 1/2 it swings back after a slip by its spring alone.
-    #[must_use]
     pub fn swings_back(&self) -> bool {
         self.inertia.is_some_and(|mass| mass > 0.5)
     }
 
     /// Whether the model allows permanent trapping: not with a depth limit, which slows the growth of the groove ever
     /// more, and not with healing, which removes the groove.
-    #[must_use]
     pub fn traps(&self) -> bool {
         self.depth_limit.is_none() && self.healing_time.is_none()
     }
 
     /// Whether it is the basic model.
-    #[must_use]
     pub fn is_papers(&self) -> bool {
         *self == Self::default()
     }
 
     /// Weight w of (61) at the height h under the tip.
-    #[must_use]
     pub fn weight(&self, height: f64) -> f64 {
         self.depth_limit.map_or(1.0, |limit| exp(-height.abs() / limit))
     }
 
     /// Undecayed part e^{-time/T} of an indentation after this time.
-    #[must_use]
     pub fn left_after(&self, time: f64) -> f64 {
         self.healing_time.map_or(1.0, |healing| exp(-time / healing))
     }

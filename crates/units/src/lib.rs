@@ -108,13 +108,11 @@ impl Physical {
     }
 
     /// r, (12).
-    #[must_use]
     pub fn r(&self) -> f64 {
         self.damping * self.velocity / (self.stiffness * self.tip_width)
     }
 
     /// α, (13).
-    #[must_use]
     pub fn alpha(&self) -> f64 {
         self.damping * self.indentation_rate * self.slope_force
             / (self.tip_width * self.stiffness).powi(2)
@@ -129,14 +127,12 @@ impl Physical {
     }
 
     /// Steady lag D of the tip behind the support in m, (23). The paper's Na/v0 is N a f(0)/v0 if f(0) is not 1.
-    #[must_use]
     pub fn lag(&self, tip: &TipFunction) -> f64 {
         let groove = self.indentation_rate * self.slope_force * tip.value(0.0) / self.velocity;
         (self.damping * self.velocity + groove) / self.stiffness
     }
 
     /// SI values of the model's units.
-    #[must_use]
     pub fn scales(&self) -> Scales {
         Scales {
             length: self.tip_width,
@@ -165,7 +161,6 @@ impl Physical {
     }
 
     /// The inverse: N and v0 that give α and r, with Γ, k, σ and a unchanged.
-    #[must_use]
     pub fn with_alpha_r(&self, alpha: f64, r: f64) -> Self {
         let stiffness_length = self.stiffness * self.tip_width;
         Self {

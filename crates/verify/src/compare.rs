@@ -29,7 +29,6 @@ pub struct Difference {
 
 impl Difference {
     /// Whether the difference is within its limit; a NaN is not.
-    #[must_use]
     pub fn is_allowed(&self) -> bool {
         self.largest <= self.allowed
     }

@@ -73,7 +73,6 @@ pub enum VerificationError {
 
 impl Verification {
     /// Whether all differences are within their limits.
-    #[must_use]
     pub fn is_kept(&self) -> bool {
         let mut others = [self.y, self.u].into_iter().flatten();
         self.l.is_allowed() && others.all(|one| one.is_allowed())

@@ -60,7 +60,6 @@ impl Tip {
     }
 
     /// Columns t, l, x0', lag R - x0, x0 and y0 at the default times of the program, one column after the other.
-    #[must_use]
     pub fn samples(&self) -> Vec<f64> {
         self.0.columns()
     }
@@ -74,13 +73,11 @@ impl Tip {
     }
 
     /// The position x0 of the tip, the position of the support, and y0, at time t.
-    #[must_use]
     pub fn positions(&self, t: f64) -> Vec<f64> {
         self.0.positions(t).to_vec()
     }
 
     /// The time at which a run was cut off because it took too long; `None` for a complete run.
-    #[must_use]
     pub fn cut_off(&self) -> Option<f64> {
         self.0.cut_off()
     }

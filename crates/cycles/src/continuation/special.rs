@@ -41,7 +41,6 @@ impl Special {
     }
 
     /// The value of the parameter at this point.
-    #[must_use]
     pub fn parameter(&self, which: Parameter) -> f64 {
         match which {
             Parameter::Alpha => self.alpha,

@@ -127,7 +127,6 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
 
 /// Whether two numbers are the ends of a valid axis: below 1e100, and apart by at least 1e-12 of the larger and by
 /// 1e-100.
-#[must_use]
 pub fn can_be_drawn(range: [f64; 2]) -> bool {
     is_range(range)
 }

@@ -21,7 +21,6 @@ impl<'a> PlaneStart<'a> {
     }
 
     /// A flat surface.
-    #[must_use]
     pub fn flat(time: f64, position: [f64; 2]) -> Self {
         Self::new(time, position, |_| [0.0; 3])
     }
@@ -32,7 +31,6 @@ impl<'a> PlaneStart<'a> {
     ///
     /// with w0 the weight at this depth. The spring is stretched by r and the slope under the tip; the start is at the
     /// time at which R = rt is there, or at 0 on a path.
-    #[must_use]
     pub fn steady(
         wider: &Wider,
         (alpha, r): (f64, f64),
@@ -73,19 +71,16 @@ impl<'a> PlaneStart<'a> {
     }
 
     /// t1
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
     /// x0 and y0 at t1.
-    #[must_use]
     pub fn position(&self) -> [f64; 2] {
         self.position
     }
 
     /// u0 and its derivatives in x and y.
-    #[must_use]
     pub fn surface(&self, at: [f64; 2]) -> [f64; 3] {
         (self.surface)(at)
     }

@@ -18,7 +18,6 @@ pub struct Track {
 
 impl Track {
     /// Rows without averaging.
-    #[must_use]
     pub fn new(x: Vec<f64>, y: Vec<f64>, gain: Option<f64>) -> Self {
         Self { x, y, gain, averaged: 1 }
     }

@@ -76,7 +76,6 @@ pub struct Values([Option<f64>; 9]);
 
 impl Values {
     /// The value of a parameter.
-    #[must_use]
     pub fn get(&self, name: Name) -> Option<f64> {
         self.0[name as usize]
     }

@@ -33,7 +33,6 @@ pub struct Judged {
 
 impl Judged {
     /// Whether the residual of the model is compatible with chance.
-    #[must_use]
     pub fn is_explained(&self) -> bool {
         let above = |p: Option<f64>, least: f64| p.is_none_or(|p| p >= least);
         !self.irregular

@@ -22,7 +22,6 @@ const NOISE: [f64; 2] = [1e-2, 3.0];
 const ALTERNATING: f64 = -0.3;
 
 /// Whether the scan lines seem to lie along y, as in a transposed image.
-#[must_use]
 pub fn has_lines_along_y(image: &Image) -> bool {
     let rows = image.rows();
     let (count, length) = (rows.len() as f64, image.x().len() as f64);

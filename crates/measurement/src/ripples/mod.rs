@@ -55,7 +55,6 @@ pub struct RippleRequest {
 
 impl RippleRequest {
     /// Ripples of a rigid tip with this footprint and σ, on lines of this distance, with nothing else known.
-    #[must_use]
     pub fn new(footprint: Footprint, sigma: f64, pitch: f64) -> Self {
         Self {
             footprint,
@@ -190,13 +189,11 @@ impl Ripples {
     }
 
     /// Whether the model explains the ripples.
-    #[must_use]
     pub fn is_explained(&self) -> bool {
         self.misfit >= Self::LEAST_MISFIT && self.modulation <= Self::MOST_MODULATION
     }
 
     /// Warnings about the result.
-    #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];
         if let Some([[left, right], [low, high]]) = self.part {

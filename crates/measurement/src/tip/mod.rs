@@ -286,7 +286,6 @@ impl MeasuredTip {
 
     /// Relative difference of the widths of the two sides of the profile, that at larger positions minus the other; `None`
     /// if it is within the noise, or if the profile has one side only.
-    #[must_use]
     pub fn asymmetry(&self) -> Option<f64> {
         if self.is_one_sided() { None } else { lopsided::asymmetry(self) }
     }
@@ -299,7 +298,6 @@ impl MeasuredTip {
     }
 
     /// Warnings about the result.
-    #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![];
         if self.outside() > OUTSIDE * self.sigma.value {

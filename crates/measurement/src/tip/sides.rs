@@ -71,7 +71,6 @@ fn nothing() -> TipError {
 
 impl Sides {
     /// The difference of the thresholds of both directions, relative to their mean: hidden by an even fit.
-    #[must_use]
     pub fn asymmetry(&self) -> f64 {
         let [forward, backward] = [&self.forward, &self.backward].map(|t| t.critical_alpha.value);
         2.0 * (forward - backward) / (forward + backward)
@@ -82,7 +81,6 @@ impl Sides {
     ///
     /// The halves meet with different curvatures, which no smooth function has. For Gaussian sides whose widths differ by a
     /// factor of 1.6 the thresholds of its halves are those of the sides to 5e-4.
-    #[must_use]
     pub fn footprint(&self) -> Option<Vec<Gaussian>> {
         let halves = [&self.forward.gaussians, &self.backward.gaussians];
         let all = || halves.into_iter().flatten();
@@ -121,7 +119,6 @@ impl Sides {
     }
 
     /// Warnings about the result.
-    #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let [forward, backward] = [&self.forward, &self.backward];
         let apart = (forward.apex - backward.apex).abs();

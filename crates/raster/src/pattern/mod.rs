@@ -136,7 +136,6 @@ const SAME_LAG: f64 = 0.02;
 /// The evaluated window is the last half of the lines (at most 256, without those that later lines would still
 /// change), from 20 % to 85 % of their length. The pattern is the strongest maximum of the power spectrum in this
 /// window (Hann).
-#[must_use]
 pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
     let mut doubts = vec![];
     let all = lines.iter().filter(|line| is_stuck(line)).count();
@@ -179,7 +178,6 @@ pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
 }
 
 /// The regime of one line.
-#[must_use]
 pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
     if is_stuck(line) {
         return LineRegime::StuckAtTheEdge;

@@ -26,7 +26,6 @@ struct At {
 impl Raster {
     /// By how much another pass over the same line changes a ripple e^{iqx} of the groove at a given α in the basic model:
     /// 1 + C/D. It grows from pass to pass where this is larger than 1 in modulus.
-    #[must_use]
     pub fn repeat_gain(&self, alpha: f64, q: f64) -> Complex64 {
         let ratio = alpha / self.r;
         let [.., g] = self.waves.jets(Complex64::new(0.0, q));
@@ -37,7 +36,6 @@ impl Raster {
 
     /// The z with A_n ∝ zⁿ at a given α and q of a one-way raster that is largest in modulus, by the first lines of
     /// the recurrence until it settles; the growth from line to line. Where the tip gives way across, of both coordinates.
-    #[must_use]
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
         if self.terms.across.is_some() {
             return settled_in_plane(&self.answers_in_plane(alpha, q));
@@ -46,7 +44,6 @@ impl Raster {
     }
 
     /// c_j, j = 1, 2, …: what deviates of the density that a line leaves is Σ c_j of what deviated of that j lines before.
-    #[must_use]
     pub fn answers(&self, alpha: f64, q: f64) -> Vec<Complex64> {
         let a = self.density(alpha);
         let at = self.at(q);
@@ -62,7 +59,6 @@ impl Raster {
 
     /// Matrices M_j, j = 1, 2, …, with (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} on one-way lines: deviations along, of the weight
     /// (0 without a depth limit) and across, e^{iqx} each, of a tip that gives way across; none where it does not.
-    #[must_use]
     pub fn answers_in_plane(&self, alpha: f64, q: f64) -> Vec<Matrix> {
         let Some(Sideways { stiffness, beside: [tilt, bend] }) = self.terms.across else {
             return vec![];

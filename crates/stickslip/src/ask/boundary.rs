@@ -331,7 +331,6 @@ pub struct BranchDocument {
 
 impl OnsetColumns {
     /// Columns of null for the given number of points.
-    #[must_use]
     pub fn unknown(points: usize) -> Self {
         Self {
             criticality: vec![None; points],

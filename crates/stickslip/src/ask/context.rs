@@ -19,7 +19,6 @@ type Progress = dyn Fn(Option<f64>, &str) + Send + Sync;
 
 impl Context {
     /// A context without progress reports; the work ends early once `cancel` is set.
-    #[must_use]
     pub fn cancelled_by(cancel: Arc<AtomicBool>) -> Self {
         Self { cancel, ..Self::default() }
     }

@@ -55,7 +55,6 @@ impl RunForces {
     }
 
     /// All samples: one way of a loop.
-    #[must_use]
     pub fn way(&self) -> ForceTrack {
         self.rows.clone()
     }

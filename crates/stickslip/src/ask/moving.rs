@@ -24,7 +24,6 @@ pub trait Moved: Copy + AsRef<Step> {
     fn history(whole: &Trajectory<Self>) -> History;
 
     /// The answer with the loops and the rests of a support that follows a path.
-    #[must_use]
     fn along_path(found: RunFound, _whole: &Trajectory<Self>) -> RunFound {
         found
     }

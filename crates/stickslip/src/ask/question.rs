@@ -193,13 +193,11 @@ const SAME: f64 = 1e-9;
 
 impl Indentation {
     /// An indentation rate given as α.
-    #[must_use]
     pub fn given(alpha: f64) -> Self {
         Self { alpha: Some(alpha), alpha_above: None }
     }
 
     /// An indentation rate given as αc(r) + D.
-    #[must_use]
     pub fn above_critical(distance: f64) -> Self {
         Self { alpha: None, alpha_above: Some(distance) }
     }

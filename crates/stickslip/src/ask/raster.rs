@@ -130,7 +130,6 @@ pub struct AreaDocument {
 
 impl AreaDocument {
     /// The document of these lines.
-    #[must_use]
     pub fn of(lines: &[AreaLine]) -> Self {
         let column = |of: fn(&AreaLine) -> f64| lines.iter().map(of).collect();
         Self {

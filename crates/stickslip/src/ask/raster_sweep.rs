@@ -136,13 +136,11 @@ impl Points for RasterSweep {
 
 impl RasterSweep {
     /// The part in this document; by default the whole.
-    #[must_use]
     pub fn part(&self) -> ShardDocument {
         self.shard.unwrap_or(ShardDocument::WHOLE)
     }
 
     /// Number of points of the whole grid.
-    #[must_use]
     pub fn points(&self) -> usize {
         self.pitch.len().saturating_mul(self.alpha.len())
     }

@@ -96,7 +96,6 @@ impl Units {
     }
 
     /// The quantities left out, of six.
-    #[must_use]
     pub fn left_out(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }

@@ -131,7 +131,6 @@ pub struct WalkDocument {
 
 impl WalkDocument {
     /// The stability in words.
-    #[must_use]
     pub fn stability(&self) -> &'static str {
         match self.stable {
             Some(true) => "stable",

@@ -80,7 +80,6 @@ parameters! {
 }
 
 /// The JSON Schema of the document with this name, as text.
-#[must_use]
 pub fn schema(name: &str) -> Option<&'static str> {
     SCHEMAS.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
@@ -91,7 +90,6 @@ type Derived = (&'static str, fn() -> Schema);
 
 /// The schemas that the types have now, each with the name of its file in the folder `schemas` of this crate.
 #[cfg(feature = "schema")]
-#[must_use]
 pub fn derived() -> Vec<(String, Schema)> {
     let of = |folder: &'static str, all: &'static [Derived]| {
         all.iter().map(move |(name, schema)| (format!("{folder}/{name}.json"), schema()))

@@ -78,7 +78,6 @@ pub struct SweepParameters {
 
 impl SweepParameters {
     /// The extensions of the basic model.
-    #[must_use]
     pub fn wider(&self) -> Wider {
         self.law.into()
     }

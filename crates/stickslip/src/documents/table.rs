@@ -37,13 +37,11 @@ impl<'a, T> Rows<'a, T> {
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
 
     /// The value in a row.
-    #[must_use]
     pub fn at(&self, row: usize) -> T {
         (self.at)(row)
     }

@@ -44,7 +44,6 @@ impl Formatter for Harmless {
 }
 
 /// Whether a character is a control, a mark of direction or of separation, or has no width.
-#[must_use]
 pub fn is_harmful(c: char) -> bool {
     let is_invisible = matches!(c,
         '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');

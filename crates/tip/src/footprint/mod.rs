@@ -61,32 +61,27 @@ pub struct Footprint {
 
 impl Across {
     /// exp(-y²/(2 `width`²)).
-    #[must_use]
     pub fn central(width: f64) -> Self {
         Self { center: 0.0, width }
     }
 
     /// h(y).
-    #[must_use]
     pub fn value(&self, y: f64) -> f64 {
         self.offsets(y).map(|z| exp(-0.5 * z * z)).sum()
     }
 
     /// h''(0).
-    #[must_use]
     pub fn curvature_at_0(&self) -> f64 {
         let term = |z: f64| (z * z - 1.0) * exp(-0.5 * z * z);
         self.offsets(0.0).map(term).sum::<f64>() / (self.width * self.width)
     }
 
     /// ∫ h dy
-    #[must_use]
     pub fn integral(&self) -> f64 {
         self.fourier(0.0)
     }
 
     /// ∫ h cos(ky) dy
-    #[must_use]
     pub fn fourier(&self, k: f64) -> f64 {
         let wave = |z: f64| cos(k * self.width * z);
         let bell = self.width * (2.0 * PI).sqrt() * exp(-0.5 * (k * self.width).powi(2));
@@ -153,44 +148,37 @@ impl Footprint {
     }
 
     /// Whether f(-x,y) = f(x,y).
-    #[must_use]
     pub fn is_even(&self) -> bool {
         self.layers.iter().all(|layer| layer.along.is_even())
     }
 
     /// f(-x,y): the footprint of a tip that moves to smaller x, in the frame of its motion.
-    #[must_use]
     pub fn mirrored(&self) -> Self {
         let mirrored = |layer: &Layer| Layer { along: layer.along.mirrored(), ..layer.clone() };
         Self { layers: self.layers.iter().map(mirrored).collect(), path: self.path.mirrored() }
     }
 
     /// The layers.
-    #[must_use]
     pub fn layers(&self) -> &[Layer] {
         &self.layers
     }
 
     /// The section f(x,0), on which alone the motion depends.
-    #[must_use]
     pub fn path(&self) -> &TipFunction {
         &self.path
     }
 
     /// f(x,y).
-    #[must_use]
     pub fn value(&self, x: f64, y: f64) -> f64 {
         self.layers.iter().map(|layer| layer.along.value(x) * layer.across.value(y)).sum()
     }
 
     /// ∫∫ f dx dy: the rate of volume loss of the surface, per α.
-    #[must_use]
     pub fn integral(&self) -> f64 {
         self.layers.iter().map(|layer| layer.along.integral() * layer.across.integral()).sum()
     }
 
     /// `f_yy(x,0)`: if it is positive, the groove may push the tip off its line.
-    #[must_use]
     pub fn curvature_across(&self, x: f64) -> f64 {
         let layer = |layer: &Layer| layer.along.value(x) * layer.across.curvature_at_0();
         self.layers.iter().map(layer).sum()
@@ -198,7 +186,6 @@ impl Footprint {
 
     /// `f_yy(x,0)` as a function of x, for Gaussian layers; `None` if it is 0 for all x, or if a layer is not
     /// Gaussian.
-    #[must_use]
     pub fn curvature_across_path(&self) -> Option<TipFunction> {
         let is_gaussian = |layer: &Layer| matches!(layer.along, TipFunction::Gaussians(_));
         if !self.layers.iter().all(is_gaussian) {
@@ -216,7 +203,6 @@ impl Footprint {
     /// where Re S is half the Fourier transform of the even `f_yy`. So no μ with Re μ ≥ 0 exists if k'/k is above
     /// (α/2r) `max_q` [Ŝ(0) - Ŝ(q)], the maximum over all q including infinity. `depth` is α/r. A footprint that is not even
     /// in x has no bound unless `f_yy` ≤ 0 ahead of the tip.
-    #[must_use]
     pub fn transverse_stiffness_needed(&self, depth: f64) -> f64 {
         if !self.is_even() {
             let reach =

@@ -165,25 +165,21 @@ impl<'a> Integrator<'a> {
     }
 
     /// Time reached.
-    #[must_use]
     pub fn t(&self) -> f64 {
         self.t
     }
 
     /// The present l = rt - r - x0.
-    #[must_use]
     pub fn l(&self) -> f64 {
         self.extension - self.model.r()
     }
 
     /// Numbers of steps, iterations and series so far.
-    #[must_use]
     pub fn work(&self) -> Work {
         self.work
     }
 
     /// The memory in use.
-    #[must_use]
     pub fn memory(&self) -> &Policy {
         &self.memory
     }

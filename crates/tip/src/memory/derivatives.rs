@@ -53,7 +53,6 @@ impl SteadyPast {
 
 impl Derivatives {
     /// No past.
-    #[must_use]
     pub fn nothing() -> Self {
         let (of_tip, past, farthest) = ([0.0; ROOM], [0.0; ROOM], f64::NEG_INFINITY);
         Self { of_tip, past, farthest, retreat: 0.0, room: vec![] }

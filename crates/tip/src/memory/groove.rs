@@ -42,7 +42,6 @@ impl<'a> Groove<'a> {
 
 /// Largest distance from the tip, ahead or behind, at which a memory evaluates the groove: 4.6 widths of a Gaussian.
 /// The integrator rejects steps that would lead further.
-#[must_use]
 pub fn longest_look(tip: &TipFunction) -> f64 {
     (40.0 / tip.band()).min(12.0)
 }

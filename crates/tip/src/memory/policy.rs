@@ -65,14 +65,12 @@ impl Policy {
     }
 
     /// The definition, `direct`.
-    #[must_use]
     pub fn direct(tip: TipFunction) -> Self {
         let record = Some(Record::whole(&tip));
         Self::of(MemoryChoice::Direct, tip, (record, Now::Direct))
     }
 
     /// The convolution, `fft`.
-    #[must_use]
     pub fn fft(tip: TipFunction) -> Self {
         let sum = with_fft(&tip, std::iter::empty(), None);
         Self::of(MemoryChoice::Fft, tip, sum)
@@ -95,7 +93,6 @@ impl Policy {
     }
 
     /// The memory in use, and the reason for it.
-    #[must_use]
     pub fn report(&self) -> MemoryReport {
         let sum = match &self.now {
             Now::Direct => Sum::Direct,
@@ -111,7 +108,6 @@ impl Policy {
 
     /// Distance behind the farthest point within which the past is kept, if the tip has returned to positions beyond
     /// it: the motion since then is not reliable. `None` otherwise.
-    #[must_use]
     pub fn forgotten(&self) -> Option<f64> {
         match &self.now {
             Now::Fft(fft, _) => fft.forgotten(),

@@ -37,7 +37,6 @@ pub enum Sum {
 
 impl MemoryReport {
     /// Name of the memory on the command line and in documents.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self.sum {
             Sum::Direct => "direct",
@@ -47,7 +46,6 @@ impl MemoryReport {
     }
 
     /// Reason for the memory, and its errors.
-    #[must_use]
     pub fn reason(&self) -> String {
         let why = if self.choice == MemoryChoice::Auto {
             self.crossover()

@@ -30,7 +30,6 @@ const CYCLES: usize = 3;
 
 impl Oscillation {
     /// The cycle with the fewest maxima that is repeated at the end of the trajectory, if there is one.
-    #[must_use]
     pub fn of(trajectory: &Trajectory, latest_first: &[Extremum]) -> Option<Self> {
         (1..=MOST_SLIPS).find_map(|slips| {
             let compared = maxima(latest_first).get(..CYCLES * slips + 1)?.to_vec();
@@ -45,7 +44,6 @@ impl Oscillation {
 
     /// The last interval between maxima that contains a period of `slips` maxima, whether or not the motion is
     /// periodic.
-    #[must_use]
     pub fn with_slips(
         trajectory: &Trajectory,
         latest_first: &[Extremum],

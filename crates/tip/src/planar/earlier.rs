@@ -69,7 +69,6 @@ pub struct EarlierGrooves {
 
 impl RowLattice {
     /// The rows for a footprint.
-    #[must_use]
     pub fn of(footprint: &Footprint) -> Self {
         Self::for_widths(footprint.layers().iter().map(|layer| layer.across.width))
     }
@@ -81,27 +80,23 @@ impl RowLattice {
     }
 
     /// Index of the first row at y or above.
-    #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "saturates far out of range")]
     pub fn row_above(&self, y: f64) -> i64 {
         (y / self.spacing).ceil() as i64
     }
 
     /// Index of the row closest to y.
-    #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "saturates far out of range")]
     pub fn row_at(&self, y: f64) -> i64 {
         (y / self.spacing).round() as i64
     }
 
     /// y of a row.
-    #[must_use]
     pub fn y(&self, row: i64) -> f64 {
         row as f64 * self.spacing
     }
 
     /// Indices of the first and the last row on which positions between `low` and `high` leave anything.
-    #[must_use]
     pub fn touched(&self, (low, high): (f64, f64)) -> (i64, i64) {
         let far = NOTHING * self.spread;
         (self.row_above(low - far), self.row_above(high + far))
@@ -116,7 +111,6 @@ impl RowLattice {
     }
 
     /// The factor of a row in h, at this distance from the row.
-    #[must_use]
     pub fn height(&self, across: Across, distance: f64) -> f64 {
         jet(self.readings(across), distance)[0]
     }
@@ -167,7 +161,6 @@ const BLOCK: usize = 32;
 impl EarlierGrooves {
     /// The surface on rows from `first` on, in the frame of a line at `y` whose support starts at `along.0` and moves, if
     /// `along.1`, to smaller x. All rows with an effect within `wide` of the line must be present.
-    #[must_use]
     pub fn new(
         lattice: RowLattice,
         first: i64,
@@ -184,13 +177,11 @@ impl EarlierGrooves {
     }
 
     /// Largest distance from the line at which the surface is complete.
-    #[must_use]
     pub fn wide(&self) -> f64 {
         self.wide
     }
 
     /// The surface at a position in the frame of the line; 0 beyond the ends of the rows.
-    #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Jet {
         let (x, y) = (self.origin + self.sign * x, self.y + y);
         let mut jet = Jet::default();

@@ -16,25 +16,21 @@ pub struct Step {
 
 impl Step {
     /// Time at the end of the step.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.along.end()
     }
 
     /// y0 at the end of the step.
-    #[must_use]
     pub fn y_at_end(&self) -> f64 {
         self.y + self.across[STAGES - 1]
     }
 
     /// y0(t) on its polynomial.
-    #[must_use]
     pub fn y0(&self, t: f64) -> f64 {
         self.y + RADAU.value(&self.across, self.part(t))
     }
 
     /// x0'(t) and y0'(t) on its polynomials: one order less accurate than positions.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         let across = RADAU.slope(&self.across, self.part(t)) / self.along.h;
         [self.along.velocity(t), across]
@@ -103,7 +99,6 @@ pub struct Visit {
 impl Trajectory {
     /// Positions of the tip until t with their weights: `∫_{start}^t w e^{-(t-t')/T} q(x0(t'), y0(t')) dt'` = Σ weight
     /// q(x, y). The surface is its initial state minus α times the sum for q = f(x - x0, y - y0).
-    #[must_use]
     pub fn residence(&self, t: f64) -> Vec<Visit> {
         let mut visits = vec![];
         for step in self.steps().iter().take_while(|step| step.along.t < t) {
@@ -120,13 +115,11 @@ impl Trajectory {
     }
 
     /// y0(t).
-    #[must_use]
     pub fn y0(&self, t: f64) -> f64 {
         self.step_at(t).y0(t)
     }
 
     /// x0'(t) and y0'(t), one order less accurate than positions.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         self.step_at(t).velocity(t)
     }

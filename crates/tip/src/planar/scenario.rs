@@ -111,7 +111,6 @@ impl From<IntegrationError> for PlanarError {
 
 impl PlanarScenario {
     /// A scenario without a kick or force across, with an initial surface that does not depend on y.
-    #[must_use]
     pub fn new(along: Scenario, stiffness_across: f64) -> Self {
         Self {
             along,

@@ -37,7 +37,6 @@ impl HeightTable {
     }
 
     /// All x, all y, and the heights row after row.
-    #[must_use]
     pub fn parts(&self) -> [&[f64]; 3] {
         [&self.x, &self.y, &self.u]
     }
@@ -122,20 +121,17 @@ impl Texture {
     }
 
     /// Whether u0 = 0 everywhere.
-    #[must_use]
     pub fn is_flat(&self) -> bool {
         self.parts.is_empty()
     }
 
     /// u0(x,y).
-    #[must_use]
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let part = |part: &Bicubic| part.jet(&part.patch([x, y], [true; 2], 0.0), [x, y])[0][0];
         self.parts.iter().map(part).sum()
     }
 
     /// u0(x,y) and its derivatives in x and y.
-    #[must_use]
     pub fn height_and_slopes(&self, x: f64, y: f64) -> [f64; 3] {
         let part = |part: &Bicubic| part.jet(&part.patch([x, y], [true; 2], 0.0), [x, y]);
         let add = |[u, along, across]: [f64; 3], jet: Partials| {

@@ -9,7 +9,6 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Runs of all these scenarios, each as by [`run`](super::run) and in the order of the scenarios: see [`run_each`].
-#[must_use]
 pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
     let mut runs: Vec<_> = scenarios.iter().map(|_| None).collect();
     run_each(scenarios, |number, run| runs[number] = Some(run));

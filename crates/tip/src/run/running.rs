@@ -73,31 +73,26 @@ impl<'a> Running<'a> {
     }
 
     /// Time reached.
-    #[must_use]
     pub fn t(&self) -> f64 {
         self.integrator.t()
     }
 
     /// Counts so far.
-    #[must_use]
     pub fn work(&self) -> Work {
         self.integrator.work()
     }
 
     /// Name of the memory in use.
-    #[must_use]
     pub fn memory(&self) -> &'static str {
         self.memory_report().name()
     }
 
     /// Reason for this memory.
-    #[must_use]
     pub fn memory_reason(&self) -> String {
         self.memory_report().reason()
     }
 
     /// The memory in use, the reason for it, and its errors.
-    #[must_use]
     pub fn memory_report(&self) -> MemoryReport {
         self.integrator.memory().report()
     }

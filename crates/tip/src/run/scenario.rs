@@ -157,7 +157,6 @@ const NOISE_BEYOND: f64 = 30.0;
 
 impl Scenario {
     /// A steady start at X = 14 without any disturbance, with a tolerance of 1e-9.
-    #[must_use]
     pub fn new(model: Model, until: f64) -> Self {
         Self {
             model,
@@ -177,7 +176,6 @@ impl Scenario {
 
     /// Start time t1 of the run. A support of constant velocity r then has the position that the start requires. t1 =
     /// 0 for a support on a path, and without a spring.
-    #[must_use]
     pub fn start_time(&self) -> f64 {
         if self.path.is_some() || !self.model.wider().spring {
             return 0.0;
@@ -186,7 +184,6 @@ impl Scenario {
     }
 
     /// The motion of the support.
-    #[must_use]
     pub fn support(&self) -> Support {
         match &self.path {
             _ if !self.model.wider().spring => Support::None,
@@ -199,7 +196,6 @@ impl Scenario {
     }
 
     /// Start velocity of a tip with inertia.
-    #[must_use]
     pub fn velocity_at_start(&self) -> f64 {
         self.start_velocity.unwrap_or(match self.start {
             Start::Steady => self.model.r(),

@@ -61,7 +61,6 @@ pub struct LimitedFactors {
 
 impl Known {
     /// All values 0.
-    #[must_use]
     pub(crate) fn nothing() -> Self {
         let zero = [0.0; STAGES];
         Self {
@@ -90,13 +89,11 @@ impl Known {
 
 impl Depth {
     /// w at the heights of the stages.
-    #[must_use]
     pub fn weights(&self, height: &Stages) -> Stages {
         height.map(|height| exp(-self.side * height / self.limit))
     }
 
     /// Residuals of displacements and heights.
-    #[must_use]
     pub fn missed(
         &self,
         equations: &Equations,
@@ -118,7 +115,6 @@ impl Depth {
     }
 
     /// The Jacobian of [`missed`](Self::missed); `None` if it is singular.
-    #[must_use]
     pub fn factors(
         &self,
         equations: &Equations,
@@ -180,7 +176,6 @@ impl Depth {
 
 impl LimitedFactors {
     /// Newton's corrections, to be subtracted.
-    #[must_use]
     pub fn corrections(&self, missed: &Missed) -> Missed {
         let by_height = self.height.solve(&missed.height);
         let right = std::array::from_fn(|i| {

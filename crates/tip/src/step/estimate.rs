@@ -9,21 +9,18 @@ const BANDS_PER_STEP: f64 = 13.0;
 const LONGEST_DISPLACEMENT: f64 = 4.0;
 
 /// Largest planned displacement of a step, for an f of this band.
-#[must_use]
 #[inline]
 pub fn longest_displacement(band: f64) -> f64 {
     (BANDS_PER_STEP / band).min(LONGEST_DISPLACEMENT)
 }
 
 /// Velocity at the end of a step of length h.
-#[must_use]
 #[inline]
 pub fn velocity_at_end(displacement: &Stages, h: f64) -> f64 {
     apply(&RADAU.derivative, displacement)[STAGES - 1] / h
 }
 
 /// Defect of the stage polynomial at the start of the step, whose exact velocity is known from the last step.
-#[must_use]
 #[inline]
 pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
     let slope: f64 = RADAU.derivative_at_start.iter().zip(displacement).map(|(w, d)| w * d).sum();
@@ -32,7 +29,6 @@ pub fn defect(displacement: &Stages, h: f64, velocity: f64) -> f64 {
 
 /// Error of the stage polynomial as an interpolant, from its extrapolation back into the last step, whose
 /// displacements and length are given.
-#[must_use]
 #[inline]
 pub fn interpolation_error(
     displacement: &Stages,

@@ -6,7 +6,6 @@ use crate::collocation::{RADAU, STAGES};
 
 /// Weights of each stage in the groove at each stage, for a step of length h and a decay as e^{-t/T}: y' = g - y/T
 /// from y = 0 is y = (1 + hA/T)⁻¹hA g.
-#[must_use]
 pub fn healing(h: f64, time: f64) -> Matrix {
     let share = h / time;
     let fading = RADAU.a.map(|row| row.map(|a| share * a));
@@ -16,7 +15,6 @@ pub fn healing(h: f64, time: f64) -> Matrix {
 }
 
 /// The derivative of this matrix by the length of the step: with N = (1 + hA/T)⁻¹, NAN.
-#[must_use]
 pub fn healing_rate(h: f64, time: f64) -> Matrix {
     let share = h / time;
     let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));

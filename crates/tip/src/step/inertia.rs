@@ -17,7 +17,6 @@ pub struct Inertia {
 
 impl Inertia {
     /// The equations of a step of length h with this velocity at its start.
-    #[must_use]
     pub fn new(mass: f64, h: f64, velocity: f64) -> Self {
         let share = h / mass;
         let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
@@ -37,13 +36,11 @@ impl Inertia {
     }
 
     /// d without a force.
-    #[must_use]
     pub fn glide(&self) -> &Stages {
         &self.glide
     }
 
     /// Derivative of d by the force.
-    #[must_use]
     pub fn carried(&self) -> &Matrix {
         &self.carried
     }

@@ -20,7 +20,6 @@ pub struct Law {
 
 impl Law {
     /// The law of a model.
-    #[must_use]
     pub fn of(model: &Model) -> Self {
         let spring = if model.wider().spring { 1.0 } else { 0.0 };
         Self { alpha: model.alpha(), r: model.r(), spring }
@@ -28,21 +27,18 @@ impl Law {
 
     /// The pull of the support at the position of the tip at the start of the step. The extension of the spring was
     /// `extension` then, and is larger by rh c at the node c.
-    #[must_use]
     #[inline]
     pub fn pull(&self, extension: f64, h: f64) -> Stages {
         RADAU.c.map(|c| self.spring * (extension + self.r * h * c))
     }
 
     /// Velocity at a displacement d with the pull p, on a relief of this slope.
-    #[must_use]
     #[inline]
     pub fn velocity(&self, pull: f64, d: f64, relief: f64, groove: f64) -> f64 {
         pull - self.spring * d - relief + self.alpha * groove
     }
 
     /// ∂v/∂d, for these curvatures of relief and groove.
-    #[must_use]
     #[inline]
     pub fn velocity_slope(&self, relief: f64, groove: f64) -> f64 {
         self.alpha * groove - relief - self.spring
@@ -64,7 +60,6 @@ pub struct Equations<'a> {
 
 impl<'a> Equations<'a> {
     /// The equations of a step of length h with this pull.
-    #[must_use]
     #[inline]
     pub fn new(law: Law, h: f64, pull: Stages) -> Self {
         Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
@@ -84,13 +79,11 @@ impl<'a> Equations<'a> {
     }
 
     /// Weights of each stage in the groove at each stage; the last row belongs to the end of the step.
-    #[must_use]
     pub fn carving(&self) -> &Matrix {
         &self.carving
     }
 
     /// The same matrix, multiplied by α.
-    #[must_use]
     pub fn indenting(&self) -> Matrix {
         if self.heals {
             return self.carving.map(|row| row.map(|b| self.law.alpha * b));
@@ -105,14 +98,12 @@ impl<'a> Equations<'a> {
 
     /// The force at the stages, which is v without inertia. `past` and `relief` are the slopes of the groove before
     /// the step and of the initial surface.
-    #[must_use]
     #[inline]
     pub fn velocity(&self, d: &Stages, past: &Stages, relief: &Stages, own: &OwnGroove) -> Stages {
         self.velocity_with(&self.carving, d, (past, relief), own)
     }
 
     /// The same with another matrix of weights.
-    #[must_use]
     #[inline]
     pub(super) fn velocity_with(
         &self,
@@ -127,7 +118,6 @@ impl<'a> Equations<'a> {
     }
 
     /// d - hAv, or its counterpart with inertia.
-    #[must_use]
     #[inline]
     pub fn residual(&self, d: &Stages, velocity: &Stages) -> Stages {
         if let Some(inertia) = self.inertia {
@@ -138,14 +128,12 @@ impl<'a> Equations<'a> {
     }
 
     /// 1 - hA ∂v/∂d, for these curvatures.
-    #[must_use]
     #[inline]
     pub fn jacobian(&self, past: &Stages, relief: &Stages, own: &OwnGroove) -> Matrix {
         self.jacobian_with(&self.indenting(), (past, relief), own)
     }
 
     /// The same with another matrix of indentations.
-    #[must_use]
     #[inline]
     pub(super) fn jacobian_with(
         &self,

@@ -40,7 +40,6 @@ const fn pairs() -> [(usize, usize); 16] {
 
 /// Weights of each stage in the groove at each stage: the Butcher matrix times a factor, h for the groove of a step
 /// of that length.
-#[must_use]
 #[inline]
 pub fn carving(factor: f64) -> Matrix {
     RADAU.a.map(|row| row.map(|a| factor * a))
@@ -53,7 +52,6 @@ impl OwnGroove {
     }
 
     /// The contribution under stages at these displacements.
-    #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let ahead = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
         if tip.is_even() {
@@ -81,7 +79,6 @@ impl OwnGroove {
     }
 
     /// `f'(d_i - d_k)`
-    #[must_use]
     pub fn slopes(&self) -> Matrix {
         let mut slopes = [[0.0; STAGES]; STAGES];
         let [ahead, behind] = &self.slope;
@@ -135,7 +132,6 @@ impl OwnHeight {
     }
 
     /// The heights under stages at these displacements.
-    #[must_use]
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let ahead = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));
         let behind = || PAIRS.map(|(i, k)| tip.value(d[k] - d[i]));
@@ -153,7 +149,6 @@ impl OwnHeight {
     }
 
     /// `f(d_i - d_k)`
-    #[must_use]
     pub fn values(&self) -> Matrix {
         let mut values = [[self.apex; STAGES]; STAGES];
         let [ahead, behind] = &self.value;

@@ -14,7 +14,6 @@ pub(super) fn fourier(q: f64) -> f64 {
 
 /// `J_0(x)`, `J_1(x)`, … up to the last one above round-off, by Miller's downward recurrence normalised with J0 + 2 Σ
 /// `J_{2k}` = 1.
-#[must_use]
 pub fn bessel_orders(x: f64) -> Vec<f64> {
     if x.abs() < 1e-8 {
         return vec![1.0, 0.5 * x];

@@ -78,7 +78,6 @@ impl GaussianSum {
     }
 
     /// The terms, as given.
-    #[must_use]
     pub fn terms(&self) -> &[Gaussian] {
         &self.terms
     }

@@ -88,7 +88,6 @@ impl TipFunction {
     }
 
     /// Whether f(-x) = f(x).
-    #[must_use]
     pub fn is_even(&self) -> bool {
         match self {
             Self::Gaussians(sum) => sum.is_even(),
@@ -97,7 +96,6 @@ impl TipFunction {
     }
 
     /// f(-x): the footprint of a tip that moves to smaller x, in the frame of its motion.
-    #[must_use]
     pub fn mirrored(&self) -> Self {
         match self {
             Self::Gaussians(sum) if !sum.is_even() => Self::Gaussians(sum.mirrored()),
@@ -117,7 +115,6 @@ impl TipFunction {
     }
 
     /// The section f(x,0) of a footprint in three dimensions, which is kept with it.
-    #[must_use]
     pub fn of_footprint(footprint: Footprint) -> Self {
         match footprint.path().clone() {
             Self::Gaussians(sum) => Self::Gaussians(sum.with_footprint(footprint)),
@@ -126,7 +123,6 @@ impl TipFunction {
     }
 
     /// The f(x,y) of which this is the section y = 0, if it was made from one.
-    #[must_use]
     pub fn footprint(&self) -> Option<&Footprint> {
         match self {
             Self::Gaussians(sum) => sum.footprint(),
@@ -135,7 +131,6 @@ impl TipFunction {
     }
 
     /// f(x).
-    #[must_use]
     pub fn value(&self, x: f64) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.value(x),
@@ -145,7 +140,6 @@ impl TipFunction {
     }
 
     /// f'(x).
-    #[must_use]
     pub fn slope(&self, x: f64) -> f64 {
         self.slope_and_curvature(x).0
     }
@@ -159,7 +153,6 @@ impl TipFunction {
     }
 
     /// f'(x) and f''(x), which share the expensive part of their evaluation.
-    #[must_use]
     #[inline]
     pub fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
         match self {
@@ -202,7 +195,6 @@ impl TipFunction {
     }
 
     /// ∫_x^∞ f(ξ)dξ: the profile of steady motion, (24).
-    #[must_use]
     pub fn tail(&self, x: f64) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.tail(x),
@@ -213,7 +205,6 @@ impl TipFunction {
     }
 
     /// ∫_0^∞ f(x+y) e^{-sy}dy, s ≥ 0: the profile of steady motion over a surface that heals, s = 1/(rT).
-    #[must_use]
     pub fn fading_tail(&self, x: f64, s: f64) -> f64 {
         if s <= 0.0 {
             return self.tail(x);
@@ -226,13 +217,11 @@ impl TipFunction {
     }
 
     /// ∫_{-∞}^∞ f(ξ)dξ: the depth far behind the tip, (25).
-    #[must_use]
     pub fn integral(&self) -> f64 {
         self.fourier(0.0)
     }
 
     /// ∫_{-∞}^∞ f(ξ) cos(qξ)dξ at wave number q: the Fourier transform of an even f.
-    #[must_use]
     pub fn fourier(&self, q: f64) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.fourier(q),
@@ -243,7 +232,6 @@ impl TipFunction {
     }
 
     /// ∫_{-∞}^∞ f(ξ) e^{-iqξ}dξ, the Fourier transform at wave number q.
-    #[must_use]
     pub fn transform(&self, q: f64) -> Complex<f64> {
         match self {
             Self::Gaussians(sum) if !sum.is_even() => sum.fourier_fading(q, 0.0),
@@ -253,7 +241,6 @@ impl TipFunction {
 
     /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and decay rate κ; `None` for a footprint that does not
     /// decay.
-    #[must_use]
     pub fn fourier_fading(&self, q: f64, fading: f64) -> Option<Complex<f64>> {
         match self {
             Self::Gaussians(sum) => Some(sum.fourier_fading(q, fading)),
@@ -263,7 +250,6 @@ impl TipFunction {
 
     /// Distance beyond which f and its derivatives are below the round-off of their largest values; `None` for a
     /// footprint without such a distance (J0 decays only like 1/√x).
-    #[must_use]
     pub fn reach(&self) -> Option<f64> {
         match self {
             Self::Gaussians(sum) => Some(sum.reach()),
@@ -272,7 +258,6 @@ impl TipFunction {
     }
 
     /// Wave number beyond which the transform of f is below the round-off of its largest value.
-    #[must_use]
     pub fn band(&self) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.band(),

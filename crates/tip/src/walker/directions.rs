@@ -25,7 +25,6 @@ const PIECES: u32 = 256;
 
 /// The smallest multiple of 4 directions for which ∇Q/T errs by at most `allowed`, for a particle that moves by at most
 /// `range` = VT in the time T; `None` if 8192 are not sufficient.
-#[must_use]
 pub fn directions(range: f64, allowed: f64) -> Option<usize> {
     let suffices = |quarter: &usize| error_of_directions(range, 4 * quarter) <= allowed;
     // The error falls as the number rises.
@@ -44,7 +43,6 @@ pub fn directions(range: f64, allowed: f64) -> Option<usize> {
 }
 
 /// A bound on the error of ∇Q/T with this even number of directions.
-#[must_use]
 pub fn error_of_directions(range: f64, count: usize) -> f64 {
     if range <= 0.0 {
         return 0.0;

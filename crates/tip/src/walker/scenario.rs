@@ -104,7 +104,6 @@ pub enum WalkerError {
 
 impl WalkerScenario {
     /// A free walker without inertia on a flat field at the origin, to a tolerance of 1e-9.
-    #[must_use]
     pub fn new(alpha: f64, healing_time: f64, until: f64) -> Self {
         Self {
             alpha,
@@ -124,7 +123,6 @@ impl WalkerScenario {
 
     /// The speed of a free walker in steady motion without inertia, which needs none: v² = (2B - 1 - √(1 + 4B))/2 /T² with
     /// B = -αT² (Oza, Rosales and Bush 2013); 0 up to B = 2.
-    #[must_use]
     pub fn free_speed(&self) -> f64 {
         let b = -self.alpha * self.healing_time * self.healing_time;
         let square = if b > 2.0 { 0.5 * (2.0 * b - 1.0 - (1.0 + 4.0 * b).sqrt()) } else { 0.0 };

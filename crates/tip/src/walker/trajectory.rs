@@ -15,7 +15,6 @@ pub struct WalkerStep {
 
 impl WalkerStep {
     /// Time at the end of the step.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.t + self.h
     }
@@ -32,33 +31,28 @@ impl WalkerTrajectory {
     ///
     /// # Panics
     /// If there are no steps.
-    #[must_use]
     pub fn new(steps: Vec<WalkerStep>) -> Self {
         assert!(!steps.is_empty(), "a trajectory has at least one step");
         Self { steps }
     }
 
     /// The steps, in order.
-    #[must_use]
     pub fn steps(&self) -> &[WalkerStep] {
         &self.steps
     }
 
     /// End time.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.steps[self.steps.len() - 1].end()
     }
 
     /// (x0, y0) at t. Outside of the run, the polynomials of the first or last step.
-    #[must_use]
     pub fn position(&self, t: f64) -> [f64; 2] {
         let step = self.step_at(t);
         [0, 1].map(|axis| sum(&step.position[axis], t - step.t))
     }
 
     /// (x0', y0') at t.
-    #[must_use]
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         let step = self.step_at(t);
         [0, 1].map(|axis| {

@@ -105,7 +105,6 @@ pub struct RasterCompared {
 
 impl RasterCompareFound {
     /// The comparison of a plan, its lines and their computing time in seconds with the result of the grid.
-    #[must_use]
     pub fn new((plan, lines, seconds): (&Plan, &[Line], f64), grid: RasterCompared) -> Self {
         let is_free = plan.free.is_some();
         let compared = |(line, motion): (&Line, &Vec<(f64, [f64; 2])>)| {

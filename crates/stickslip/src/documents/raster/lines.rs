@@ -252,7 +252,6 @@ fn outside(line: &Line) -> f64 {
 
 impl KeptLine {
     /// The line with this index, from 0.
-    #[must_use]
     pub fn of(index: usize, line: &Line) -> Self {
         let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
         let steps = line.trajectory().steps();

@@ -63,7 +63,6 @@ pub struct PatternDocument {
 
 impl PatternDocument {
     /// Wavelength and crest angle, such as "4.57 ± 0.33 σ" and "46 ± 3°"; `None` if unknown.
-    #[must_use]
     pub fn in_words(&self) -> [Option<String>; 2] {
         let of = |value: Option<f64>, error: Option<f64>, unit: &str| {
             let value = value?;

@@ -48,7 +48,6 @@ pub struct RasterSweepPoint {
 
 impl RasterSweepPoint {
     /// A point without results.
-    #[must_use]
     pub fn at(index: usize, (pitch, alpha): (f64, f64), critical_alpha: Option<f64>) -> Self {
         Self { index, pitch, alpha, critical_alpha, ..Self::default() }
     }

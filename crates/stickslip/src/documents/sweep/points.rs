@@ -21,13 +21,11 @@ const PIECE: usize = 1 << 17;
 
 impl SweepPoints {
     /// Number of points.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.starts.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.starts.is_empty()
     }
@@ -47,7 +45,6 @@ impl SweepPoints {
     ///
     /// # Panics
     /// The list has no such place.
-    #[must_use]
     pub fn at(&self, place: usize) -> SweepPoint {
         unpack(&mut from(&self.pieces, self.starts[place]))
     }

@@ -63,7 +63,6 @@ impl Series {
     }
 
     /// In parts of this length: coefficient k times its power k.
-    #[must_use]
     #[inline(always)]
     pub(crate) fn over(&self, length: f64) -> Self {
         let square = length * length;

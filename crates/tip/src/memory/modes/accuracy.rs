@@ -37,7 +37,6 @@ const FINEST_OF_SWINGING: f64 = 5e-14;
 /// by its ratio to b: if α is above b, this effect is the larger one.
 ///
 /// Rounded to quarter decades, so that similar runs share a fit.
-#[must_use]
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
     let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);
@@ -50,7 +49,6 @@ pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
 }
 
 /// Displacement of the tip by an error ε of f', in σ: see [`accuracy_needed`].
-#[must_use]
 pub fn displacement(model: &Model, slope_error: f64) -> f64 {
     let curvature = model.tip().slope_and_curvature(0.0).1.abs();
     let width = model.tip().widths(1.0);

@@ -215,37 +215,31 @@ impl Fit {
     }
 
     /// The terms.
-    #[must_use]
     pub fn terms(&self) -> &[Term] {
         &self.terms
     }
 
     /// The required accuracy; the error of the sum if the terms were given.
-    #[must_use]
     pub fn wanted(&self) -> f64 {
         self.wanted
     }
 
     /// Distance behind the farthest point within which the sum is valid.
-    #[must_use]
     pub fn retreat(&self) -> f64 {
         self.retreat
     }
 
     /// Distance behind the farthest point at which a step may begin, so that all its evaluations are valid.
-    #[must_use]
     pub fn retreat_between_steps(&self) -> f64 {
         self.between_steps
     }
 
     /// Largest errors of the sum.
-    #[must_use]
     pub fn certificate(&self) -> FitCertificate {
         self.certificate
     }
 
     /// The sum at ξ, and its derivative.
-    #[must_use]
     pub fn slope_and_curvature(&self, xi: f64) -> (f64, f64) {
         self.terms.iter().fold((0.0, 0.0), |(slope, curvature), term| {
             let value = term.weight * complex_exp(term.exponent * xi);

@@ -218,19 +218,16 @@ impl<'a> PlanarRunning<'a> {
     }
 
     /// Time reached: the start of the next step.
-    #[must_use]
     pub fn t(&self) -> f64 {
         self.made.front().map_or(self.t, |step| step.along.t)
     }
 
     /// Counts so far.
-    #[must_use]
     pub fn work(&self) -> Work {
         self.work
     }
 
     /// Number of layers so far, and their error.
-    #[must_use]
     pub fn layers(&self) -> Layers {
         let of = |part: &Part| Layers { error: part.error(), ..part.frame.layers() };
         let add = |sum: Layers, part: Layers| Layers {
@@ -243,7 +240,6 @@ impl<'a> PlanarRunning<'a> {
     }
 
     /// Name of the memory in use, and the reason for it.
-    #[must_use]
     pub fn memory(&self) -> (&'static str, String) {
         let (name, reason) = match (self.storage, self.instead_of_modes) {
             (Storage::Modes(..), _) => ("modes", "exponentials fit f'".into()),
@@ -257,7 +253,6 @@ impl<'a> PlanarRunning<'a> {
     }
 
     /// Number of real numbers in the memory.
-    #[must_use]
     pub fn memory_size(&self) -> usize {
         self.parts.iter().map(Part::memory_size).sum()
     }

@@ -95,7 +95,17 @@ fn parameters_that_are_none_are_refused() {
     for (text, words) in [
         ("", ["--parameters asked.json", "is not JSON"]),
         ("[1]", ["--parameters asked.json", "needs an object"]),
-        (r#"{"alpha": 1.2, "r": 1, "kicks": 1}"#, ["--kicks", "is no parameter"]),
+        (r#"{"alpha": 1.2, "r": 1, "kicks": 1}"#, ["--kicks", "did you mean \"kick\"?"]),
+        (r#"{"alpha": 1.2, "r": 1, "pulse": [1, 5, 1]}"#, ["--pulse", "did you mean \"pulses\"?"]),
+        (r#"{"alpha": 1.2, "r": 1, "zzz": 1}"#, ["--zzz", "is no parameter here: leave it out"]),
+        (
+            r#"{"alpha": 1.2, "r": 1, "alpha": 1.3}"#,
+            ["--parameters asked.json", "is ambiguous: \"alpha\" stands twice at line 1"],
+        ),
+        (
+            r#"{"alpha": 1.2, "r": 1, "tip": {"name": "gaussian", "width": 1, "width": 2}}"#,
+            ["--parameters asked.json", "\"width\" stands twice"],
+        ),
         (r#"{"alpha": "1.2", "r": 1}"#, ["--alpha 1.2", "finite number"]),
         (r#"{"alpha": 1.2, "r": 1, "tip": {"name": "round"}}"#, ["--tip", "a tip has a name"]),
         (r#"{"alpha": 1.2, "r": 1, "memory": "good"}"#, ["--memory good", "auto, direct"]),
@@ -105,4 +115,15 @@ fn parameters_that_are_none_are_refused() {
         folder.refuses("run --parameters asked.json --until 30", &words);
     }
     folder.refuses("run --parameters none.json", &["--parameters none.json", "cannot be read"]);
+}
+
+#[test]
+fn a_document_with_a_parameter_that_stands_twice_is_damaged() {
+    let folder = Folder::new("parameter_twice");
+    folder.prints("run --alpha 1.2 --r 1 --kick 0.05 --until 20 -o run.json");
+    let text = std::fs::read_to_string(folder.path("run.json")).unwrap();
+    let twice = text.replacen("\"r\":", "\"r\":2.0,\"r\":", 1);
+    assert_ne!(text, twice);
+    folder.write("run.json", twice);
+    folder.refuses("surface run.json --at 10", &["run.json", "\"r\" stands twice"]);
 }

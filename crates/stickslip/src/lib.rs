@@ -34,6 +34,7 @@
 )]
 
 mod ask;
+mod distinct;
 mod document;
 mod documents;
 pub mod parameter;

@@ -2,12 +2,14 @@
 //! line, keywords of Python and parameter files are all made of them, so that a parameter is declared in one place: a
 //! field of a question.
 
+pub use crate::distinct::Distinct;
 use crate::{Refused, Typed};
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
 use std::any::TypeId;
 use std::borrow::Cow;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -271,7 +273,11 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
     let properties = &described::<Q>().properties;
     for (name, value) in &values {
         let Some(property) = properties.get(name) else {
-            return Err(Refused::whole(name.clone(), "is no parameter here: leave it out"));
+            let advice = match nearest(properties.keys(), name) {
+                Some(meant) => format!("did you mean \"{meant}\"?"),
+                None => "leave it out".into(),
+            };
+            return Err(Refused::whole(name.clone(), format!("is no parameter here: {advice}")));
         };
         if let Some(why) = mistaken(&property.kind, value) {
             return Err(Refused::word(name.clone(), typed(value), why));
@@ -304,7 +310,20 @@ pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
     let refused = |refused: Refused| D::Error::custom(refused.described(str::to_owned));
-    question(Map::deserialize(deserializer)?).map_err(refused)
+    match Distinct::deserialize(deserializer)? {
+        Distinct(Value::Object(values)) => question(values).map_err(refused),
+        _ => Err(D::Error::custom("parameters are an object")),
+    }
+}
+
+/// Least length of a beginning that two names must share for one to be suggested for the other.
+const SHARED: usize = 3;
+
+/// The shortest of the names that share the longest beginning with `name`, which is at least half of it.
+fn nearest<'a>(names: impl Iterator<Item = &'a String>, name: &str) -> Option<&'a String> {
+    let shared = |other: &str| name.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
+    let best = names.max_by_key(|other| (shared(other), Reverse(other.len())))?;
+    (shared(best) >= SHARED.max(name.len().div_ceil(2))).then_some(best)
 }
 
 /// The parameter that cannot be read: without it the others can.

@@ -16,7 +16,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
-use stickslip::parameter::{Parameter, overridden};
+use stickslip::parameter::{Distinct, Parameter, overridden};
 use stickslip::{
     self as documents, Ask, Context, Document, KnownScales, Physical, Question, Refused, Tip,
     parameter,
@@ -141,8 +141,10 @@ fn read_parameters(
     const OPTION: &str = "--parameters";
     let named = || format!("{OPTION} {}", path.display());
     let text = read_text(session, OPTION, path, LARGEST_TABLE)?;
-    let value: Value = serde_json::from_str(&text)
-        .map_err(|error| Failure::input(named(), format!("is not JSON: {error}")))?;
+    let Distinct(value) = serde_json::from_str(&text).map_err(|error| {
+        let why = if error.is_data() { "is ambiguous" } else { "is not JSON" };
+        Failure::input(named(), format!("{why}: {error}"))
+    })?;
     let mut whole = match value {
         Value::Object(whole) => whole,
         _ => return Err(Failure::input(named(), "needs an object, {\"r\": 1, …}, or a document")),

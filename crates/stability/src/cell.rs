@@ -22,6 +22,8 @@ const ARRIVED: f64 = 1e-11;
 pub(super) struct Cell {
     /// Length over which the function may vary: a width of the tip.
     pub(super) length: f64,
+    /// s, as in [`resolved`].
+    pub(super) fading: f64,
     pub(super) lower_left: Complex64,
     pub(super) upper_right: Complex64,
 }
@@ -29,7 +31,7 @@ pub(super) struct Cell {
 impl Cell {
     pub(super) fn square(center: Complex64, half: f64, length: f64) -> Self {
         let corner = Complex64::new(half, half);
-        Self { length, lower_left: center - corner, upper_right: center + corner }
+        Self { length, fading: 0.0, lower_left: center - corner, upper_right: center + corner }
     }
 
     fn contains(&self, z: Complex64) -> bool {
@@ -41,7 +43,7 @@ impl Cell {
     pub(super) fn count(&self, h: &impl Fn(Complex64) -> Scaled) -> Result<usize, StabilityError> {
         let (a, c) = (self.lower_left, self.upper_right);
         let (b, d) = (Complex64::new(c.re, a.im), Complex64::new(a.re, c.im));
-        let turned = argument_along(h, &resolved(&[a, b, c, d, a], self.length))?;
+        let turned = argument_along(h, &resolved(&[a, b, c, d, a], self.length, self.fading))?;
         whole(turned, 2.0 * PI).ok_or(StabilityError::RootOnContour { re: a.re })
     }
 

@@ -61,6 +61,11 @@ impl Characteristic {
         self.law.speed
     }
 
+    /// s = p - Λ
+    pub(super) fn fading(&self) -> f64 {
+        self.law.fading
+    }
+
     /// A length of the order of the tip's width: N varies over its inverse.
     pub(super) fn length(&self) -> f64 {
         self.length

@@ -24,6 +24,8 @@ const FAR_INTERVAL: Complex64 = Complex64::new(-2.0, -12.5);
 /// Λw of the first complex zero of these, from large α to small.
 const FIRST: [Complex64; 3] =
     [Complex64::new(-1.1, 3.7), Complex64::new(-2.2, 2.5), Complex64::new(-3.2, 1.8)];
+/// Re p w right of which a zero is none of a chain.
+const AHEAD_OF_CHAIN: f64 = 3.0;
 /// Distances to the left of where a zero is expected, times w.
 const LEFT_OF_NEXT: [f64; 2] = [0.1, 0.35];
 /// Largest number of shifts of a left edge that passes through a root.
@@ -60,7 +62,7 @@ impl HalfPlane {
         let corner = |re, im| Complex64::new(re, im);
         let path = [corner(right, 0.0), corner(right, top), corner(left, top), corner(left, 0.0)];
         // h is real on the real axis: half the contour turns h by half as much.
-        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length()))?;
+        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length(), h.fading()))?;
         let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r() })?;
         Ok(Self { left, right, top, count })
     }
@@ -154,7 +156,7 @@ impl HalfPlane {
     /// Adds zeros upwards, each where those below it let it be expected.
     fn add_chain(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         while h.has_chain() && total(&*upper) < count && !stop::is_asked() {
-            let starts = next_in_chain(upper, h.length());
+            let starts = next_in_chain(upper, h.length(), h.fading());
             if !starts.into_iter().any(|start| self.add_from(h, start, SOON, upper)) {
                 break;
             }
@@ -185,6 +187,7 @@ impl HalfPlane {
         for below in [0.0137, 0.0291, 0.0533] {
             let cell = Cell {
                 length: h.length(),
+                fading: h.fading(),
                 lower_left: Complex64::new(self.left, -below / h.length()),
                 upper_right: Complex64::new(self.right, self.top),
             };
@@ -205,7 +208,7 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
         return HalfPlane::counted(h, left)?.spectrum(h);
     }
     let count = h.degree().map_or(count, |degree| count.min(degree));
-    let mut left = (-2.0 / h.length()).max(h.leftmost());
+    let left = (-2.0 / h.length()).max(h.leftmost());
     let further = |left: f64| (left - 1.0 / h.length()).max(h.leftmost());
     let known = first_zeros(h, count);
     let seen = |left: f64| total(known.iter().filter(|z| z.re >= left));
@@ -218,13 +221,28 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
             return all.spectrum_with(h, &known);
         }
     }
-    loop {
-        let half_plane = HalfPlane::counted(h, left)?;
-        if half_plane.count >= count || left <= h.leftmost() {
-            return half_plane.spectrum_with(h, &known);
+    first_with(h, count, left)?.spectrum_with(h, &known)
+}
+
+/// The first of the lines 1/width apart, from `left` on, with at least `count` zeros right of it; the leftmost if there
+/// is none. The zeros of a surface that heals within less than a width begin at -s, as many lines away as there are
+/// widths to 1/s: so steps grow after the first few, and the last one is divided.
+fn first_with(h: &Characteristic, count: usize, left: f64) -> Result<HalfPlane, StabilityError> {
+    let has_enough = |edge: f64, found: &HalfPlane| found.count >= count || edge <= h.leftmost();
+    let (mut left, mut found) = (left, HalfPlane::counted(h, left)?);
+    let (mut passed, mut gap) = (0, if has_enough(left, &found) { 1 } else { u32::MAX });
+    // From `left`, which has too few, to the nearest line known to have enough.
+    while gap > 1 {
+        let lines = (passed / 4).max(1).min(gap / 2);
+        let edge = (left - f64::from(lines) / h.length()).max(h.leftmost());
+        let there = HalfPlane::counted(h, edge)?;
+        if has_enough(edge, &there) {
+            (gap, found) = (lines, there);
+        } else {
+            (left, passed, gap) = (edge, passed + lines, gap - lines);
         }
-        left = further(left);
     }
+    Ok(found)
 }
 
 /// Up to `count` zeros of the chain, without a certificate that none is left out.
@@ -236,10 +254,11 @@ fn first_zeros(h: &Characteristic, count: usize) -> Vec<Complex64> {
     known
 }
 
-/// About where the next zero above those known lies. The zeros are those of e^{Λ²w²/2} = R(Λ), R being nearly rational:
-/// far up, Λ²w² of one is that of the one below less 4πi.
-fn next_in_chain(upper: &[Complex64], length: f64) -> Vec<Complex64> {
-    let mut below: Vec<_> = upper.iter().filter(|z| z.im > 0.0).map(|z| z * length).collect();
+/// About where the next zero above those known lies. The zeros are those of e^{p²w²/2} = R(p), p = Λ + s, R being nearly
+/// rational: far up, p²w² of one is that of the one below less 4πi.
+fn next_in_chain(upper: &[Complex64], length: f64, fading: f64) -> Vec<Complex64> {
+    let shifted = upper.iter().filter(|z| z.im > 0.0).map(|z| (z + fading) * length);
+    let mut below: Vec<_> = shifted.filter(|p| p.re < AHEAD_OF_CHAIN).collect();
     below.sort_by(|a, b| a.im.total_cmp(&b.im));
     let square = match below[..] {
         [.., before, last] => {
@@ -252,7 +271,7 @@ fn next_in_chain(upper: &[Complex64], length: f64) -> Vec<Complex64> {
     // From the left, where N grows as e^{Λ²w²/2}, Newton's method does not overshoot.
     let expected = next.into_iter().flat_map(|next| LEFT_OF_NEXT.map(|left| next - left));
     let first = FIRST.into_iter().filter(|_| below.len() < 2);
-    expected.chain(first).map(|z| z / length).collect()
+    expected.chain(first).map(|z| z / length - fading).collect()
 }
 
 /// Number of zeros that `upper` represents: two for a conjugate pair, one if it is real.

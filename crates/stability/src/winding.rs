@@ -85,11 +85,12 @@ pub(super) fn argument_along(
 }
 
 /// Corners added to a path, so that h varies little from one to the next:
-/// over the tip's width, and over |Λ| where that is larger and no exponential of Λ² is left.
-pub(super) fn resolved(path: &[Complex64], length: f64) -> Vec<Complex64> {
+/// over the tip's width, and over |Λ| and |p|, p = Λ + `fading`, where those are larger and no exponential of p² is left.
+pub(super) fn resolved(path: &[Complex64], length: f64, fading: f64) -> Vec<Complex64> {
     let spacing = |z: Complex64| {
-        let algebraic = z.im + 1.5 * z.re.min(0.0) > 10.0 / length || z.re > 0.0;
-        (0.3 / length).max(if algebraic { 0.2 * z.norm() } else { 0.0 })
+        let p = z + fading;
+        let algebraic = p.im + 1.5 * p.re.min(0.0) > 10.0 / length || p.re > 0.0;
+        (0.3 / length).max(if algebraic { 0.2 * z.norm().min(p.norm()) } else { 0.0 })
     };
     let mut corners: Vec<Complex64> = path.iter().take(1).copied().collect();
     for side in path.windows(2) {

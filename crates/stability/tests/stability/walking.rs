@@ -1,6 +1,7 @@
 //! Walks without a spring, judged by what is known of walking droplets and of the Lorenz system.
 
 use num_complex::Complex64;
+use std::time::{Duration, Instant};
 use stickslip_stability::{walk, walking_alpha, walking_speeds};
 use stickslip_tip::{Model, Scenario, Start, TipFunction, Wider, run};
 
@@ -114,6 +115,19 @@ fn a_walk_next_to_onset_is_stable_or_undecided() {
             assert_eq!(walk.is_stable(), wanted, "{tip:?} {above:e} {:?}", walk.spectrum);
         }
     }
+}
+
+/// There roots begin at -s, 5,500 widths to the left: line by line this took 25 s.
+#[test]
+fn roots_of_a_walk_next_to_onset_are_found_in_time() {
+    let began = Instant::now();
+    for (tip, count) in [(triple(0.0), 10), (TipFunction::Cosine, 3)] {
+        let walker = walker(&tip, None, 1.0, -1.0 - 1e-7);
+        let walk = walk(&walker, walking_speeds(&walker).unwrap()[0], count).unwrap();
+        assert!(walk.spectrum.roots.len() >= count, "{:?}", walk.spectrum);
+    }
+    // 0.1 s
+    assert!(began.elapsed() < Duration::from_secs(3));
 }
 
 /// A tip set going on a flat surface settles into the walk, with and without a depth limit, where that is stable.

@@ -66,7 +66,7 @@ pub use orbits::{Orbit, orbits};
 pub use raster::{Raster, RasterCertificate, RasterCritical, RasterKind, RasterPath};
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
-pub use snaking::{Snaking, SnakingCertificate, SnakingCritical, SnakingCurve};
+pub use snaking::{Snaking, SnakingCertificate, SnakingCritical};
 pub use spectrum::Spectrum;
 pub use trapping::trapping_alpha;
 pub use walking::{Walk, walk, walking_alpha, walking_speeds};

@@ -26,10 +26,9 @@ use super::law::Law;
 use super::one_sided::OneSided;
 use super::raster::{judge_stiffness, single_across};
 use super::spectrum::Spectrum;
-use num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use stickslip_tip::{Footprint, Model, ModelError, TipFunction, Wider, stop};
+use stickslip_tip::{Footprint, Model, ModelError, TipFunction, Wider};
 
 /// Relative accuracy to which the search certifies a threshold as the lowest.
 const TOLERANCE: f64 = 1e-10;
@@ -81,18 +80,6 @@ pub struct SnakingCertificate {
     pub growing_below: usize,
     /// Number of roots with Re λ > 0 at the higher α.
     pub growing_above: usize,
-}
-
-/// All crossings of the imaginary axis in the plane of κ_y and α, at one r, by increasing Ω. At each κ_y the one with
-/// the smallest α is the threshold.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SnakingCurve {
-    /// Ω = ω/r
-    pub wave_number: Vec<f64>,
-    /// κ_y
-    pub stiffness: Vec<f64>,
-    /// α
-    pub alpha: Vec<f64>,
 }
 
 impl Snaking {
@@ -185,31 +172,6 @@ impl Snaking {
         let h = self.characteristic(alpha)?;
         let counted = HalfPlane::counted(&h, 0.0).map_err(|error| h.explain(error))?;
         Ok(counted.count)
-    }
-
-    /// The curve of all crossings in the plane of κ_y and α; it does not depend on κ_y of this line. `points` values
-    /// of Ω are evenly spaced over the band of the footprint; those without a crossing are left out.
-    ///
-    /// # Errors
-    /// [`StabilityError::AcrossGaussiansOnly`].
-    pub fn curve(&self, points: u32) -> Result<SnakingCurve, StabilityError> {
-        self.judge()?;
-        let mut curve = SnakingCurve::default();
-        let Some(footprint) = &self.curvature else { return Ok(curve) };
-        let step = footprint.tip().band() / f64::from(points);
-        let still = footprint.steady(self.fading()).curvature;
-        for i in (1..=points).take_while(|_| !stop::is_asked()) {
-            let q = step * f64::from(i);
-            let at = footprint.at(Complex64::new(self.fading(), q));
-            let push = Complex64::from(still) - at.curvature.0 / at.unit.0;
-            let density = self.r * q / push.im;
-            if push.im > 0.0 && push.re > 0.0 {
-                curve.wave_number.push(q);
-                curve.stiffness.push(density * push.re);
-                curve.alpha.push(self.alpha(density));
-            }
-        }
-        Ok(curve)
     }
 
     fn characteristic(&self, alpha: f64) -> Result<Characteristic, StabilityError> {

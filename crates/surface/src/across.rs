@@ -125,7 +125,7 @@ pub fn carved_across(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Surface, steady_profile};
+    use crate::Surface;
     use stickslip_tip::{Footprint, Model, Scenario, TipFunction, Wider, planar, run};
 
     fn scenario(wider: Wider, stiffness: f64, kick_across: f64) -> PlanarScenario {
@@ -186,7 +186,10 @@ mod tests {
             let both = planar::run(&scenario).unwrap().trajectory;
             let across = SurfaceAcross::new(&scenario, &both).unwrap();
             let v = across.image(40.0, &x, &[0.0]).unwrap();
-            let known = steady_profile(model, one.trajectory.x0(40.0), &x);
+            let behind = |x: &f64| x - one.trajectory.x0(40.0);
+            let groove = |x: f64| model.tip().fading_tail(x, model.fading());
+            let known: Vec<f64> =
+                x.iter().map(|x| -model.steady_density() * groove(behind(x))).collect();
             let worst = |u: &[f64]| {
                 u.iter().zip(&known).map(|(u, known)| (u - known).abs()).fold(0.0, f64::max)
             };

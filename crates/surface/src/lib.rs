@@ -105,9 +105,3 @@ impl<'a> Surface<'a> {
         sums.mapv_into(|sum| -self.model.alpha() * sum)
     }
 }
-
-/// The profile (24) of steady motion, -(α/r) ∫_{x-x0}^∞ f, with the tip at x0.
-pub fn steady_profile(model: &Model, x0: f64, x: &[f64]) -> Array1<f64> {
-    let (depth, fading) = (model.steady_density(), model.fading());
-    x.iter().map(|x| -depth * model.tip().fading_tail(x - x0, fading)).collect()
-}

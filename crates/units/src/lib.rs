@@ -11,8 +11,7 @@ mod quantity;
 
 pub use quantity::Unit;
 
-use stickslip_stability::{StabilityError, critical, critical_r};
-use stickslip_tip::{Model, ModelError, TipFunction, Wider};
+use stickslip_tip::{Model, ModelError, TipFunction};
 use thiserror::Error;
 
 /// Measured quantities, in SI units.
@@ -79,9 +78,6 @@ pub enum UnitsError {
     /// The dimensionless numbers are out of range.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// There is no critical point.
-    #[error(transparent)]
-    Stability(#[from] StabilityError),
 }
 
 impl Physical {
@@ -142,24 +138,6 @@ impl Physical {
         }
     }
 
-    /// The indentation rate N in m/s at the onset of stick-slip, with all other quantities fixed.
-    ///
-    /// # Errors
-    /// As [`critical`].
-    pub fn critical_indentation_rate(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
-        let alpha = critical(&Wider::default(), tip, self.r())?.alpha;
-        Ok(self.with_alpha_r(alpha, self.r()).indentation_rate)
-    }
-
-    /// The velocity v0 in m/s below which there is stick-slip, with all other quantities fixed.
-    ///
-    /// # Errors
-    /// As [`critical_r`].
-    pub fn critical_velocity(&self, tip: &TipFunction) -> Result<f64, UnitsError> {
-        let r = critical_r(&Wider::default(), tip, self.alpha())?.r;
-        Ok(self.with_alpha_r(self.alpha(), r).velocity)
-    }
-
     /// The inverse: N and v0 that give α and r, with Γ, k, σ and a unchanged.
     pub fn with_alpha_r(&self, alpha: f64, r: f64) -> Self {
         let stiffness_length = self.stiffness * self.tip_width;
@@ -211,21 +189,6 @@ mod tests {
             .with_alpha_r(there.alpha(), there.r());
         close(back.indentation_rate, there.indentation_rate);
         close(back.velocity, there.velocity);
-    }
-
-    #[test]
-    fn at_the_critical_rate_and_velocity_the_model_is_critical() {
-        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let physical = example().with_alpha_r(0.9, 0.7);
-        let rate = physical.critical_indentation_rate(&tip).unwrap();
-        let at = Physical { indentation_rate: rate, ..physical };
-        close(at.alpha(), critical(&Wider::default(), &tip, at.r()).unwrap().alpha);
-        let velocity = physical.critical_velocity(&tip).unwrap();
-        let at = Physical { velocity, ..physical };
-        assert!(
-            (critical(&Wider::default(), &tip, at.r()).unwrap().alpha / at.alpha() - 1.0).abs()
-                < 1e-11
-        );
     }
 
     #[test]

@@ -342,26 +342,6 @@ fn deviations_grow_as_the_leading_roots_say() {
     }
 }
 
-/// The curve of crossings against thresholds at its κ_y.
-#[test]
-fn the_curve_of_crossings_passes_through_the_thresholds() {
-    for line in lines() {
-        let curve = line.snaking().curve(400).unwrap();
-        let lowest = |stiffness: f64| {
-            let snaking = Line { stiffness, terms: line.terms.clone(), ..line }.snaking();
-            snaking.critical().unwrap().unwrap().alpha
-        };
-        assert!(curve.alpha.len() > 5, "{curve:?}");
-        let mut on_curve = 0;
-        for i in (0..curve.alpha.len()).step_by(7) {
-            let above = curve.alpha[i] / lowest(curve.stiffness[i]) - 1.0;
-            assert!(above > -1e-9, "{above}");
-            on_curve += usize::from(above < 1e-9);
-        }
-        assert!(on_curve > 1, "{on_curve}");
-    }
-}
-
 #[test]
 fn what_is_no_stiffness_is_refused() {
     let footprint = Line::triple(1.0, 1.0, 1.0, 1.0).footprint();

@@ -1,8 +1,8 @@
 //! The scaled complementary error function at complex argument, and its remainder.
 
-use errorfunctions::ComplexErrorFunctions;
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use stickslip_tip::error_function::erfcx;
 
 /// |z|² above which the asymptotic series reaches round-off: its smallest term is about e^{-|z|²}.
 const SERIES_FROM: f64 = 40.0;
@@ -11,7 +11,7 @@ const SERIES_FROM: f64 = 40.0;
 ///
 /// R falls like -1/(2z²), so that forming it from erfcx would lose as many digits as 2|z|² has; for
 /// |z|² > 40 it is summed from its asymptotic series Σ_{n≥1} (-1)^n (2n-1)!!/(2z²)^n (Abramowitz &
-/// Stegun 7.1.23) and erfcx follows from it. Below, erfcx is S. G. Johnson's Faddeeva algorithm.
+/// Stegun 7.1.23) and erfcx follows from it.
 ///
 /// Nothing overflows for Re z ≥ 0. Left of it erfcx(z) = 2e^{z²} - erfcx(-z) and
 /// R(z) = 2√π z e^{z²} + R(-z): the caller keeps the exponential apart.
@@ -20,7 +20,7 @@ pub(super) fn scaled_erfc(z: Complex64) -> (Complex64, Complex64) {
         let remainder = asymptotic_remainder(z);
         return ((remainder + 1.0) / (z * PI.sqrt()), remainder);
     }
-    let value = z.erfcx();
+    let value = erfcx(z);
     (value, z * value * PI.sqrt() - 1.0)
 }
 

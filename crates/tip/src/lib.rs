@@ -15,6 +15,7 @@
 
 pub mod collocation;
 pub mod elementary;
+pub mod error_function;
 pub mod exponential;
 pub mod friction;
 pub mod memory;

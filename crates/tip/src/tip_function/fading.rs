@@ -2,7 +2,7 @@
 
 use super::Gaussian;
 use crate::elementary::{cos, exp, sin};
-use errorfunctions::RealErrorFunctions;
+use crate::error_function::erfcx;
 use gauss_quad::legendre::GaussLegendre;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::num::NonZeroUsize;
@@ -14,7 +14,7 @@ pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     let scale = g.amplitude * g.width * (PI / 2.0).sqrt();
     let argument = (z + p) * FRAC_1_SQRT_2;
     if argument >= 0.0 {
-        scale * exp(-0.5 * z * z) * argument.erfcx()
+        scale * exp(-0.5 * z * z) * erfcx(argument.into()).re
     } else {
         scale * exp(p * (z + 0.5 * p)) * libm::erfc(argument)
     }

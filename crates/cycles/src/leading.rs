@@ -18,6 +18,7 @@ use nalgebra::DMatrix;
 use num_complex::Complex;
 use std::sync::Arc;
 use stickslip_tip::eigenvalues;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Number of kicks, and of deviations that are carried through a period together.
 const BLOCK: usize = 8;
@@ -73,7 +74,7 @@ pub(super) fn leading(closed: &Closed, least: f64) -> Option<Vec<Complex<f64>>> 
 pub(super) fn sorted(matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let mut found = eigenvalues(matrix)?;
     // Both of a pair have the same modulus to the last bit, and stay in their order.
-    found.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+    sort_by_number(&mut found, |item| -item.norm());
     Some(found)
 }
 

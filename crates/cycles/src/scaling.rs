@@ -5,6 +5,7 @@
 use super::{CycleError, Parameter, Tried, cycle};
 use stickslip_stability::{Onset, critical, critical_r, onset_at};
 use stickslip_tip::motion::{Oscillation, latest_extrema};
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Model, Scenario, TipFunction, Wider, run};
 
 /// A scaling law close to onset, fitted at several distances from it.
@@ -83,7 +84,7 @@ pub fn scaling(
         }
     };
     let mut points = distances.iter().map(|d| at(*d)).collect::<Result<Vec<_>, _>>()?;
-    points.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    sort_by_number(&mut points, |item| item.distance);
     let line = |of: &dyn Fn(&ScalingPoint) -> f64| {
         Line::through(&points.iter().map(|p| (p.distance, of(p))).collect::<Vec<_>>())
     };

@@ -4,6 +4,7 @@ use crate::curve::Frame;
 use crate::drawing::{Drawing, Paint, Path, Rect, Step};
 use crate::style::colour;
 use stickslip::CellsDocument;
+use stickslip_tip::sorting;
 
 /// Draws the cells, a path for each category. Each extends half-way to its neighbours, and those at the ends
 /// symmetrically unless the axes cut them.
@@ -34,8 +35,7 @@ fn cell(frame: Frame, x: (f64, f64), y: (f64, f64)) -> Option<Step> {
 
 /// The values in ascending order, with the index of each.
 pub(crate) fn ascending(values: &[f64]) -> (Vec<f64>, Vec<usize>) {
-    let mut places: Vec<usize> = (0..values.len()).collect();
-    places.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let places = sorting::ascending(values);
     (places.iter().map(|place| values[*place]).collect(), places)
 }
 

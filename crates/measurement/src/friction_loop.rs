@@ -10,6 +10,7 @@
 
 use crate::interval::{Estimate, student};
 use crate::profile::MEDIAN_OF_NORMAL;
+use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use thiserror::Error;
 
 /// Forces on both ways over the same positions, which ascend; any units.
@@ -198,7 +199,7 @@ fn ascending((x, force): (Vec<f64>, Vec<f64>)) -> Result<(Vec<f64>, Vec<f64>), L
         return Err(LoopError::Value(i + 1));
     }
     let mut rows: Vec<(f64, f64)> = x.into_iter().zip(force).collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut rows, |item| item.0);
     match rows.windows(2).position(|pair| pair[0].0 >= pair[1].0) {
         Some(i) => Err(LoopError::Value(i + 2)),
         None => Ok(rows.into_iter().unzip()),
@@ -330,6 +331,6 @@ fn batches(values: &[f64], mean: f64) -> usize {
 fn noise(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> =
         values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0)).collect();
-    sizes.sort_by(f64::total_cmp);
+    sort_numbers(&mut sizes);
     sizes[sizes.len() / 2] / MEDIAN_OF_NORMAL
 }

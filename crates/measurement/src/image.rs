@@ -13,6 +13,7 @@ use crate::projection::project;
 use crate::tip::MeasuredTip;
 use std::ops::Range;
 use stickslip_tip::Gaussian;
+use stickslip_tip::sorting::sort_numbers;
 use thiserror::Error;
 
 /// Heights over an even grid, a row for each y, in any units.
@@ -213,7 +214,7 @@ impl Image {
     fn noise(&self) -> f64 {
         let of = |row: &Vec<f64>| Profile::new(self.x.clone(), row.clone()).ok().map(|p| p.noise());
         let mut noises: Vec<f64> = self.rows.iter().filter_map(of).collect();
-        noises.sort_by(f64::total_cmp);
+        sort_numbers(&mut noises);
         noises.get(noises.len() / 2).copied().unwrap_or(0.0)
     }
 }

@@ -1,6 +1,7 @@
 //! A value with its interval.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use stickslip_tip::sorting::sort_numbers;
 
 /// An estimate with its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +60,7 @@ impl Estimate {
             if sorted.is_empty() {
                 continue;
             }
-            sorted.sort_by(f64::total_cmp);
+            sort_numbers(&mut sorted);
             let (low, high) = (quantile(&sorted, 0.5 - HALF), quantile(&sorted, 0.5 + HALF));
             // An interval without its own estimate would puzzle.
             let before = found.unwrap_or(Self { value, low: value, high: value });

@@ -1,5 +1,6 @@
 //! A measured profile: positions and heights.
 
+use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use thiserror::Error;
 
 /// Smallest number of rows that determines a shape, an offset, a slope and a noise.
@@ -51,7 +52,7 @@ impl Profile {
         if let Some(i) = rows.iter().position(|(x, f)| !(x.is_finite() && f.is_finite())) {
             return Err(ProfileError::NotFinite { row: i + 1 });
         }
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut rows, |item| item.0);
         let (x, f): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
         if x[found - 1] - x[0] <= 0.0 {
             return Err(ProfileError::NoExtent(x[0]));
@@ -120,7 +121,7 @@ impl Profile {
         if sizes.is_empty() {
             return 0.0;
         }
-        sizes.sort_by(f64::total_cmp);
+        sort_numbers(&mut sizes);
         sizes[sizes.len() / 2] / MEDIAN_OF_NORMAL
     }
 }

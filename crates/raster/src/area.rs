@@ -2,6 +2,7 @@
 
 use crate::error::{MOST_LINES, RasterError};
 use crate::path::{AreaLine, Path, Track};
+use stickslip_tip::sorting::sort_numbers;
 
 /// Positions of the scan lines.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,7 +98,7 @@ impl Area {
             return Err(RasterError::Extent { extent: high - low, most });
         }
         let mut y: Vec<f64> = lines.iter().map(|line| line.y).collect();
-        y.sort_by(f64::total_cmp);
+        sort_numbers(&mut y);
         y.dedup();
         let within = most_within as usize;
         match y.windows(within + 1).find(|all| all[within] - all[0] < reach) {

@@ -5,6 +5,7 @@ use super::critical::{Critical, OnsetKind, bessel_wave_number, by_cosine, unless
 use super::crossings::Scan;
 use super::{StabilityError, corner, limits};
 use std::sync::Arc;
+use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use stickslip_tip::{TipFunction, Wider};
 
 /// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below αc.
@@ -128,7 +129,7 @@ impl Boundary {
             Search::ClosedForm => Ok(vec![first]),
             Search::Curve(axis) => {
                 let mut crossings = axis.crossings_of_r(r);
-                crossings.sort_by(|a, b| by_cosine(b, a));
+                sort_by_number(&mut crossings, |at| -at.cosine);
                 Ok(crossings.into_iter().map(|at| Critical::on_curve(r, at)).collect())
             }
             Search::General(_) => Err(NO_CURVE),
@@ -196,7 +197,7 @@ impl Boundary {
         };
         let crossings = |r| axis.crossings_of_r(r).into_iter().map(|p| p.wave_number);
         let mut ends: Vec<f64> = crossings(slowest).chain(crossings(fastest)).collect();
-        ends.sort_by(f64::total_cmp);
+        sort_numbers(&mut ends);
         let within = |from: f64, to: f64| {
             let AxisPoint { cosine, sine, .. } = axis.at(0.5 * (from + to));
             cosine > 0.0 && (slowest..=fastest).contains(&(sine / cosine))

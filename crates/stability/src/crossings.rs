@@ -11,6 +11,7 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use stickslip_tip::roots::zero_between;
+use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use stickslip_tip::{TipFunction, Wider, stop};
 
 /// Number of samples per period of the fastest oscillation that the reach of the tip allows.
@@ -102,7 +103,7 @@ impl Scan {
         let beside = beside_resonance(law);
         if !beside.is_empty() {
             values.extend(beside.into_iter().map(|q| (q, resultant(on_axis(q)))));
-            values.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by_number(&mut values, |item| item.0);
         }
         let zeros = zeros(|q| resultant(on_axis(q)), &values).into_iter();
         let crossings = zeros.flat_map(|wave_number| {
@@ -127,7 +128,7 @@ pub(super) fn wave_numbers(tip: &TipFunction) -> Vec<f64> {
     if tip.reach().is_none() {
         // On either side of the wave of J0 and cos x, where the transforms change within s.
         all.extend(beside(1.0, 0.5 / decade(10 * PER_DECADE)));
-        all.sort_by(f64::total_cmp);
+        sort_numbers(&mut all);
     }
     all
 }

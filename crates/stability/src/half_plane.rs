@@ -9,6 +9,7 @@ use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::stop;
 
 /// Largest size of a contour, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
@@ -259,7 +260,7 @@ fn first_zeros(h: &Characteristic, count: usize) -> Vec<Complex64> {
 fn next_in_chain(upper: &[Complex64], length: f64, fading: f64) -> Vec<Complex64> {
     let shifted = upper.iter().filter(|z| z.im > 0.0).map(|z| (z + fading) * length);
     let mut below: Vec<_> = shifted.filter(|p| p.re < AHEAD_OF_CHAIN).collect();
-    below.sort_by(|a, b| a.im.total_cmp(&b.im));
+    sort_by_number(&mut below, |item| item.im);
     let square = match below[..] {
         [.., before, last] => {
             Some(last * last + (last * last - before * before + FAR_INTERVAL) * 0.5)

@@ -6,6 +6,7 @@ use super::law::Law;
 use super::one_sided::Transforms;
 use num_complex::Complex64;
 use stickslip_tip::roots::halved_between;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{TipFunction, Wider};
 
 /// Values of s = 1/(rT) in the search for the memory length: they begin at this number of bands and fall by this
@@ -57,7 +58,7 @@ pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, Stabil
     };
     let mut known: Vec<(f64, f64)> = scan.samples().map(at).collect();
     known.extend(beside_resonance(&law).into_iter().map(|q| (q, inverse_limit(&law, q))));
-    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut known, |item| item.0);
     let (samples, values): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
     let mut largest = f64::NEG_INFINITY;
     for (q, value) in samples.windows(3).zip(values.windows(3)) {

@@ -18,6 +18,7 @@ use crate::crossings::zeros;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 use stickslip_tip::eigenvalues;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::tip_function::bessel_orders;
 use stickslip_tip::walker::{WalkerScenario, directions};
 
@@ -81,7 +82,7 @@ pub fn orbits(scenario: &WalkerScenario, largest: f64) -> Result<Vec<Orbit>, Sta
             found.push(Orbit { radius, frequency, exponents });
         }
     }
-    found.sort_by(|a, b| a.radius.total_cmp(&b.radius));
+    sort_by_number(&mut found, |item| item.radius);
     Ok(found)
 }
 
@@ -236,7 +237,8 @@ fn exponents(scenario: &WalkerScenario, radius: f64, frequency: f64) -> Option<V
         change.iter_mut().zip(pairs).for_each(|(change, (a, b))| *change = 0.5 * (a - b));
     }
     let mut found = eigenvalues(matrix)?;
-    found.sort_by(|a, b| b.re.total_cmp(&a.re).then(b.im.total_cmp(&a.im)));
+    sort_by_number(&mut found, |z| -z.im);
+    sort_by_number(&mut found, |z| -z.re);
     Some(found)
 }
 

@@ -2,6 +2,7 @@
 
 use super::certificate::{Certificate, Region};
 use num_complex::Complex64;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Roots of (29) with their certificate.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +26,8 @@ impl Spectrum {
 /// λ = rΛ of all roots, by falling real part, a conjugate after its twin.
 pub(super) fn with_conjugates(upper: &[Complex64], r: f64) -> Vec<Complex64> {
     let mut upper = upper.to_vec();
-    upper.sort_by(|a, b| b.re.total_cmp(&a.re).then(a.im.total_cmp(&b.im)));
+    sort_by_number(&mut upper, |z| z.im);
+    sort_by_number(&mut upper, |z| -z.re);
     let both = |z: &Complex64| {
         let lambda = z * r;
         if z.im > 0.0 { vec![lambda, lambda.conj()] } else { vec![lambda] }

@@ -4,6 +4,7 @@ use crate::SurfaceError;
 use ndarray::Array2;
 use rayon::prelude::*;
 use stickslip_tip::planar::{PlanarError, PlanarScenario, Texture, Trajectory, Visit};
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Layer, Start};
 
 /// The surface of one run in two coordinates.
@@ -47,7 +48,7 @@ impl<'a> SurfaceAcross<'a> {
             return Err(SurfaceError::Position(*place));
         }
         let mut visits = self.trajectory.residence(t);
-        visits.sort_by(|a, b| a.x.total_cmp(&b.x));
+        sort_by_number(&mut visits, |item| item.x);
         let left = self.scenario.along.model.wider().left_after(t - start);
         let reach = self.layers.iter().map(reach).fold(0.0, f64::max);
         let near: Vec<&[f64]> = x

@@ -3,6 +3,7 @@
 //! Reference: Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8.
 
 use crate::roots::halved_between;
+use crate::sorting::sort_numbers;
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -218,7 +219,7 @@ fn nodes() -> Stages {
         here - last
     };
     let mut brackets: Vec<f64> = gauss().as_node_weight_pairs().iter().map(|(x, _)| *x).collect();
-    brackets.sort_by(f64::total_cmp);
+    sort_numbers(&mut brackets);
     let mut c = [1.0; STAGES];
     for (c, bracket) in c.iter_mut().zip(brackets.windows(2)) {
         // Every number that the program writes hangs on the last bits of these nodes, and a faster method

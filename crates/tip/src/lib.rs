@@ -22,6 +22,7 @@ pub mod memory;
 pub mod motion;
 pub mod planar;
 pub mod roots;
+pub mod sorting;
 pub mod state;
 pub mod step;
 pub mod stop;

@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use stickslip::{Boundary, BoundaryDocument, LoadMap, RasterBoundary, SnakingBoundary, parameter};
 use stickslip_figures::{Size, View};
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_units::Unit;
 
 const LOAD_WIDTHS: &str = "--load-widths";
@@ -27,7 +28,7 @@ fn widths(session: &Session, path: &Path) -> Result<Value, Failure> {
     let factor = load.map_or(1.0, |(_, newtons)| NANO * newtons);
     let mut rows: Vec<[f64; 2]> =
         columns[0].iter().zip(&columns[1]).map(|(load, width)| [factor * load, *width]).collect();
-    rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    sort_by_number(&mut rows, |item| item[0]);
     let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<f64>>();
     Ok(json!({ "load_nN": column(0), "width": column(1) }))
 }

@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip::{KeptLine, Software, SweepPoint, SweepPoints};
+use stickslip_tip::sorting::sort_by_number;
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
@@ -56,7 +57,7 @@ impl<P: Part + Send> Parts<P> for Vec<P> {
     }
 
     fn order(&mut self) {
-        self.sort_by_key(P::index);
+        sort_by_number(self, |point| P::index(point) as f64);
     }
 }
 

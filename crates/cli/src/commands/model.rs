@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use crate::session::Session;
 use stickslip::{GaussianDocument, NamedTip, judge_details};
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, TipFunction};
 
 /// The footprint in the options.
@@ -64,7 +65,7 @@ fn on_path([x, y, f]: &[Vec<f64>; 3]) -> (Vec<f64>, Vec<f64>) {
     let nearest = y.iter().fold(f64::INFINITY, |least: f64, y| least.min(y.abs()));
     let rows = x.iter().zip(y).zip(f).filter(|((x, y), _)| **x >= 0.0 && y.abs() <= nearest);
     let mut rows: Vec<(f64, f64)> = rows.map(|((x, _), f)| (*x, *f)).collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut rows, |item| item.0);
     rows.dedup_by_key(|row| row.0.to_bits());
     rows.into_iter().unzip()
 }

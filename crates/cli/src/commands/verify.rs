@@ -22,6 +22,7 @@ use stickslip::{
     VerifyDocument,
 };
 use stickslip_tip::Scenario;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_verify::{
     Sample, TOLERANCES_ALLOWED, Verification, VerificationError, verify_across, verify_samples,
     verify_samples_across,
@@ -170,7 +171,7 @@ fn samples(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, String
     let rows = t.iter().zip(l).zip(x0).enumerate();
     let sample = |(i, ((&t, &l), &x0))| Sample { t, l, x0, y0: y0(i) };
     let mut samples: Vec<_> = rows.map(sample).collect();
-    samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    sort_by_number(&mut samples, |item| item.t);
     Ok(samples)
 }
 

@@ -8,6 +8,7 @@ use crate::session::Session;
 use std::path::Path;
 use stickslip::{KnownScales, SurfaceTable};
 use stickslip_raster::AreaLine;
+use stickslip_tip::sorting::sort_numbers;
 
 /// Two columns read from a file.
 pub(crate) type Columns = (Vec<f64>, Vec<f64>);
@@ -50,7 +51,7 @@ pub(crate) fn read_surface_table(
 fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
     let axis = |values: &[f64]| {
         let mut axis = values.to_vec();
-        axis.sort_by(f64::total_cmp);
+        sort_numbers(&mut axis);
         axis.dedup();
         axis
     };

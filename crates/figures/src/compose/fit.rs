@@ -8,6 +8,7 @@ use stickslip::{
     ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, Law, ModelParameters,
     NumberFitted, PanelDocument, StyleName, TipDocument,
 };
+use stickslip_tip::sorting::sort_by_number;
 
 /// Signed root of the likelihood at the ends of a 95 % interval.
 const END: f64 = 1.96;
@@ -96,7 +97,7 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     let lines = data.x.chunks(half).zip(data.model.chunks(half)).enumerate();
     above.curves.extend(lines.map(|(i, (x, model))| {
         let mut rows: Vec<(f64, f64)> = x.iter().copied().zip(model.iter().copied()).collect();
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut rows, |item| item.0);
         let (x, model): (Vec<f64>, Vec<f64>) = rows.into_iter().unzip();
         CurveDocument::new(style, if i == 0 { "model" } else { "" }, &x, &model)
     }));

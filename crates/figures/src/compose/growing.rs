@@ -12,6 +12,7 @@ use stickslip::{
 };
 use stickslip_raster::{Line, Plan};
 use stickslip_surface::{carved, carved_across};
+use stickslip_tip::sorting::sort_by_number;
 
 /// Largest number of columns and rows of the map: its pixels.
 const MOST: usize = 640;
@@ -81,7 +82,7 @@ impl Growing {
     /// The groove of a tip that leaves its line.
     fn carve_freely(&self, line: &Line, t: f64, u: &mut [Vec<f64>]) {
         let (mut visits, alpha) = (line.visits_until(t), self.plan.law.model.alpha());
-        visits.sort_by(|a, b| a.x.total_cmp(&b.x));
+        sort_by_number(&mut visits, |item| item.x);
         let Some((low, high)) = extremes(visits.iter().map(|visit| visit.y)) else { return };
         let (low, high) = (low - self.plan.reach_across(), high + self.plan.reach_across());
         let y = &self.whole.y;

@@ -9,6 +9,7 @@ use stickslip::{
     CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument, LoadMapDocument,
     LoadPoint, MapDocument, PanelDocument, RegimeName, StyleName,
 };
+use stickslip_tip::sorting::sort_numbers;
 
 /// Regimes without ripples, with their colours in sweeps; the last is that of failed points.
 const OTHERS: [(&str, Option<RegimeName>, ColourName); 4] = [
@@ -74,7 +75,7 @@ impl Drawn for LoadMapDocument {
 fn wavelengths(document: &LoadMapDocument, loads: &[f64]) -> Option<MapDocument> {
     let points = &document.points;
     let mut lengths: Vec<f64> = points.iter().filter_map(|p| p.wavelength).collect();
-    lengths.sort_by(f64::total_cmp);
+    sort_numbers(&mut lengths);
     let (low, high) = (*lengths.first()?, *lengths.get(lengths.len() * SHOWN / 100)?);
     let row = |row: &[LoadPoint]| row.iter().map(|p| p.wavelength.unwrap_or(low)).collect();
     Some(MapDocument {

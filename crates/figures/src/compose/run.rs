@@ -21,6 +21,7 @@ use stickslip::{
     CurveDocument, FigureDocument, PanelDocument, PulseParameters, Run, RunDocument, StyleName,
 };
 use stickslip_surface::Surface;
+use stickslip_tip::sorting::sort_numbers;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
 
 /// Number of oscillations above which their envelope is drawn, with the last ones in a second panel.
@@ -168,7 +169,7 @@ fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocumen
     let even = evenly([from, to], LOOP_POINTS);
     let knots = path.knots().0.iter().copied().filter(|t| (from..=to).contains(t));
     let mut t: Vec<f64> = even.chain(knots).collect();
-    t.sort_by(f64::total_cmp);
+    sort_numbers(&mut t);
     let way: Vec<f64> = t.iter().map(|t| trajectory.support().position(*t)).collect();
     let lag: Vec<f64> = t.iter().map(|t| trajectory.lag(*t)).collect();
     let mut panel = PanelDocument::new("", (WAY, LAG.1));
@@ -236,7 +237,7 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
     let pulses = run.pulses.iter().flat_map(near);
     let mut t: Vec<f64> = evenly([from, to], FORCE_POINTS).chain(pulses).chain(table).collect();
     t.retain(|t| (from..=to).contains(t));
-    t.sort_by(f64::total_cmp);
+    sort_numbers(&mut t);
     let value: Vec<f64> = t.iter().map(|t| force.value(*t)).collect();
     let mut panel = PanelDocument::new("", FORCE);
     panel.x_range = Some([from, to]);

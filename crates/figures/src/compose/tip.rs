@@ -6,6 +6,7 @@ use stickslip::{
     GaussianDocument, Law, ModelParameters, PathName, Raster, RunDocument, TipDocument,
     to_its_digits,
 };
+use stickslip_tip::sorting::sort_by_number;
 
 /// Largest difference of numbers that count as equal.
 const SAME: f64 = 1e-9;
@@ -125,7 +126,7 @@ fn is(a: f64, b: f64) -> bool {
 fn triple(gaussians: &[GaussianDocument]) -> Option<(f64, f64)> {
     let [a, b, c] = gaussians else { return None };
     let mut all = [a, b, c];
-    all.sort_by(|a, b| a.center.total_cmp(&b.center));
+    sort_by_number(&mut all, |item| item.center);
     let [left, middle, right] = all;
     let width = middle.width;
     let alike = is(left.amplitude, right.amplitude)

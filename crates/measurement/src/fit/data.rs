@@ -1,5 +1,6 @@
 //! Measured data.
 
+use stickslip_tip::sorting::ascending;
 use thiserror::Error;
 
 /// Values along a line.
@@ -234,8 +235,7 @@ impl Data {
 /// A track, and the retrace of a loop, by ascending position and averaged in groups.
 fn reduced(track: Track, back: Vec<f64>) -> (Track, Vec<f64>) {
     let Track { x, y, gain, averaged } = track;
-    let mut order: Vec<usize> = (0..x.len()).collect();
-    order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+    let order = ascending(&x);
     let group = x.len().div_ceil(KEPT_ROWS).max(1);
     // A last group that is not full would be another mean.
     let full = order.len() / group * group;

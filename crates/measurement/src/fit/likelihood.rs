@@ -9,6 +9,7 @@ use crate::least_squares::{Minimum, minimum, squares};
 use crate::likelihood::crossing;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use stickslip_tip::sorting::sort_by_number;
 
 /// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +164,7 @@ impl<'a> Around<'a> {
         };
         let (low, high) = (end(-1.0), end(1.0));
         let (low, high) = (self.farther(i, low, -1.0), self.farther(i, high, 1.0));
-        profile.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut profile, |item| item.0);
         let estimate = Estimate {
             value,
             low: low.map_or(0.0, |offset| value * offset.exp()),

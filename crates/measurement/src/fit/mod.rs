@@ -33,6 +33,7 @@ use comb::{Rows, by_chance};
 use likelihood::{Around, plain};
 use problem::Problem;
 use start::Start;
+use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use stickslip_tip::{TipFunction, stop};
 use thiserror::Error;
 use verdict::Evidence;
@@ -128,7 +129,7 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
         Some((scans, end))
     };
     let mut ends: Vec<(Vec<Scan>, Minimum)> = starts.into_iter().filter_map(end).collect();
-    ends.sort_by(|a, b| a.1.sum.total_cmp(&b.1.sum));
+    sort_by_number(&mut ends, |item| item.1.sum);
     let (scans, mut best) = ends.first().cloned().ok_or(FitError::NoStart)?;
     let mut problem = Problem { scans, ..problem.clone() };
     let rounds = if request.robust { ROUNDS } else { usize::from(data.len() > 1) };
@@ -288,7 +289,7 @@ fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
+    sort_numbers(&mut values);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 

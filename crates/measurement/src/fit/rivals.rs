@@ -8,6 +8,7 @@ use super::start::Start;
 use super::wave::Cycles;
 use crate::least_squares::{Minimum, Residuals, minimum, squares};
 use stickslip_tip::TipFunction;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Another motion that the data do not exclude.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,7 +101,7 @@ pub(super) fn judged(
         rivals.push(Rival { behind, at: end.parameters[..numbers].to_vec(), deviations });
         told.push(Alternative { values, scans: there.scans, behind });
     }
-    told.sort_by(|a, b| a.behind.total_cmp(&b.behind));
+    sort_by_number(&mut told, |item| item.behind);
     (rivals, told)
 }
 

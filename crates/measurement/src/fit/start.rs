@@ -6,6 +6,7 @@ use super::problem::{Problem, ends};
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
 use std::f64::consts::TAU;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Values of r, and of α over αc, that are tried if they are unknown.
 const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
@@ -47,7 +48,7 @@ pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>
 
 /// The most promising starting points, each with a different r.
 fn chosen(problem: &Problem, mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut judged, |item| item.0);
     let is_of_a_law = problem.free.iter().any(|name| name.is_of_a_law());
     let most = if is_of_a_law { FOLLOWED_UNDER_A_LAW } else { FOLLOWED };
     let mut chosen: Vec<Vec<f64>> = vec![];

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Degrees of freedom of the errors: those of the blocks of the image.
 const BLOCK_FREEDOM: f64 = 15.0;
@@ -247,7 +248,7 @@ impl<'a> Problem<'a> {
             [away / length, *mean, *error, height(&model, phase)]
         };
         let mut rows: Vec<[f64; 4]> = self.wave.folded.iter().enumerate().map(row).collect();
-        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        sort_by_number(&mut rows, |item| item[0]);
         let [distance, height, error, model] =
             [0, 1, 2, 3].map(|i| rows.iter().map(|row| row[i]).collect());
         RippleProfile { distance, height, error, model }

@@ -6,6 +6,7 @@ use crate::Profile;
 use crate::least_squares::{minimum, squares};
 use crate::projection::project;
 use stickslip_tip::Gaussian;
+use stickslip_tip::sorting::sort_by_number;
 
 /// A fit with a given number of Gaussians (a symmetric pair counts as one), a local minimum.
 #[derive(Debug, Clone, PartialEq)]
@@ -203,7 +204,7 @@ fn ever_more(
             Candidate::at(&shape, &end.parameters, rows as f64)
         });
         let mut ends: Vec<Candidate> = ends.collect();
-        ends.sort_by(|a, b| a.residual.total_cmp(&b.residual));
+        sort_by_number(&mut ends, |item| item.residual);
         let mut ends = ends.into_iter();
         let Some(best) = ends.next() else { break };
         others.extend(ends.filter(|other| other.is_another_than(&best)));
@@ -273,6 +274,6 @@ fn further(shape: &Shape, before: &Candidate) -> Vec<Places> {
 
 /// The few candidates with the smallest residuals.
 fn best(mut judged: Vec<(f64, Places)>) -> Vec<Places> {
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut judged, |item| item.0);
     judged.into_iter().take(TRIED).map(|(_, places)| places).collect()
 }

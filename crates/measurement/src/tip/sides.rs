@@ -10,6 +10,7 @@ use crate::Profile;
 use crate::least_squares::{Residuals, differences, minimum};
 use crate::projection::project;
 use stickslip_tip::Gaussian;
+use stickslip_tip::sorting::sort_by_number;
 
 /// The footprints of either direction, with the same σ.
 #[derive(Debug, Clone, PartialEq)]
@@ -206,7 +207,7 @@ impl Residuals for TwoWidths {
 fn half(x: &[f64], height: &[f64], apex: f64, sign: f64) -> Option<Profile> {
     let rows = x.iter().zip(height).map(|(x, f)| (sign * (x - apex), *f));
     let mut rows: Vec<(f64, f64)> = rows.filter(|(x, _)| *x >= 0.0).collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut rows, |item| item.0);
     let sided = rows.into_iter().enumerate();
     let (x, f) = sided.map(|(i, (x, f))| (if i % 2 == 0 { x } else { -x }, f)).unzip();
     Profile::new(x, f).ok()

@@ -3,6 +3,7 @@
 use super::sheet::{Sheet, halves_of};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use stickslip_tip::sorting::sort_by_number;
 
 /// A maximum of the power |Σ window u e^{-i(qx + κy)}|².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +73,7 @@ impl Wave {
         let Some(first) = whole.max_by(|a, b| a.power.total_cmp(&b.power)) else { return vec![] };
         let mut others: Vec<Self> = refined.into_iter().map(|(_, wave)| wave).collect();
         others.retain(|wave| *wave != first && wave.q > 0.0 && wave.rivals(&first, 1.0));
-        others.sort_by(|a, b| b.power.total_cmp(&a.power));
+        sort_by_number(&mut others, |item| -item.power);
         others.insert(0, first);
         others
     }
@@ -105,7 +106,7 @@ impl Wave {
         waves.iter_mut().filter(|wave| wave.q < 0.0).for_each(|wave| {
             (wave.q, wave.kappa) = (-wave.q, -wave.kappa);
         });
-        waves.sort_by(by_power);
+        sort_by_number(&mut waves, |wave| -wave.power);
         let first = waves[0];
         let is_same = |wave: &Self| {
             (wave.q - first.q).abs() < 0.5 * dq && (wave.kappa - first.kappa).abs() < 0.5 * dk

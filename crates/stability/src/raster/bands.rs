@@ -9,6 +9,7 @@ use super::optimum::{Place, solved, stationary, still};
 use super::search::largest;
 use crate::StabilityError;
 use std::f64::consts::PI;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::stop;
 
 /// Wave numbers of the lattice, and phases from 0 to 2π.
@@ -55,7 +56,7 @@ pub(super) fn bands(lines: &Lines, least: f64, band: f64) -> Result<Vec<Place>, 
             }
         }
     }
-    found.sort_by(|a, b| b.t.total_cmp(&a.t));
+    sort_by_number(&mut found, |item| -item.t);
     Ok(found)
 }
 

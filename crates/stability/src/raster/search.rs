@@ -12,6 +12,7 @@ use super::determinant::{Lines, Phase, Wave};
 use super::on_cell::Determinant;
 use super::optimum::{Place, candidate};
 use crate::StabilityError;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::stop;
 
 /// Relative accuracy to which a threshold is certified as the lowest.
@@ -90,7 +91,7 @@ pub(super) fn largest(lines: &Lines, floor: f64) -> Result<Found, StabilityError
         };
         let left = cells.into_iter().map(|cell| (cell, at(&cell)));
         let mut left: Vec<_> = left.filter(|(_, here)| !here.has_none()).collect();
-        left.sort_by(|a, b| b.1.promise().total_cmp(&a.1.promise()));
+        sort_by_number(&mut left, |item| -item.1.promise());
         let cell = |(i, j): (usize, usize)| {
             let (q, theta) = (&waves.all[i], &phases.all[j]);
             [(q.centre, q.half), (theta.centre, theta.half)]

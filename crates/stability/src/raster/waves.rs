@@ -5,6 +5,7 @@ use super::patch::Patch;
 use crate::one_sided::{Jet, OneSided};
 use num_complex::Complex64;
 use std::f64::consts::PI;
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Footprint, Gaussian, TipFunction};
 
 /// The transforms of f(x,0) over x > 0 and of the layers over all x, at p = s + iq.
@@ -34,8 +35,9 @@ impl Waves {
         let tips = || footprint.layers().iter().map(|layer| &layer.along);
         let mut shapes: Vec<(f64, f64)> =
             tips().flat_map(gaussians).map(|g| (g.center, g.width)).collect();
+        sort_by_number(&mut shapes, |(_, width)| *width);
+        sort_by_number(&mut shapes, |(center, _)| *center);
         let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
-        shapes.sort_by(order);
         shapes.dedup_by(|a, b| order(a, b).is_eq());
         let term = |g: &Gaussian| {
             let area = g.amplitude * g.width * (2.0 * PI).sqrt();

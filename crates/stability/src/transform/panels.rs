@@ -5,6 +5,7 @@ use gauss_quad::GaussLegendre;
 use multiversion::multiversion;
 use num_complex::Complex64;
 use stickslip_tip::Gaussian;
+use stickslip_tip::sorting::sort_by_number;
 
 /// Nodes on each quadrature panel.
 const PANEL_NODES: usize = 32;
@@ -25,7 +26,7 @@ struct Sorted(Vec<Gaussian>, f64);
 impl Sorted {
     fn new(terms: &[Gaussian]) -> Self {
         let mut sorted = terms.to_vec();
-        sorted.sort_by(|a, b| a.center.total_cmp(&b.center));
+        sort_by_number(&mut sorted, |item| item.center);
         Self(sorted, terms.iter().map(|g| g.width).fold(0.0, f64::max))
     }
 
@@ -162,7 +163,7 @@ impl Panels {
         let rule =
             GaussLegendre::new(PANEL_NODES.try_into().unwrap_or(std::num::NonZero::<usize>::MIN));
         let mut pairs: Vec<(f64, f64)> = rule.as_node_weight_pairs().to_vec();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut pairs, |item| item.0);
         let offsets: Vec<f64> = pairs.iter().map(|(x, _)| 0.5 * width * (1.0 + x)).collect();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let starts = (0..panels as u32).map(|i| f64::from(i) * width);

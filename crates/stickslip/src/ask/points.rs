@@ -6,6 +6,7 @@ use rayon::slice::ParallelSlice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
+use stickslip_tip::sorting::sort_by_number;
 
 /// Groups of points per thread: some take longer than others.
 const GROUPS_PER_THREAD: usize = 4;
@@ -117,6 +118,6 @@ pub(crate) fn all_points<Q: Points>(
         points.push(point);
         context.counted(points.len(), indices.len(), "points").is_ok()
     })?;
-    points.sort_by_key(Q::index);
+    sort_by_number(&mut points, |point| Q::index(point) as f64);
     Ok(points)
 }

@@ -4,6 +4,7 @@ use crate::Refused;
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::sorting::ascending;
 
 /// Times at which a motion is sampled; by default 2,001 times at even intervals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -132,8 +133,7 @@ impl Times {
     /// agree.
     pub fn in_order(self) -> (Self, Vec<usize>) {
         let Self::At(times) = self else { return (self, vec![]) };
-        let mut places: Vec<usize> = (0..times.len()).collect();
-        places.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
+        let places = ascending(&times);
         (Self::At(places.iter().map(|place| times[*place]).collect()), places)
     }
 

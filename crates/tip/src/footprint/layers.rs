@@ -1,6 +1,7 @@
 //! Terms sorted into layers, and sums of layers along the path.
 
 use super::{Across, Gaussian2d, Layer};
+use crate::sorting::sort_by_number;
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
 /// The layers of a sum of two-dimensional Gaussians: one for each |d| and v.
@@ -90,7 +91,8 @@ pub(super) fn combined(layers: &[Layer], factor: impl Fn(&Across) -> f64) -> Vec
         sum.terms().iter().map(term).collect()
     };
     let mut all: Vec<Gaussian> = layers.iter().flat_map(scaled).collect();
-    all.sort_by(|a, b| a.center.total_cmp(&b.center).then(a.width.total_cmp(&b.width)));
+    sort_by_number(&mut all, |g| g.width);
+    sort_by_number(&mut all, |g| g.center);
     let alike = |a: &Gaussian, b: &Gaussian| {
         close(a.center, b.center, a.width) && close(a.width, b.width, a.width)
     };

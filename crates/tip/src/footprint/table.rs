@@ -1,6 +1,7 @@
 //! Conversion of a table (x, y, f) to layers: Gaussians on a lattice, first along x, then along y.
 
 use super::{Across, Layer};
+use crate::sorting::{ascending, sort_by_number, sort_numbers};
 use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
@@ -60,8 +61,8 @@ impl Grid {
         if xs.len() * ys.len() != points {
             return Err(TipFunctionError::TableGrid { points, x: xs.len(), y: ys.len() });
         }
-        let mut order: Vec<usize> = (0..points).collect();
-        order.sort_by(|&a, &b| y[a].total_cmp(&y[b]).then(x[a].total_cmp(&x[b])));
+        let mut order = ascending(x);
+        sort_by_number(&mut order, |i| y[*i]);
         let rows: Vec<Vec<f64>> =
             order.chunks(xs.len()).map(|row| row.iter().map(|&i| f[i]).collect()).collect();
         // A point given twice shifts another out of its row.
@@ -102,7 +103,7 @@ impl Grid {
 /// The distinct values, in increasing order.
 fn distinct(values: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sort_numbers(&mut sorted);
     sorted.dedup_by(|a, b| same(*a, *b));
     sorted
 }

@@ -7,6 +7,7 @@
 use super::bells::Bells;
 use crate::elementary::{log10, pow};
 use crate::footprint::{Footprint, Layer};
+use crate::sorting::sort_by_number;
 use crate::{Gaussian, TipFunction, TipFunctionError};
 use nalgebra::{DMatrix, SVD};
 use std::sync::{Arc, Mutex};
@@ -86,7 +87,7 @@ impl Products {
             factors.extend(Factors::of(&group)?);
         }
         // The largest first; an error of the sum is at most the sum of the sizes left out.
-        factors.sort_by(|a, b| b.most().total_cmp(&a.most()));
+        sort_by_number(&mut factors, |item| -item.most());
         let mut error = 0.0;
         while factors.len() > 1
             && let Some(last) = factors.last()
@@ -121,7 +122,7 @@ impl Products {
 /// Layers by their width across.
 fn of_one_width(layers: &[Layer]) -> Vec<Vec<&Layer>> {
     let mut sorted: Vec<&Layer> = layers.iter().collect();
-    sorted.sort_by(|a, b| a.across.width.total_cmp(&b.across.width));
+    sort_by_number(&mut sorted, |item| item.across.width);
     let alike = |a: &&Layer, b: &&Layer| close(a.across.width, b.across.width, a.across.width);
     sorted.chunk_by(alike).map(<[&Layer]>::to_vec).collect()
 }

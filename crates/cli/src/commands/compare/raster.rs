@@ -21,6 +21,7 @@ use stickslip_grid::{
     GridError, Layer, PlaneScan, RowMethod, Scan, ScanLine, Stepping, scan, scan_plane,
 };
 use stickslip_raster::{Free, Line, Path, Plan, RasterError, Scanning};
+use stickslip_tip::sorting::sort_numbers;
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 
 /// Number of heights compared on each row.
@@ -216,7 +217,7 @@ fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared,
     let (model, wider) = (&plan.law.model, plan.law.model.wider());
     let lines = scan_lines(plan);
     let mut y: Vec<f64> = lines.iter().map(|line| line.y).collect();
-    y.sort_by(f64::total_cmp);
+    sort_numbers(&mut y);
     y.dedup();
     plane.fit(x[x.len() - 1] - x[0], (y[0], y[y.len() - 1]))?;
     let scan = PlaneScan {

@@ -18,6 +18,7 @@ use stickslip::{
     RunEnd, RunFound, RunScenario, SampleLine, SteadyState,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
+use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Scenario, Step, Support, Wider, stop};
 use stickslip_verify::TOLERANCES_ALLOWED;
 
@@ -381,7 +382,7 @@ pub(super) fn of_document(
     claims.of_document(run, history);
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();
-    samples.sort_by(|a, b| a.t.total_cmp(&b.t));
+    sort_by_number(&mut samples, |item| item.t);
     if let Some(motion) = history {
         let law = (&scenario.support(), scenario.model.wider());
         for sample in samples.drain(..) {

@@ -4,6 +4,7 @@ use super::{AxisName, SweepParameters, SweepPoint, SweepPoints};
 use crate::RegimeName;
 use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
+use stickslip_tip::sorting::sort_numbers;
 
 /// Statistics of points that differ only in the seed of their noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -121,7 +122,7 @@ impl RegimeCounts {
 impl StatisticsDocument {
     /// The statistics of these numbers, `None` without any. Computed in two passes, which avoids cancellation.
     fn of(mut numbers: Vec<f64>) -> Option<Self> {
-        numbers.sort_by(f64::total_cmp);
+        sort_numbers(&mut numbers);
         let (least, largest) = (*numbers.first()?, *numbers.last()?);
         let count = numbers.len();
         let mean = numbers.iter().sum::<f64>() / count as f64;

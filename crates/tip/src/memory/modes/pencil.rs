@@ -4,6 +4,7 @@
 //! 984 (1989).
 
 use crate::elementary::complex_ln;
+use crate::sorting::ascending;
 use nalgebra::{DMatrix, Schur, SymmetricEigen};
 use num_complex::Complex;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -54,12 +55,11 @@ impl Pencil {
         let rows = samples.len().div_ceil(2);
         let hankel = DMatrix::from_fn(rows, rows, |i, j| samples[i + j]);
         let found = SymmetricEigen::try_new(hankel, f64::EPSILON, MOST_SWEEPS)?;
-        let size = |k: usize| found.eigenvalues[k].abs();
-        let mut order: Vec<usize> = (0..rows).collect();
-        order.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
+        let falling: Vec<f64> = found.eigenvalues.iter().map(|value| -value.abs()).collect();
+        let order = ascending(&falling);
         let columns: Vec<_> = order.iter().map(|k| found.eigenvectors.column(*k)).collect();
         let vectors = DMatrix::from_columns(&columns);
-        Some(Self { spacing, vectors, singular: order.into_iter().map(size).collect() })
+        Some(Self { spacing, vectors, singular: order.into_iter().map(|k| -falling[k]).collect() })
     }
 
     /// The smallest number of terms for which the remainder, per sample, may be below `error`.

@@ -53,7 +53,8 @@ pub(crate) fn header(frame: &Frame) -> Vec<u8> {
 
 /// The bytes of these pixels, heights times a factor.
 pub(crate) fn pixels<'a>(heights: impl IntoIterator<Item = &'a f64>, factor: f64) -> Vec<u8> {
-    heights.into_iter().flat_map(|u| ((factor * u) as f32).to_le_bytes()).collect()
+    let bytes = heights.into_iter().map(|u| ((factor * u) as f32).to_le_bytes());
+    bytes.collect::<Vec<_>>().into_flattened()
 }
 
 /// The bytes of the file with these rows of equal length, heights times a factor.

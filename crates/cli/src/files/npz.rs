@@ -70,7 +70,8 @@ fn checksum(header: &[u8], values: &[f64]) -> u32 {
 
 /// The values as bytes, some at a time.
 fn pieces(values: &[f64]) -> impl Iterator<Item = Vec<u8>> {
-    values.chunks(1 << 12).map(|piece| piece.iter().flat_map(|value| value.to_le_bytes()).collect())
+    let bytes = |piece: &[f64]| piece.iter().map(|value| value.to_le_bytes()).collect::<Vec<_>>();
+    values.chunks(1 << 12).map(move |piece| bytes(piece).into_flattened())
 }
 
 /// A length or a place in the archive.

@@ -452,7 +452,7 @@ impl Tabular for ContinueFound {
     /// The cycles of all branches, in one table.
     fn columns(&self) -> Vec<Named<'_>> {
         let joined = |of: fn(&CycleBranch) -> &Vec<f64>| -> Column {
-            self.branches.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+            self.branches.iter().map(of).collect()
         };
         let numbers = self.branches.iter().enumerate();
         let numbers: Vec<f64> = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect();

@@ -80,7 +80,7 @@ impl Tabular for SurfaceFound {
         let Self { surfaces, images, .. } = self;
         let Some(first) = images.first() else {
             let joined = |of: fn(&SurfaceCurve) -> &Vec<f64>| -> Column {
-                surfaces.iter().flat_map(of).copied().collect::<Vec<_>>().into()
+                surfaces.iter().map(of).collect()
             };
             let t: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
             return vec![("t", t.into()), ("x", joined(|s| &s.x)), ("u", joined(|s| &s.u))];
@@ -116,5 +116,6 @@ impl Tabular for SurfaceFound {
 }
 
 fn heights(images: &[SurfaceImage]) -> Vec<f64> {
-    images.iter().flat_map(|image| image.u.iter().flatten().copied()).collect()
+    let rows: Vec<&[f64]> = images.iter().flat_map(|image| &image.u).map(Vec::as_slice).collect();
+    rows.concat()
 }

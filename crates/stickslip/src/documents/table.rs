@@ -175,6 +175,13 @@ impl From<Vec<f64>> for Column<'_> {
     }
 }
 
+impl<'v> FromIterator<&'v Vec<f64>> for Column<'_> {
+    /// Lists of numbers, one after the other.
+    fn from_iter<I: IntoIterator<Item = &'v Vec<f64>>>(lists: I) -> Self {
+        lists.into_iter().map(Vec::as_slice).collect::<Vec<_>>().concat().into()
+    }
+}
+
 impl From<Vec<Option<f64>>> for Column<'_> {
     fn from(values: Vec<Option<f64>>) -> Self {
         Self::Optional(values.into())

@@ -161,9 +161,8 @@ fn largest<'a>(pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
 impl Tabular for RasterCompareFound {
     /// Both motions as a table, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
-        let joined = |of: fn(&ComparedLine) -> &Vec<f64>| -> Column {
-            self.lines.iter().flat_map(of).copied().collect::<Vec<_>>().into()
-        };
+        let joined =
+            |of: fn(&ComparedLine) -> &Vec<f64>| -> Column { self.lines.iter().map(of).collect() };
         let rows = |(n, line): (usize, &ComparedLine)| vec![n as f64 + 1.0; line.t.len()];
         let numbers: Vec<f64> = self.lines.iter().enumerate().flat_map(rows).collect();
         let mut columns = vec![
@@ -174,7 +173,7 @@ impl Tabular for RasterCompareFound {
         ];
         if self.max_difference.y0.is_some() {
             let across = |of: fn(&ComparedLine) -> &Option<Vec<f64>>| -> Column {
-                self.lines.iter().flat_map(of).flatten().copied().collect::<Vec<_>>().into()
+                self.lines.iter().filter_map(|line| of(line).as_ref()).collect()
             };
             columns.push(("closed_y0", across(|line| &line.closed_y0)));
             columns.push(("grid_y0", across(|line| &line.grid_y0)));

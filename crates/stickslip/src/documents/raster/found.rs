@@ -99,9 +99,8 @@ impl Tabular for RasterFound {
         ];
         for (name, of) in SOME {
             let all = self.lines.iter().map(|line| of(&line.samples));
-            let all: Option<Vec<&Vec<f64>>> = all.collect();
-            let joined = all.map(|all| all.into_iter().flatten().copied().collect::<Vec<_>>());
-            columns.extend(joined.map(|joined| (name, joined.into())));
+            let joined: Option<Column> = all.collect();
+            columns.extend(joined.map(|joined| (name, joined)));
         }
         columns
     }

@@ -216,8 +216,10 @@ impl RasterHistory {
 
     pub(super) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let lines = || self.lines.iter();
-        let t: Vec<f64> = lines().flat_map(|line| &line.t).copied().collect();
-        let extension: Vec<f64> = lines().flat_map(|line| &line.extension).copied().collect();
+        let joined = |of: fn(&LineHistory) -> &Vec<f64>| {
+            lines().map(|line| of(line).as_slice()).collect::<Vec<_>>().concat()
+        };
+        let (t, extension) = (joined(|line| &line.t), joined(|line| &line.extension));
         let displacement: Vec<Vec<f64>> =
             lines().flat_map(|line| line.displacement.clone()).collect();
         let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();

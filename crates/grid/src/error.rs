@@ -83,10 +83,4 @@ pub enum GridError {
         /// t
         time: f64,
     },
-    /// The crate of the integrator stopped because it considers the problem stiff.
-    #[error("the explicit stepper judged the problem stiff at t = {time}: bound the step")]
-    Stiff {
-        /// t
-        time: f64,
-    },
 }

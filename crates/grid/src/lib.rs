@@ -61,8 +61,6 @@ mod stepping;
 mod tableau;
 mod theta;
 mod three_point;
-mod uniform;
-mod unknowns;
 mod wider;
 
 pub use error::GridError;

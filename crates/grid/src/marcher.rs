@@ -13,7 +13,7 @@ use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 pub(crate) struct Marcher<'a> {
     problem: &'a Problem<'a>,
     scheme: Box<dyn Scheme + 'a>,
-    tableau: Tableau,
+    tableau: &'static Tableau,
     stepping: Stepping,
     control: Control,
     cells: Cells<'a>,
@@ -58,7 +58,7 @@ impl<'a> Marcher<'a> {
     pub(crate) fn new(
         problem: &'a Problem<'a>,
         scheme: Box<dyn Scheme + 'a>,
-        tableau: Tableau,
+        tableau: &'static Tableau,
         stepping: Stepping,
         cells: Cells<'a>,
         background: Option<&'a Start<'a>>,
@@ -139,10 +139,10 @@ impl<'a> Marcher<'a> {
     /// Evaluates all stages except the first, which is available; returns x0(t + h).
     fn stages_of_step(&mut self, h: f64) -> Option<f64> {
         for i in 1..self.tableau.stages() {
-            let x = self.moved(h, &self.tableau.a[i])?;
+            let x = self.moved(h, self.tableau.a[i])?;
             self.evaluate(i, self.t + self.tableau.c[i] * h, x, h);
         }
-        self.moved(h, &self.tableau.b)
+        self.moved(h, self.tableau.b)
     }
 
     /// x0 + h Σ weight · velocity; `None` if that is not finite or a reach away, because the step is far too long.
@@ -212,9 +212,9 @@ impl<'a> Marcher<'a> {
         let len = (end - first) as usize;
         let (carving, tableau) = (-self.problem.alpha * h, &self.tableau);
         let Scratch { carved, errors, .. } = &mut self.scratch;
-        combine(carved, first, len, carving, &tableau.b, &self.stages);
-        combine(&mut errors[0], first, len, carving, &tableau.error, &self.stages);
-        combine(&mut errors[1], first, len, carving, &tableau.error3, &self.stages);
+        combine(carved, first, len, carving, tableau.b, &self.stages);
+        combine(&mut errors[0], first, len, carving, tableau.error, &self.stages);
+        combine(&mut errors[1], first, len, carving, tableau.error3, &self.stages);
         // `max` below would swallow a NaN.
         if errors[0].values.iter().sum::<f64>().is_nan() {
             return f64::INFINITY;
@@ -247,7 +247,7 @@ impl<'a> Marcher<'a> {
             let visits: Vec<_> = self.tableau.b.iter().zip(&self.stages).map(visit).collect();
             visited(&visits);
         }
-        self.velocity += h * self.slope(&self.tableau.b, |stage| stage.acceleration);
+        self.velocity += h * self.slope(self.tableau.b, |stage| stage.acceleration);
         self.t += h;
         self.x0 = x0;
         self.work.steps += 1;

@@ -4,10 +4,10 @@ use crate::cells::Cells;
 use crate::marcher::Marcher;
 use crate::scheme::{Scheme, positive, sound};
 use crate::sinc::Sinc;
-use crate::tableau::Tableau;
+use crate::tableau::{DOP853, DOPRI5};
 use crate::theta::Theta;
-use crate::three_point::ThreePoint;
-use crate::{Gaussian, GridError, Observer, Problem, Request, Run, Stepping, uniform};
+use crate::three_point::{ThreePoint, WholeGrid};
+use crate::{Gaussian, GridError, Observer, Problem, Request, Run, Stepping};
 use std::ops::ControlFlow;
 
 /// A discretisation of [`Problem`].
@@ -74,14 +74,22 @@ pub fn solve_observed(
     request.check(problem.start.time)?;
     match method {
         &Method::Uniform { spacing, from, to } => {
-            uniform::run(problem, (positive(spacing)?, from, to), stepping, request, observe)
+            let grid = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
+            let scheme = WholeGrid::new(grid, from, to)?;
+            let (inside, mut left) = (scheme.inside(), None);
+            let mut within = |time: f64, x0: f64| {
+                if inside.contains(&x0) {
+                    return observe(time, x0);
+                }
+                left = Some(GridError::LeftGrid { time, x0 });
+                ControlFlow::Break(())
+            };
+            let run = second_order(problem, Box::new(scheme), stepping, request, &mut within);
+            run.map_err(|error| left.unwrap_or(error))
         }
         &Method::Windowed { spacing } => {
             let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
-            let start = |cell: i64| problem.start.height(cell as f64 * spacing);
-            let cells = Cells::new(&start);
-            Marcher::new(problem, Box::new(scheme), Tableau::dopri5(), *stepping, cells, None)
-                .run(request, observe)
+            second_order(problem, Box::new(scheme), stepping, request, observe)
         }
         Method::Spectral { gaussians, spacing } => {
             let scheme = Theta::new(gaussians, positive(*spacing)?)?;
@@ -92,6 +100,20 @@ pub fn solve_observed(
             spectral(problem, Box::new(scheme), stepping, request, observe)
         }
     }
+}
+
+/// Cells that contain the heights themselves.
+fn second_order(
+    problem: &Problem,
+    scheme: Box<dyn Scheme + '_>,
+    stepping: &Stepping,
+    request: &Request,
+    observe: &mut Observer,
+) -> Result<Run, GridError> {
+    let spacing = scheme.spacing();
+    let start = |cell: i64| problem.start.height(cell as f64 * spacing);
+    Marcher::new(problem, scheme, &DOPRI5, *stepping, Cells::new(&start), None)
+        .run(request, observe)
 }
 
 /// A lattice that contains only u - u0; u0 and its slope are evaluated on request.
@@ -105,6 +127,5 @@ fn spectral(
     let scheme = sound(scheme, &problem.footprint)?;
     let nothing = |_: i64| 0.0;
     let (cells, start) = (Cells::new(&nothing), &problem.start);
-    Marcher::new(problem, scheme, Tableau::dop853(), *stepping, cells, Some(start))
-        .run(request, observe)
+    Marcher::new(problem, scheme, &DOP853, *stepping, cells, Some(start)).run(request, observe)
 }

@@ -3,7 +3,7 @@
 use crate::Footprint;
 use crate::scheme::Scheme;
 use crate::sinc::Sinc;
-use crate::tableau::Tableau;
+use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::three_point::ThreePoint;
 
 /// Discretisation of rows along x and in time.
@@ -27,10 +27,10 @@ impl RowMethod {
         }
     }
 
-    pub(crate) fn tableau(self) -> Tableau {
+    pub(crate) fn tableau(self) -> &'static Tableau {
         match self {
-            Self::Sinc => Tableau::dop853(),
-            Self::ThreePoint => Tableau::dopri5(),
+            Self::Sinc => &DOP853,
+            Self::ThreePoint => &DOPRI5,
         }
     }
 }

@@ -29,8 +29,13 @@ pub(crate) fn cells_within(x: f64, reach: f64, spacing: f64) -> (i64, usize) {
 pub(crate) fn sample(footprint: &crate::Footprint, spacing: f64, tip: f64, out: &mut Patch) {
     let (first, len) = cells_within(tip, footprint.reach(), spacing);
     out.reset(first, len);
-    for (j, value) in out.values.iter_mut().enumerate() {
-        *value = footprint.value((first + j as i64) as f64 * spacing - tip);
+    sample_at(footprint, spacing, tip, out);
+}
+
+/// Samples of f at the cells of a patch.
+pub(crate) fn sample_at(footprint: &crate::Footprint, spacing: f64, tip: f64, out: &mut Patch) {
+    for (value, cell) in out.values.iter_mut().zip(out.first..) {
+        *value = footprint.value(cell as f64 * spacing - tip);
     }
 }
 

@@ -17,7 +17,7 @@ pub type PlaneObserver<'a> = dyn FnMut(f64, [f64; 2]) -> ControlFlow<()> + 'a;
 pub(super) struct Marcher<'a> {
     problem: &'a PlaneProblem<'a>,
     tensor: &'a Tensor<'a>,
-    tableau: Tableau,
+    tableau: &'static Tableau,
     stepping: Stepping,
     control: Control,
     /// e^{(t - s)/T} (u - u0), with u0 the initial surface as far as it remains.
@@ -127,10 +127,10 @@ impl<'a> Marcher<'a> {
     /// Evaluates all stages except the first, which is available; returns (x0, y0) at t + h.
     fn stages_of_step(&mut self, h: f64) -> Option<[f64; 2]> {
         for i in 1..self.tableau.stages() {
-            let position = self.moved(h, &self.tableau.a[i])?;
+            let position = self.moved(h, self.tableau.a[i])?;
             self.evaluate(i, self.t + self.tableau.c[i] * h, position, h);
         }
-        self.moved(h, &self.tableau.b)
+        self.moved(h, self.tableau.b)
     }
 
     /// The position moved by h Σ weight · velocity; `None` if that is not finite or a reach away, because the step is
@@ -214,7 +214,7 @@ impl<'a> Marcher<'a> {
         let (first, end, across) = self.carved();
         let mut columns = [across.clone(), across.clone(), across];
         for i in first..end {
-            self.combine(h, i, &self.tableau.b, &mut columns[0]);
+            self.combine(h, i, self.tableau.b, &mut columns[0]);
             self.combine(h, i, weights[0], &mut columns[1]);
             self.combine(h, i, weights[1], &mut columns[2]);
             let [carved, fifth, third] = &columns;
@@ -257,10 +257,10 @@ impl<'a> Marcher<'a> {
     fn accept(&mut self, h: f64, after: [f64; 2]) {
         let (first, end, mut column) = self.carved();
         for i in first..end {
-            self.combine(h, i, &self.tableau.b, &mut column);
+            self.combine(h, i, self.tableau.b, &mut column);
             self.sheet.add(i, &column);
         }
-        self.velocity += h * self.sum(&self.tableau.b, |stage| stage.acceleration);
+        self.velocity += h * self.sum(self.tableau.b, |stage| stage.acceleration);
         let knot = self.problem.wider.next_knot(self.t) <= self.t + h;
         self.t += h;
         self.position = after;

@@ -4,7 +4,7 @@ use super::product::{self, Product};
 use crate::patch::Patch;
 use crate::scheme::{Scheme, positive, sound};
 use crate::sinc::Sinc;
-use crate::tableau::Tableau;
+use crate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::theta::Theta;
 use crate::three_point::ThreePoint;
 use crate::{Footprint, Gaussian, GridError};
@@ -33,10 +33,10 @@ pub enum PlaneMethod {
 }
 
 impl PlaneMethod {
-    pub(super) fn tableau(&self) -> Tableau {
+    pub(super) fn tableau(&self) -> &'static Tableau {
         match self {
-            Self::ThreePoint { .. } => Tableau::dopri5(),
-            Self::Spectral { .. } | Self::Sinc { .. } => Tableau::dop853(),
+            Self::ThreePoint { .. } => &DOPRI5,
+            Self::Spectral { .. } | Self::Sinc { .. } => &DOP853,
         }
     }
 }

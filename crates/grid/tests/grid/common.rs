@@ -49,11 +49,16 @@ impl Kicked {
     pub(crate) fn run(&self, method: &Method, stepping: &Stepping) -> Result<Run, GridError> {
         let footprint = Footprint::new(&triple_gaussian, REACH)?;
         let start = Start::steady(self.alpha, 1.0, footprint, 14.0, self.kick);
-        let sample = |k: usize| start.time() + self.span * k as f64 / self.samples as f64;
-        let times: Vec<f64> = (1..=self.samples).map(sample).collect();
-        let points: Vec<f64> = (0..60).map(|k| 10.0 + 0.7 * f64::from(k)).collect();
+        let (times, points) = self.request(start.time());
         let problem = Problem::new(self.alpha, 1.0, footprint, start)?;
         solve(&problem, method, stepping, &Request { times: &times, points: &points })
+    }
+
+    /// Times and points of a run that starts at this time.
+    pub(crate) fn request(&self, start: f64) -> (Vec<f64>, Vec<f64>) {
+        let sample = |k: usize| start + self.span * k as f64 / self.samples as f64;
+        let times = (1..=self.samples).map(sample).collect();
+        (times, (0..60).map(|k| 10.0 + 0.7 * f64::from(k)).collect())
     }
 }
 

@@ -4,6 +4,7 @@
 //! crate's stepper judges ours (`agreement`). The grids of one coordinate judge those of the plane (`plane`).
 
 mod agreement;
+mod by_crate;
 mod common;
 mod conservation;
 mod hand_checked;

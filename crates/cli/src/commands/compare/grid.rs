@@ -272,7 +272,7 @@ pub(super) fn explain(asked: &Asked, error: GridError) -> Failure {
         GridError::Defect { .. } => {
             Failure::number("--spacing", asked.discretisation.spacing, error)
         }
-        GridError::StepTooSmall { .. } | GridError::Stiff { .. } | GridError::LeftGrid { .. } => {
+        GridError::StepTooSmall { .. } | GridError::LeftGrid { .. } => {
             let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may help: a deep groove is \
             stiff, and the grids are explicit";
             Failure::Run(format!("grid: {error}; {advice}"))

@@ -97,6 +97,11 @@ fn parameters_that_are_none_are_refused() {
         ("[1]", ["--parameters asked.json", "needs an object"]),
         (r#"{"alpha": 1.2, "r": 1, "kicks": 1}"#, ["--kicks", "did you mean \"kick\"?"]),
         (r#"{"alpha": 1.2, "r": 1, "pulse": [1, 5, 1]}"#, ["--pulse", "did you mean \"pulses\"?"]),
+        (r#"{"aplha": 1.2, "r": 1}"#, ["--aplha", "did you mean \"alpha\"?"]),
+        (
+            r#"{"alpha": 1.2, "r": 1, "depth-limit": 5}"#,
+            ["--depth", "did you mean \"depth_limit\"?"],
+        ),
         (r#"{"alpha": 1.2, "r": 1, "zzz": 1}"#, ["--zzz", "is no parameter here: leave it out"]),
         (
             r#"{"alpha": 1.2, "r": 1, "alpha": 1.3}"#,

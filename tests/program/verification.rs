@@ -67,7 +67,13 @@ fn add(number: &mut Value, by: f64) {
     *number = json!(number.as_f64().unwrap() + by);
 }
 
-const CLAIMS: [Claim; 25] = [
+fn without_the_last_sample(document: &mut Value) {
+    for column in document["samples"].as_object_mut().unwrap().values_mut() {
+        column.as_array_mut().unwrap().pop();
+    }
+}
+
+const CLAIMS: [Claim; 27] = [
     ("run", |d| add(&mut d["samples"]["l"][70], 2e-6), "samples.l"),
     ("run", |d| add(&mut d["samples"]["x0"][70], 2e-6), "samples.x0"),
     ("run", |d| add(&mut d["samples"]["lag"][70], 2e-6), "samples.lag"),
@@ -89,6 +95,8 @@ const CLAIMS: [Claim; 25] = [
     ("bare", |d| add(&mut d["samples"]["lag"][70], 2e-5), "samples.lag"),
     ("bare", |d| add(&mut d["samples"]["velocity"][70], 0.1), "samples.velocity"),
     ("bare", |d| d["regime"] = json!("trapped"), "regime"),
+    ("bare", |d| d["parameters"]["sample_every"] = json!(1.5), "samples.t"),
+    ("bare", without_the_last_sample, "samples.t"),
     ("limited", |d| add(&mut d["samples"]["height"][7], 1e-6), "samples.height"),
     ("limited", |d| add(&mut d["samples"]["weight"][7], 1e-6), "samples.weight"),
     ("path", |d| add(&mut d["loops"][0]["work"], 1e-3), "loops.work"),
@@ -147,8 +155,10 @@ fn every_value_of_lines_that_does_not_follow_is_named() {
     let text = String::from_utf8(folder.read("run.jsonl")).unwrap();
     let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let last = lines.len() - 1;
-    let changes: [(usize, &str, Damage); 6] = [
+    let changes: [(usize, &str, Damage); 8] = [
         (0, "steady_state.lag", |d| add(&mut d["steady_state"]["lag"], 1e-6)),
+        (0, "samples.t", |d| d["parameters"]["sample_every"] = json!(1.5)),
+        (30, "samples.t", |d| add(&mut d["t"], 0.25)),
         (30, "samples.lag", |d| add(&mut d["lag"], 2e-5)),
         (30, "samples.velocity", |d| add(&mut d["velocity"], 0.1)),
         (last, "regime", |d| d["regime"] = json!("steady")),

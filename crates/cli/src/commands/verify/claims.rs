@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
     ClaimDocument, Indentation, ModelParameters, Moved, Moving, Physical, RegimeName, RunDocument,
-    RunEnd, RunFound, RunScenario, SampleLine, SteadyState,
+    RunEnd, RunFound, RunHead, RunScenario, SampleLine, Sampling, SteadyState, Times,
 };
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::sorting::sort_by_number;
@@ -143,6 +143,45 @@ impl Columns {
 
     fn worst(self) -> impl Iterator<Item = ClaimDocument> {
         self.columns.into_iter().filter_map(|column| column.worst)
+    }
+}
+
+/// The times of samples, compared with those that the parameters define.
+struct SampleTimes {
+    expected: Option<Times>,
+    /// Number of samples so far.
+    number: u64,
+    column: Column,
+}
+
+impl SampleTimes {
+    fn of(sampling: &Sampling, scenario: &Scenario) -> Self {
+        let times = sampling.times((scenario.start_time(), scenario.until), "the run", false);
+        let expected = times.ok().map(|times| times.in_order().0);
+        Self { expected, number: 0, column: Column::new("samples.t") }
+    }
+
+    /// Compares the time of the next sample, of samples by ascending time.
+    fn see(&mut self, t: f64) {
+        if let Some(expected) = &self.expected {
+            let allowed = ROUNDINGS * (1.0 + t.abs());
+            self.column.see(t, Some(t), expected.at(self.number), allowed);
+            self.number += 1;
+        }
+    }
+
+    /// The first time that differs; of samples of a whole run, one that is missing at the end.
+    fn worst(self, is_whole: bool) -> Option<ClaimDocument> {
+        let missing = self.expected.filter(|_| is_whole).and_then(|times| times.at(self.number));
+        let missing = missing.map(|t| ClaimDocument {
+            field: "samples.t".into(),
+            t: None,
+            claimed: Value::Null,
+            computed: json!(t),
+            allowed: None,
+            count: 1,
+        });
+        self.column.worst.or(missing)
     }
 }
 
@@ -383,6 +422,9 @@ pub(super) fn of_document(
     let mut columns = Columns::of(scenario);
     let mut samples: Vec<SampleLine> = run.samples.lines().collect();
     sort_by_number(&mut samples, |item| item.t);
+    let mut times = SampleTimes::of(&run.parameters.sampling, scenario);
+    samples.iter().for_each(|sample| times.see(sample.t));
+    claims.0.extend(times.worst(!run.interrupted));
     if let Some(motion) = history {
         let law = (&scenario.support(), scenario.model.wider());
         for sample in samples.drain(..) {
@@ -415,21 +457,25 @@ pub(super) fn of_document(
 pub(super) fn of_lines(
     session: &Session,
     whole: &RunScenario,
-    (parameters, steady): (&ModelParameters, Option<&SteadyState>),
+    head: &RunHead,
     samples: impl Iterator<Item = SampleLine>,
     (until, end): (f64, Option<&RunEnd>),
 ) -> Result<Vec<ClaimDocument>, Failure> {
     let scenario = whole.along();
     let mut claims = Claims::default();
-    claims.of_parameters(parameters, scenario, steady);
+    let parameters = head.parameters.model_parameters();
+    claims.of_parameters(&parameters, scenario, head.steady_state.as_ref());
     let mut columns = Columns::of(scenario);
-    let mut due = samples.peekable();
+    let mut times = SampleTimes::of(&head.parameters.sampling, scenario);
+    let mut due = samples.inspect(|sample| times.see(sample.t)).peekable();
     let until = end.map_or(until, |end| end.end.min(scenario.until));
     let computed = again(session, whole, until, |step, found| {
         while let Some(sample) = due.next_if(|sample| sample.t <= step.end()) {
             columns.of_repetition(&sample, &found(sample.t), step);
         }
     })?;
+    due.for_each(drop);
+    claims.0.extend(times.worst(end.is_some_and(|end| !end.interrupted)));
     claims.0.extend(columns.worst());
     if let Some(end) = end {
         claims.of_end(end, &computed, scenario.tolerance);

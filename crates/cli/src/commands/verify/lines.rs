@@ -47,10 +47,8 @@ pub(super) fn verify(
     let found = found?;
     let lines = lines(&extent, until, found.samples.unwrap_or_default());
     let verification = VerificationDocument::from(&found);
-    let model = head.parameters.model_parameters();
-    let summary = (&model, head.steady_state.as_ref());
     let end = (until, extent.end.as_ref());
-    let differences = claims::of_lines(session, &surveyed, summary, samples.lines(), end)?;
+    let differences = claims::of_lines(session, &surveyed, &head, samples.lines(), end)?;
     if let Some(flaw) = samples.flaw.take() {
         return Err(refused(flaw, &named));
     }

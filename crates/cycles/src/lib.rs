@@ -76,6 +76,8 @@ const LEAST_MULTIPLIER: f64 = 1e-6;
 
 /// An extremum within this fraction of a period of the seam counts as that of the seam.
 const AT_THE_SEAM: f64 = 1e-6;
+/// The part of the largest backward motion from which on no step along a branch keeps within it.
+const AT_THE_FARTHEST: f64 = 0.999;
 /// Coefficients of [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
 /// Residual above which the ends of steps are no longer much more accurate than the points between them.
@@ -183,6 +185,12 @@ impl Cycle {
     /// Number of maxima of l in one period.
     pub fn slips(&self) -> usize {
         self.slips
+    }
+
+    /// The largest backward motion of the tip, if cycles can hardly have a larger one: a branch of them ends here.
+    pub fn farthest_retreat(&self) -> Option<f64> {
+        let retreat = self.closed.orbit.retreat();
+        (retreat > AT_THE_FARTHEST * self.closed.equation.retreat()).then_some(retreat)
     }
 
     /// x0(t) over one period from t = 0, where l is at its maximum.

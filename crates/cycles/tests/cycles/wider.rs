@@ -232,3 +232,22 @@ fn a_branch_goes_on_where_a_tip_swings_back_by_more_than_two_widths() {
     let multiplier = branch.points.last().unwrap().leading;
     assert!((multiplier + 4.432_738_5).norm() < 1e-7, "{multiplier}");
 }
+
+/// A heavy tip swings back by up to the reach of its footprint. From there no sum covers its history, but a branch goes on:
+/// for β = 0.5, r = 0.8475, T = 84.6, M = 2.55, which is lost at α = 2.4489, a continuation in Python (Fourier
+/// collocation of f as it stands, 2,048 points) follows it from the fold at 2.4557 down to 2.13.
+#[test]
+fn a_branch_that_is_lost_where_a_tip_swings_back_farthest_says_so() {
+    let law = Wider { inertia: Some(30.0), ..Wider::default() };
+    let settings = Continuation { tolerance: 1e-4, longest_step: 0.4, ..Continuation::default() };
+    let gaussian = TipFunction::gaussian(1.0).unwrap();
+    let on = |_: &_| std::ops::ControlFlow::Continue(());
+    let branch = settings.from_onset_under((&law, &gaussian), 1.0, on).unwrap();
+    assert_eq!(branch.end, End::Lost);
+    let reach = gaussian.reach().unwrap();
+    let retreat = branch.last.farthest_retreat().unwrap();
+    assert!(retreat > 0.999 * reach && retreat <= reach, "{retreat} of {reach}");
+    let before = Continuation { to: 2.0, ..settings };
+    let branch = before.from_onset_under((&law, &gaussian), 1.0, on).unwrap();
+    assert_eq!((branch.end, branch.last.farthest_retreat()), (End::Reached, None));
+}

@@ -206,6 +206,7 @@ impl Continue {
             }
             next += 1;
         }
+        remarks.extend(found.iter().filter_map(|found| goes_on(&found.branch)));
         Ok((found, remarks))
     }
 
@@ -301,6 +302,19 @@ impl Ask for Continue {
     fn support_velocity(&self) -> Option<f64> {
         self.r.filter(|_| self.over == OverName::Alpha)
     }
+}
+
+/// The reason why a branch is lost, where it is that tips swing back farther.
+fn goes_on(branch: &Branch) -> Option<String> {
+    let retreat = branch.last.farthest_retreat().filter(|_| branch.end == End::Lost)?;
+    let model = branch.last.model();
+    Some(format!(
+        "the branch that is lost at alpha = {}, r = {} goes on: from there the tip swings back by more than {}, \
+         farther than cycles can",
+        digits(model.alpha(), 6),
+        digits(model.r(), 6),
+        digits(retreat, 4),
+    ))
 }
 
 /// Whether a branch that was already followed ends at this period doubling.

@@ -61,9 +61,9 @@ pub fn call<'a>(
     }
 }
 
-/// Runs several `run` commands together, side by side where possible. Each has its words, such as
-/// `["run", "--r=1", …]`, and a host that supplies its files and hears its warnings; `host` sees the progress of all and
-/// may cancel them. Invalid input of any command is an error before the first run begins.
+/// Runs several `run` commands together, side by side where possible. Each command comes as its words, such as `["run",
+/// "--r=1", …]`, with a host of its own for its files and warnings. `host` gets the progress of all commands and can
+/// cancel them. Invalid input of any command is an error before the first run begins.
 ///
 /// # Errors
 /// The messages of the program, with the number of the command, from 0.
@@ -140,7 +140,7 @@ pub struct OptionDescription {
     pub value: Option<String>,
     /// Separator of several values of one option.
     pub delimiter: Option<char>,
-    /// Whether it may be repeated.
+    /// Whether the option may be given several times.
     pub is_repeatable: bool,
     /// Its description.
     pub help: String,

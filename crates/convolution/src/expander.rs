@@ -40,8 +40,8 @@ pub struct Expander {
 }
 
 impl Expander {
-    /// Series of a kernel with the bandwidth `band` that is negligible beyond `reach`, from its transform K̂(k); the
-    /// density has the spacing of kernels with the bandwidth `band_of_lattice`, which is not smaller.
+    /// Power series of a kernel, given by its transform K̂(k), with the bandwidth `band`; beyond `reach` it is
+    /// negligible. Densities must have the spacing for kernels of the bandwidth `band_of_lattice`, at least `band`.
     ///
     /// # Panics
     /// A bandwidth or the reach is not positive and finite.
@@ -84,12 +84,13 @@ impl Expander {
         self.spacing
     }
 
-    /// Number of cells on either side of one that its series takes.
+    /// Number of cells that the series about a cell needs on either side of it.
     pub fn reach(&self) -> usize {
         self.reach
     }
 
-    /// Adds the series about the cell in the middle of these.
+    /// Adds the power series about a cell, given the densities of that cell and of those within [`reach`](Self::reach)
+    /// on either side.
     ///
     /// # Panics
     /// The number of cells differs from what the series takes.

@@ -3,7 +3,7 @@
 use stickslip_tip::motion::{Oscillation, latest_extrema};
 use stickslip_tip::{Run, Scenario};
 
-/// A run that came close to no stable cycle.
+/// A run that did not come close to a stable cycle.
 #[derive(Debug, Clone)]
 pub struct Tried {
     /// The scenario of the run.

@@ -199,9 +199,9 @@ impl Cycle {
     }
 
     /// The Floquet multipliers above 1e-6 in modulus, the largest first: the factors by which small deviations grow in
-    /// a period. One of them is 1, that of a shift in time. Spurious multipliers of the sum of exponentials, which a
-    /// second sum does not reproduce, are left out. For a footprint with much detail the list is complete only above
-    /// 0.01.
+    /// a period. One of them is 1, that of a shift in time. Multipliers that stem from the sum of exponentials, because
+    /// another sum does not reproduce them, are left out. For a footprint with much detail the list is complete only
+    /// above 0.01.
     pub fn multipliers(&self) -> &[Complex<f64>] {
         let count = self.multipliers.partition_point(|m| m.norm() >= LEAST_MULTIPLIER);
         &self.multipliers[..count]

@@ -13,7 +13,7 @@ use crate::profile::MEDIAN_OF_NORMAL;
 use stickslip_tip::sorting::{sort_by_number, sort_numbers};
 use thiserror::Error;
 
-/// Forces on both ways over the same positions, which ascend; any units.
+/// Forces on the way there and on the way back, at the same ascending positions, in any units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionLoop {
     x: Vec<f64>,
@@ -24,11 +24,12 @@ pub struct FrictionLoop {
 /// Numbers of a loop with their 95 % intervals, in the units of the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopNumbers {
-    /// Half of the mean difference of both ways, beyond twice the distance to the static peak: the kinetic force.
+    /// Kinetic friction force: half of the mean difference of both ways, over positions more than twice as far from the
+    /// reversals as the static peak.
     pub friction: Estimate,
     /// Half of the mean difference of both ways along the whole loop: ∮ F dx over twice its length.
     pub mean: Estimate,
-    /// Mean of both ways there: the zero of the instrument, and slopes of the sample.
+    /// Mean of both ways over the same positions as `friction`: the zero of the instrument, and slopes of the sample.
     pub offset: Estimate,
     /// First maximum of the force after the reversal, less the offset; mean of both ways.
     pub static_peak: Estimate,

@@ -32,7 +32,7 @@ impl Estimate {
         Self { value: value * factor, low: low * factor, high: high * factor }
     }
 
-    /// The interval widened by a factor for an independent error, with its logarithm added in quadrature.
+    /// The interval with an independent error of this factor added: the logarithms of both are added in quadrature.
     #[must_use]
     pub fn wider_by(self, factor: f64) -> Self {
         let moved = |end: f64| {
@@ -51,7 +51,7 @@ impl Estimate {
         }
     }
 
-    /// The interval of resampled values, by percentiles; of several resampling methods the widest.
+    /// The interval between percentiles of resampled values; the widest one over several ways of resampling.
     pub fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
         let mut found: Option<Self> = None;
         for resamples in ways {

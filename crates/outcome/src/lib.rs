@@ -48,7 +48,7 @@ pub enum Regime {
     Transient,
 }
 
-/// The regime of a run, with its figures and their errors.
+/// The regime of a run, with its numbers and their errors.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The kind of motion.

@@ -51,7 +51,7 @@ impl Plan {
         Self::over(footprint, model, path, Area::Rectangle { pitch, lines, length })
     }
 
-    /// The same for any area.
+    /// Lines of any area, otherwise as [`new`](Self::new).
     pub fn over(footprint: Footprint, model: Model, path: Path, area: Area) -> Self {
         let law = Scenario::new(model, area.longest());
         Self { footprint, path, area, free: None, disturbance: Force::default(), law }

@@ -100,11 +100,12 @@ impl<'a> Scanning<'a> {
         Ok(self.lines.last())
     }
 
-    /// Scans all lines that are left on this number of threads (0: one per core), and passes each to `take`, in their
-    /// order, until that is false or the work is [cancelled](stop). The lines do not depend on the number of threads.
+    /// Scans all remaining lines with this number of threads (0: one per core). It passes them to `take` in their
+    /// order, until `take` returns false or the work is [cancelled](stop). The number of threads does not affect the
+    /// lines.
     ///
-    /// A zigzag line begins with the tip where the one before has ended, so that lines to and fro, like those of a tip that
-    /// is free to move across them or of many layers, are made one after the other.
+    /// Some lines are scanned one after the other: those of a zigzag, which begin where the tip has ended the line
+    /// before, those of a tip that is free to move across them, and those of footprints with many layers.
     ///
     /// # Errors
     /// The tolerance cannot be met.
@@ -116,8 +117,8 @@ impl<'a> Scanning<'a> {
         self.scan_with(threads, |_, _| (), |line, ()| take(line))
     }
 
-    /// As [`scan`](Self::scan), with what `of_line` makes of the number of a line, from 0, and of the line, on the thread
-    /// that has scanned it.
+    /// As [`scan`](Self::scan), but on the thread that has scanned a line, `of_line` is called with its number, from 0,
+    /// and the line; `take` receives the result.
     ///
     /// # Errors
     /// The tolerance cannot be met.

@@ -24,12 +24,12 @@ pub struct Creep {
     pub roots: Vec<Complex64>,
     /// dQ/dp at each of them.
     pub slopes: Vec<Complex64>,
-    /// That none is missing.
+    /// Certificate that no root is missing.
     pub certificate: Certificate,
 }
 
 impl Creep {
-    /// The real ones, ascending: at each of them x0 ~ (1/p) ln t solves (10) for large t.
+    /// The real roots p, ascending: for each of them x0 ~ (1/p) ln t solves (10) at large t.
     pub fn rates(&self) -> Vec<f64> {
         self.roots.iter().rev().filter(|p| p.im.abs() <= 0.0).map(|p| p.re).collect()
     }

@@ -56,8 +56,8 @@ impl Orbit {
     }
 }
 
-/// All circular orbits up to a radius, by rising radius: those against the rotation first. Orbits of which two lie within
-/// 0.02 of each other may be missed.
+/// All circular orbits up to a radius, against the rotation and with it, by rising radius. Two orbits of the same sense
+/// whose radii differ by less than 0.02 may both be missed.
 ///
 /// # Errors
 /// [`StabilityError::Alpha`] if a free particle does not walk, -αT² ≤ 2.

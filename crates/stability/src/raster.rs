@@ -211,7 +211,7 @@ impl Raster {
     ///
     /// If the tip is flexible across the lines, each of several kinds of waves has its own band, with a local maximum
     /// of T = r/α. A kind without such a band is left out. Only the first threshold is certified to be the smallest α
-    /// of its kind. For the others `tolerance` is 1 and `cells` is 0; the waves of its q are counted for each.
+    /// of its kind. For the others `tolerance` is 1 and `cells` is 0, but growing waves are counted at the q of each.
     ///
     /// # Errors
     /// As [`Raster::critical`].

@@ -20,7 +20,7 @@ pub struct ResponseMode {
 /// l(t) - l0 of a tip in steady motion after weak pulses, to first order in the pulses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// By falling Re λ.
+    /// The modes, by falling Re λ.
     pub modes: Vec<ResponseMode>,
     /// The modes, with the certificate that no mode right of the last is missing.
     pub spectrum: Spectrum,

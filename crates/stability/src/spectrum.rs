@@ -9,7 +9,7 @@ use stickslip_tip::sorting::sort_by_number;
 pub struct Spectrum {
     /// λ by falling real part, both of each conjugate pair (the one above the real axis first).
     pub roots: Vec<Complex64>,
-    /// Certificate that none is missing.
+    /// Certificate that no root is missing.
     pub certificate: Certificate,
 }
 

@@ -6,7 +6,7 @@ pub use schemars::JsonSchema;
 #[cfg(not(feature = "schema"))]
 pub use stickslip_schemaless::JsonSchema;
 
-/// A type whose schema is read from a file: every type.
+/// In place of the trait of schemars, in builds that read schemas from files: every type has it.
 #[cfg(not(feature = "schema"))]
 pub trait JsonSchema {}
 

@@ -139,7 +139,8 @@ impl Collocation {
         self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
     }
 
-    /// Derivatives at τ = 0 and at the nodes of the same polynomial, side by side; at the last node twice.
+    /// Derivatives of the same polynomial at τ = 0 and at the nodes; that at the last node is repeated, to fill a
+    /// vector register.
     #[inline]
     pub fn slopes(&self, values: &Stages) -> [f64; STAGES + 2] {
         let mut sums = [0.0; STAGES + 2];

@@ -166,7 +166,8 @@ impl Step {
     }
 }
 
-/// A moment of a step, with the time that it stands for, multiplied by its undecayed part, and by w with a depth limit.
+/// A moment of a step with its weight in sums over the motion: the time that it stands for, times the fraction of its
+/// imprint that has not healed, times w under a depth limit.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment {
     at: At,
@@ -181,7 +182,8 @@ enum At {
 }
 
 impl Moment {
-    /// What has its value at the nodes in `stages` and is 0 at the start of the step, at this moment.
+    /// The value at this moment of a quantity that is 0 at the start of the step and has the values `stages` at its
+    /// nodes.
     pub fn value(&self, stages: &Stages) -> f64 {
         match self.at {
             At::Node(i) => stages[i],
@@ -330,10 +332,10 @@ impl Trajectory {
         (positions, weights)
     }
 
-    /// The whole motion as visits that do not fade but where they lie: positions and weights such that
-    /// ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor. Behind a
-    /// support of velocity r the surface is then -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt',
-    /// with R at the time of the surface in the first factor. Where nothing heals, all factors are 1.
+    /// The whole motion as visits whose weights depend on their positions, not on their age: positions and weights such
+    /// that ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor.
+    /// Behind a support of velocity r the surface is then -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x -
+    /// x0)/(rT)} dt', with R at the time of the surface in the first factor. Where nothing heals, all factors are 1.
     pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
         let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);

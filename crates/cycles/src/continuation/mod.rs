@@ -38,7 +38,7 @@ pub struct Continuation {
     pub most_points: usize,
 }
 
-/// Figures of a cycle on a branch.
+/// Properties of a cycle on a branch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// α
@@ -128,7 +128,7 @@ impl Continuation {
         self.from_onset_under((&Wider::default(), tip), other, observe)
     }
 
-    /// The same in the extended model, in α.
+    /// The branch that bifurcates at onset in the extended model, where α varies.
     ///
     /// # Errors
     /// As [`from_onset`](Self::from_onset).

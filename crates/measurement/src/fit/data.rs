@@ -13,7 +13,7 @@ pub struct Track {
     /// Scale of the model in units of the data, without σ, if known: k/a for heights (in units of height over
     /// length²), k for forces. An unknown gain is fitted.
     pub gain: Option<f64>,
-    /// Number of evenly spaced rows averaged into each of these.
+    /// Number of measured rows, evenly spaced, of which each row here is the mean.
     pub averaged: usize,
 }
 

@@ -27,7 +27,7 @@ pub struct Fit {
     pub with_depth_limit: Option<Alternative>,
     /// Whether the model explains the data: intervals are given only if it does.
     pub explained: bool,
-    /// Probability by chance of the joint residual of several data sets; `None` for a single one.
+    /// Probability that the joint residual of several data sets is as large by chance; `None` for a single data set.
     pub joint: Option<f64>,
     /// Warnings about the result.
     pub remarks: Vec<String>,

@@ -18,7 +18,8 @@ pub struct Fitted {
     pub name: Name,
     /// Estimate with interval; ends that the data do not exclude are 0 or infinite.
     pub estimate: Estimate,
-    /// The profile: values, and the root of the relative excess of the sum of squares times the degrees of freedom.
+    /// The profile likelihood: values at which the parameter was held, each with ±√(n (S/S0 - 1)), where S is the least
+    /// sum of squares at this value, S0 that of the best fit, and n the number of degrees of freedom.
     pub profile: Vec<(f64, f64)>,
 }
 

@@ -11,7 +11,7 @@ use super::subspace::{beyond, by_noise, dot, probability, size};
 use crate::least_squares::Minimum;
 use std::ops::Range;
 
-/// Probabilities of the residuals of one data set by chance.
+/// Tests of the residuals of one data set. A probability is that of an equally large or larger quantity by chance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Judged {
     /// Probability of the residual of the wave, or of the smooth residual of a series; `None` if there are too few
@@ -23,7 +23,7 @@ pub struct Judged {
     pub drift: Option<f64>,
     /// Whether ripples differ from one another by a smooth and large component.
     pub irregular: bool,
-    /// Number of independent rows with the same information.
+    /// Number of independent rows that would contain as much information.
     pub effective: Option<f64>,
     /// Standard deviation of the noise, from the component that does not repeat, in the unit of the data.
     pub noise: Option<f64>,

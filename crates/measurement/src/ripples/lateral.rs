@@ -30,18 +30,18 @@ pub struct Lag {
     pub ahead: f64,
 }
 
-/// The lateral image beside the model.
+/// Comparison of the lateral image with the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LateralFound {
     /// Half of the peak-to-peak of the first harmonic, in the unit of the image.
     pub amplitude: Estimate,
-    /// The same of the model in the unit of the lengths.
+    /// Half of the peak-to-peak of the first harmonic of the lag in the model, in the unit of the lengths.
     pub lag: Estimate,
     /// Stiffness of the lever: force over deflection, in the units of the image and of the lengths; `None` for deflections.
     pub stiffness: Option<Estimate>,
-    /// Phase of the wave minus that of the heights, in degrees, and that of the model.
+    /// Phase of the lateral wave minus that of the heights, in degrees: in the image, and in the model.
     pub phase: [f64; 2],
-    /// Distance by which the wave is further along the lines than the model has it, and its standard deviation.
+    /// Distance along the lines by which the lateral wave is ahead of that of the model.
     pub shift: f64,
     /// Standard deviation of the shift.
     pub shift_error: f64,

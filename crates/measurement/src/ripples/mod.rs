@@ -80,7 +80,7 @@ pub struct Ripples {
     pub r: Estimate,
     /// κ_y, if it was free.
     pub stiffness: Option<Estimate>,
-    /// The lag of the tip behind the support, of the model, if there is a lateral image.
+    /// The lag of the tip behind the support in the model, if there is a lateral image.
     pub lag: Option<Lag>,
     /// The lateral image beside the model.
     pub lateral: Option<LateralFound>,
@@ -104,8 +104,8 @@ pub struct Ripples {
     pub forward: bool,
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
-    /// First and last x and y of the part of the image in which the ripples have settled, from which all numbers are; `None` if they
-    /// are from the whole image.
+    /// First and last x and y of the part of the image in which the ripples have settled, from which all numbers are
+    /// computed; `None` for the whole image.
     pub part: Option<[[f64; 2]; 2]>,
     /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
     /// [`Ripples::LEAST_MISFIT`] the model does not explain them.
@@ -117,7 +117,7 @@ pub struct Ripples {
     pub residual: f64,
     /// Fraction of the variance, without offsets and slopes of the rows, that the wave explains.
     pub explained: f64,
-    /// The retrace beside the trace.
+    /// Comparison of the retrace with the trace.
     pub retrace: Option<Retrace>,
 }
 

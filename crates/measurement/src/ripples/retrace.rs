@@ -12,11 +12,12 @@ use std::f64::consts::PI;
 /// The retrace beside the trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Retrace {
-    /// Distance by which its ripples are further along the lines, by less than half a wavelength.
+    /// Distance along the lines by which ripples of the retrace are ahead of those of the trace, less than half a
+    /// wavelength.
     pub shift: f64,
-    /// Amplitude of its first harmonic over that of the trace.
+    /// Amplitude of the first harmonic of the retrace, over that of the trace.
     pub ratio: f64,
-    /// Probability of an equally large difference of the two by noise.
+    /// Probability that noise makes an equally large difference between the two.
     pub agreement: f64,
 }
 

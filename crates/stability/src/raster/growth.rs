@@ -24,8 +24,8 @@ struct At {
 }
 
 impl Raster {
-    /// By how much another pass over the same line changes a ripple e^{iqx} of the groove at a given α in the basic model:
-    /// 1 + C/D. It grows from pass to pass where this is larger than 1 in modulus.
+    /// Factor 1 + C/D by which another pass over the same line multiplies a ripple e^{iqx} of its groove, at a given α
+    /// in the basic model. The ripple grows from pass to pass if the modulus is above 1.
     pub fn repeat_gain(&self, alpha: f64, q: f64) -> Complex64 {
         let ratio = alpha / self.r;
         let [.., g] = self.waves.jets(Complex64::new(0.0, q));
@@ -34,8 +34,9 @@ impl Raster {
         1.0 + ratio * own / d
     }
 
-    /// The z with A_n ∝ zⁿ at a given α and q of a one-way raster that is largest in modulus, by the first lines of
-    /// the recurrence until it settles; the growth from line to line. Where the tip gives way across, of both coordinates.
+    /// Growth z of a ripple from line to line, A_n ∝ zⁿ, at a given α and q of a one-way raster: of all z that of the
+    /// largest modulus. It is the ratio of successive lines of the recurrence once it has settled. If the tip gives way
+    /// across the lines, the recurrence is that of both coordinates.
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
         if self.terms.across.is_some() {
             return settled_in_plane(&self.answers_in_plane(alpha, q));
@@ -43,7 +44,8 @@ impl Raster {
         settled(&self.answers(alpha, q))
     }
 
-    /// c_j, j = 1, 2, …: what deviates of the density that a line leaves is Σ c_j of what deviated of that j lines before.
+    /// Coefficients c_j, j = 1, 2, …, of the recurrence from line to line: the deviation of the density that line n
+    /// leaves is Σ_j c_j times that of line n - j.
     pub fn answers(&self, alpha: f64, q: f64) -> Vec<Complex64> {
         let a = self.density(alpha);
         let at = self.at(q);
@@ -57,8 +59,9 @@ impl Raster {
         (0..most).map(answer).collect()
     }
 
-    /// Matrices M_j, j = 1, 2, …, with (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} on one-way lines: deviations along, of the weight
-    /// (0 without a depth limit) and across, e^{iqx} each, of a tip that gives way across; none where it does not.
+    /// Matrices M_j, j = 1, 2, …, of the recurrence (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} of one-way lines whose tip
+    /// gives way across them; empty for any other tip. The deviations are e^{iqx} times A along the lines, B of the
+    /// weight (0 without a depth limit) and C across the lines.
     pub fn answers_in_plane(&self, alpha: f64, q: f64) -> Vec<Matrix> {
         let Some(Sideways { stiffness, beside: [tilt, bend] }) = self.terms.across else {
             return vec![];

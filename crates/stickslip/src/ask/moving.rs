@@ -23,7 +23,7 @@ pub trait Moved: Copy + AsRef<Step> {
     /// The motion as a document contains it.
     fn history(whole: &Trajectory<Self>) -> History;
 
-    /// The answer with the loops and the rests of a support that follows a path.
+    /// Adds the loops of a support that follows a path, and its stops.
     fn along_path(found: RunFound, _whole: &Trajectory<Self>) -> RunFound {
         found
     }

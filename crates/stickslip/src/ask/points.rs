@@ -40,7 +40,7 @@ fn pool(threads: usize) -> Result<ThreadPool, Failure> {
     pool.map_err(|error| Failure::Failed(format!("cannot start threads: {error}")))
 }
 
-/// Runs work on this number of threads (0 means one per core), where it is done side by side.
+/// Runs work whose parallel parts use this number of threads (0: one per core).
 ///
 /// # Errors
 /// No threads can be started.

@@ -81,14 +81,14 @@ impl RunFound {
         }
     }
 
-    /// The answer with the loops and the rests of a support that follows a path.
+    /// Adds the loops of a support that follows a path, and its stops.
     #[must_use]
     pub fn along_path(self, trajectory: &Trajectory) -> Self {
         let (loops, holds) = Self::of_path(trajectory);
         Self { loops, holds, ..self }
     }
 
-    /// The loops and the rests of a support that follows a path.
+    /// The loops of a support that follows a path, and its stops.
     pub fn of_path(
         trajectory: &Trajectory,
     ) -> (Option<Vec<LoopDocument>>, Option<Vec<HoldDocument>>) {

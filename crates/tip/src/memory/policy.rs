@@ -106,8 +106,8 @@ impl Policy {
         MemoryReport { choice: self.choice, accuracy: self.accuracy, sum }
     }
 
-    /// Distance behind the farthest point within which the past is kept, if the tip has returned to positions beyond
-    /// it: the motion since then is not reliable. `None` otherwise.
+    /// The distance behind the farthest point within which the past is kept, if the tip has retreated beyond it: its
+    /// motion is then not reliable. `None` otherwise.
     pub fn forgotten(&self) -> Option<f64> {
         match &self.now {
             Now::Fft(fft, _) => fft.forgotten(),

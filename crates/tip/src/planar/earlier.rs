@@ -23,7 +23,7 @@ const SPREAD: f64 = FRAC_1_SQRT_2;
 /// Distance in widths beyond which e^{-z²/2} is negligible.
 pub(super) const NOTHING: f64 = 8.7;
 
-/// Distance of the rows, and the share that each has in a position of the tip.
+/// Rows parallel to the scan: their distance, and the shares of the rows in a visit of the tip at any y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowLattice {
     spacing: f64,
@@ -46,7 +46,8 @@ pub struct GrooveRows {
     pub across: Across,
     /// Heights.
     pub heights: Rows,
-    /// Slopes, as sums of their own: so curvatures are as accurate as slopes.
+    /// Slopes along the rows, summed separately from the heights: curvatures, their derivatives, are then as accurate
+    /// as slopes.
     pub slopes: Rows,
 }
 
@@ -159,8 +160,9 @@ pub(super) fn jet(readings: impl Iterator<Item = Reading>, distance: f64) -> [f6
 const BLOCK: usize = 32;
 
 impl EarlierGrooves {
-    /// The surface on rows from `first` on, in the frame of a line at `y` whose support starts at `along.0` and moves, if
-    /// `along.1`, to smaller x. All rows with an effect within `wide` of the line must be present.
+    /// The surface on rows from number `first` on, in the frame of a line at `y`. The support of the line starts at x =
+    /// `along.0`; it moves to smaller x if `along.1` is true. All rows that affect the surface within `wide` of the
+    /// line must be present.
     pub fn new(
         lattice: RowLattice,
         first: i64,

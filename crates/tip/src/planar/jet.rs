@@ -2,7 +2,7 @@
 
 use super::spline::Partials;
 
-/// Height, slopes and curvatures (along, mixed, across) of a surface, of f, or of an integral over f.
+/// Height, slopes and curvatures at a point of a surface, of f, or of an integral over f.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Jet {
     /// u

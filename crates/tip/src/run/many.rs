@@ -46,8 +46,8 @@ pub fn run_each(scenarios: &[Scenario], mut ended: impl FnMut(usize, Result<Run,
     });
 }
 
-/// Runs all these scenarios as [`run_each`], but passes the steps of each run to a collector, which `begin` creates for
-/// the scenario of this number, and keeps none of them. A run that leaves the lanes begins again with a new collector.
+/// Runs all these scenarios as [`run_each`] does, but keeps no steps: it passes those of each run to a collector, which
+/// `begin` creates from the number of the scenario. A run that leaves the lanes begins again with a new collector.
 pub fn collect_each<C: Extend<Step>>(
     scenarios: &[Scenario],
     begin: impl Fn(usize) -> C,

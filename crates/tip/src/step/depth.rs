@@ -27,15 +27,15 @@ pub struct Depth {
 pub struct Known {
     /// ∫ f' over the undecayed past.
     pub past_slope: Stages,
-    /// ∫ f''
+    /// ∫ f'' over the undecayed past.
     pub past_curvature: Stages,
     /// ∫ f
     pub past_height: Stages,
     /// Slope of the initial surface, undecayed part.
     pub relief_slope: Stages,
-    /// Curvature of the initial surface, likewise.
+    /// Curvature of the initial surface, undecayed part.
     pub relief_curvature: Stages,
-    /// Height of the initial surface, likewise.
+    /// Height of the initial surface, undecayed part.
     pub relief_height: Stages,
 }
 

@@ -35,12 +35,12 @@ impl Inertia {
         std::array::from_fn(|i| d[i] - self.glide[i] - carried[i])
     }
 
-    /// d without a force.
+    /// Displacements d at the stages without a force.
     pub fn glide(&self) -> &Stages {
         &self.glide
     }
 
-    /// Derivative of d by the force.
+    /// Derivative of the displacements d with respect to the force.
     pub fn carried(&self) -> &Matrix {
         &self.carried
     }

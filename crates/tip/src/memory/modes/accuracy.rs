@@ -26,15 +26,15 @@ const HEIGHTS: f64 = 4.0;
 const FINEST: f64 = 2.5e-14;
 const FINEST_OF_SWINGING: f64 = 5e-14;
 
-/// The largest error ε of f' that displaces the tip by a small part of the tolerance.
+/// The error ε of f' that may be allowed: the displacement of the tip that it causes is a small part of the tolerance.
 ///
 /// ε changes the force by α ε times the time spent within reach. A tip that moves on at about r spends 1/r per
 /// length, and the errors alternate along its path. The change is α ε times two widths over r, and the spring has
 /// stiffness 1. For a tip that sticks for a time T the change is α ε T, but the groove made meanwhile has the
 /// stiffness α T |f''(0)|: the displacement is ε/|f''(0)| for any T.
 ///
-/// With a depth limit b an error of the height, which is α times that of f for a time, changes the indentation rate
-/// by its ratio to b: if α is above b, this effect is the larger one.
+/// Under a depth limit b an error of the height, α times that of f times the time spent within reach, changes the
+/// indentation rate in proportion to its ratio to b. If α is above b, this effect is the larger one.
 ///
 /// Rounded to quarter decades, so that similar runs share a fit.
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {

@@ -5,14 +5,14 @@ use crate::elementary::{complex_exp, exp, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
 
-/// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` over all ξ from minus the retreat on.
+/// Largest errors of `Σ_j Re(w_j e^{s_j ξ})` as an approximation of f'(ξ), over all ξ ≥ -(allowed retreat).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitCertificate {
-    /// Error of f'(ξ): an error of the force per time spent within reach, over α.
+    /// Error of f'(ξ): α times it bounds the error of the force per time spent within reach.
     pub slope: f64,
     /// Error of f''(ξ), which affects Newton's iteration only.
     pub curvature: f64,
-    /// ∫|error of f'|dξ: an error of the force on a tip of velocity v, times v/α.
+    /// ∫|error of f'|dξ: α/v times it bounds the error of the force on a tip of velocity v.
     pub area: f64,
 }
 

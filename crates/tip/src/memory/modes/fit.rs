@@ -86,7 +86,7 @@ impl Fit {
         Self::reaching_back(tip, wanted, Retreat::Small)
     }
 
-    /// The same for a tip with this retreat.
+    /// The fit as [`new`](Self::new) makes it, but valid for a tip that moves backward as far as `back` allows.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -186,7 +186,7 @@ impl Fit {
         Self::of_terms(tip, terms, &Window::of(tip, reach, Retreat::Small))
     }
 
-    /// The same, certified for a retreat of this length.
+    /// The sum of given terms, certified for a retreat of this length.
     ///
     /// # Errors
     /// As [`from_terms`](Self::from_terms).

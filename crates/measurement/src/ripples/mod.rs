@@ -82,7 +82,7 @@ pub struct Ripples {
     pub stiffness: Option<Estimate>,
     /// The lag of the tip behind the support in the model, if there is a lateral image.
     pub lag: Option<Lag>,
-    /// The lateral image beside the model.
+    /// Comparison of the lateral image with the model.
     pub lateral: Option<LateralFound>,
     /// Distance of the crests, perpendicular to them.
     pub wavelength: Estimate,
@@ -110,8 +110,8 @@ pub struct Ripples {
     /// Probability of so large a χ² by chance, if the ripples are a settled pattern of the model. Below
     /// [`Ripples::LEAST_MISFIT`] the model does not explain them.
     pub misfit: f64,
-    /// Standard deviation of the first harmonic between parts of the image, beyond the noise, relative to its size. Ripples that have
-    /// settled are uniform.
+    /// Variation of the first harmonic from part to part of the image: its standard deviation, without that of the noise, over
+    /// its size. Ripples that have settled are uniform.
     pub modulation: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
@@ -128,7 +128,7 @@ pub struct RippleProfile {
     pub distance: Vec<f64>,
     /// Mean height.
     pub height: Vec<f64>,
-    /// Standard deviation of that mean.
+    /// Standard deviation of the mean height.
     pub error: Vec<f64>,
     /// Height of the model.
     pub model: Vec<f64>,

@@ -9,7 +9,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use std::f64::consts::PI;
 
-/// The retrace beside the trace.
+/// Comparison of the retrace with the trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Retrace {
     /// Distance along the lines by which ripples of the retrace are ahead of those of the trace, less than half a

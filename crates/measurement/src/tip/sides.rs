@@ -71,7 +71,7 @@ fn nothing() -> TipError {
 }
 
 impl Sides {
-    /// The difference of the thresholds of both directions, relative to their mean: hidden by an even fit.
+    /// The difference of the thresholds of both directions, relative to their mean. A fit that is even in x hides it.
     pub fn asymmetry(&self) -> f64 {
         let [forward, backward] = [&self.forward, &self.backward].map(|t| t.critical_alpha.value);
         2.0 * (forward - backward) / (forward + backward)

@@ -58,8 +58,8 @@ pub struct FitImageFound {
     /// Probability of an equally large deviation from settled ripples of the model by chance; below 0.005 the model does
     /// not explain the image.
     pub misfit: f64,
-    /// Standard deviation of the first harmonic between the parts of the image, beyond the noise, relative to its size; above
-    /// 0.05 the ripples have not settled.
+    /// Variation of the first harmonic of the ripples from part to part of the image: its standard deviation, without that of
+    /// the noise, over its size. Above 0.05 the ripples have not settled.
     pub modulation: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
@@ -68,10 +68,10 @@ pub struct FitImageFound {
     /// κ_y, the stiffness across the lines over that along them, if it was free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<EstimateDocument>,
-    /// The lateral image beside the model, if there is one.
+    /// Comparison of the lateral image with the model, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lateral: Option<LateralDocument>,
-    /// The retrace beside the trace; null without `retrace_image`.
+    /// Comparison of the retrace with the trace; null without `retrace_image`.
     #[serde(default)]
     pub retrace: Option<RetraceDocument>,
     /// The mean ripple, perpendicular to the crests.
@@ -150,7 +150,7 @@ pub struct FitImage {
     pub lateral_image: Option<MeasuredImage>,
 }
 
-/// The lateral image beside the model of the ripples.
+/// Comparison of the lateral image with the model of the ripples.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LateralDocument {
@@ -172,7 +172,7 @@ pub struct LateralDocument {
     pub shift_error: f64,
 }
 
-/// The retrace beside the trace.
+/// Comparison of the retrace with the trace.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RetraceDocument {

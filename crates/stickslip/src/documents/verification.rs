@@ -53,7 +53,7 @@ pub struct LinesDocument {
     pub samples: u64,
     /// Time of the last sample, in Γ/k.
     pub verified_until: f64,
-    /// The end of the file.
+    /// How the file ends.
     pub ending: EndingName,
     /// Number of the line, from 1, with the reported difference of l.
     pub line: u64,

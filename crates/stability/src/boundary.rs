@@ -92,8 +92,8 @@ impl Boundary {
     /// b_c(r), as [`least_depth_limit`](super::least_depth_limit), without another scan unless the surface heals.
     ///
     /// # Errors
-    /// As [`least_depth_limit`](super::least_depth_limit); the basic model, for which Gaussians and J0 are not
-    /// scanned.
+    /// As [`least_depth_limit`](super::least_depth_limit), and [`StabilityError::NoLimit`] for Gaussians and J0 in the
+    /// basic model, whose boundary is found without a scan.
     pub fn least_depth_limit(&self, r: f64) -> Result<f64, StabilityError> {
         match &self.search {
             Search::General(scan) => limits::least_on(scan, &self.law, r),

@@ -18,8 +18,9 @@ pub struct Fitted {
     pub name: Name,
     /// Estimate with interval; ends that the data do not exclude are 0 or infinite.
     pub estimate: Estimate,
-    /// The profile likelihood: values at which the parameter was held, each with ±√(n (S/S0 - 1)), where S is the least
-    /// sum of squares at this value, S0 that of the best fit, and n the number of degrees of freedom.
+    /// The profile likelihood: values at which the parameter was held, each with ±√(n (S/S0 - 1))/c. S is the least sum
+    /// of squares at this value, S0 that of the best fit, n the number of degrees of freedom, and c the factor by which
+    /// correlations widen the interval.
     pub profile: Vec<(f64, f64)>,
 }
 

@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 /// Number of layers in a run, and their error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layers {
-    /// Largest number in use.
+    /// Largest number of layers in use at any time of the run.
     pub most: usize,
     /// Number of changes of the center or the number of layers.
     pub changes: u64,

@@ -61,7 +61,7 @@ pub struct Continue {
     #[schemars(extend("x-option" = option("V", "Branch", 21)))]
     #[serde(default)]
     pub to: Option<f64>,
-    /// Follow the branches of twice the period too, from each period doubling.
+    /// Follow the branches of twice the period too, from each period doubling, up to the longest period: each may take minutes.
     #[schemars(extend("x-option" = option("", "Branch", 22)))]
     #[serde(default)]
     pub switch: bool,

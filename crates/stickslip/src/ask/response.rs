@@ -61,7 +61,7 @@ pub struct Response {
     pub law: Law,
     /// Gaussian pulses of external force.
     pub pulses: Vec<PulseParameters>,
-    /// Smallest number of modes: all modes to the right of a suitable vertical line are listed.
+    /// Least number of modes in the list, which has all of them to the right of a vertical line.
     #[schemars(extend("x-option" = option("N", "Accuracy", 50)))]
     #[serde(default = "default_modes")]
     pub modes: usize,

@@ -54,7 +54,7 @@ pub struct Stability {
     #[schemars(extend("x-option" = option("V", "Across the scan", 26)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
-    /// Smallest number of growth exponents: all those to the right of a suitable vertical line are listed; 10 if no
+    /// Least number of growth exponents in the list, which has all of them to the right of a vertical line; 10 if no
     /// bound is given.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]

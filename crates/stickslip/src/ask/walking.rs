@@ -47,7 +47,7 @@ pub struct Walking {
     /// Extensions of the basic model; there is no spring.
     #[serde(flatten)]
     pub law: Law,
-    /// Smallest number of growth exponents of each walk.
+    /// Least number of growth exponents in the list of each walk.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default = "default_roots")]
     pub roots: usize,

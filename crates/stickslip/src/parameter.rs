@@ -324,27 +324,13 @@ const SHARED: usize = 3;
 fn nearest<'a>(names: impl Iterator<Item = &'a String> + Clone, name: &str) -> Option<&'a String> {
     // Two letters that changed places are two changes.
     let most = (name.len() / 2).min(1 + name.len() / 5);
-    let alike = names.clone().min_by_key(|other| changes(name, other));
-    if let Some(other) = alike.filter(|other| changes(name, other) <= most) {
+    let changes = |other: &&String| strsim::levenshtein(name, other);
+    if let Some(other) = names.clone().min_by_key(changes).filter(|other| changes(other) <= most) {
         return Some(other);
     }
     let shared = |other: &str| name.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
     let best = names.max_by_key(|other| (shared(other), Reverse(other.len())))?;
     (shared(best) >= SHARED.max(name.len().div_ceil(2))).then_some(best)
-}
-
-/// The number of letters inserted, left out or replaced that make one name the other (Levenshtein).
-fn changes(one: &str, other: &str) -> usize {
-    let mut row: Vec<usize> = (0..=other.len()).collect();
-    for (i, a) in one.bytes().enumerate() {
-        let mut before = std::mem::replace(&mut row[0], i + 1);
-        for (j, b) in other.bytes().enumerate() {
-            let replaced = before + usize::from(a != b);
-            before = row[j + 1];
-            row[j + 1] = replaced.min(before + 1).min(row[j] + 1);
-        }
-    }
-    row[other.len()]
 }
 
 /// The parameter that cannot be read: without it the others can.

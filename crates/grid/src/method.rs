@@ -76,16 +76,12 @@ pub fn solve_observed(
         &Method::Uniform { spacing, from, to } => {
             let grid = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
             let scheme = WholeGrid::new(grid, from, to)?;
-            let (inside, mut left) = (scheme.inside(), None);
-            let mut within = |time: f64, x0: f64| {
-                if inside.contains(&x0) {
-                    return observe(time, x0);
-                }
-                left = Some(GridError::LeftGrid { time, x0 });
-                ControlFlow::Break(())
-            };
-            let run = second_order(problem, Box::new(scheme), stepping, request, &mut within);
-            run.map_err(|error| left.unwrap_or(error))
+            let inside = scheme.inside();
+            run_within(
+                |x0| inside.contains(&x0),
+                observe,
+                |observe| second_order(problem, Box::new(scheme), stepping, request, observe),
+            )
         }
         &Method::Windowed { spacing } => {
             let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
@@ -100,6 +96,23 @@ pub fn solve_observed(
             spectral(problem, Box::new(scheme), stepping, request, observe)
         }
     }
+}
+
+/// A run that ends with [`GridError::LeftGrid`] where the tip is not inside of the grid at the end of a step.
+pub(crate) fn run_within<T>(
+    is_inside: impl Fn(f64) -> bool,
+    observe: &mut Observer,
+    run: impl FnOnce(&mut Observer) -> Result<T, GridError>,
+) -> Result<T, GridError> {
+    let mut left = None;
+    let ran = run(&mut |time, x0| {
+        if is_inside(x0) {
+            return observe(time, x0);
+        }
+        left = Some(GridError::LeftGrid { time, x0 });
+        ControlFlow::Break(())
+    });
+    ran.map_err(|error| left.unwrap_or(error))
 }
 
 /// Cells that contain the heights themselves.

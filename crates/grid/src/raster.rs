@@ -10,6 +10,7 @@
 
 use crate::cells::Cells;
 use crate::marcher::Marcher;
+use crate::method::run_within;
 use crate::patch::Patch;
 use crate::row_scheme::{HALF_WIDTH, RowMethod};
 use crate::scheme::{Scheme, positive, sample};
@@ -185,24 +186,20 @@ impl Plane {
         let (scheme, ends) = (scheme(), self.ends);
         self.rows.iter_mut().flatten().for_each(|u| *u *= left(duration));
         let mut carver = Carver { plane: self, scan, line, imprint: Patch::default(), cells: 0 };
-        let mut outside = None;
-        let ran = {
-            let mut carve = |visits: &[(f64, f64, f64)]| {
-                carver.carve(visits, -alpha, &|t| left(duration - t));
-            };
+        let mut carve = |visits: &[(f64, f64, f64)]| {
+            carver.carve(visits, -alpha, &|t| left(duration - t));
+        };
+        let mut step = |time: f64, x0: f64| {
+            steps.push((time, x0));
+            observe(time / duration)
+        };
+        let is_inside = |x0: f64| x0 > ends.0 && x0 < ends.1;
+        let (run, velocity) = run_within(is_inside, &mut step, |observe| {
             let (cells, tableau) = (Cells::new(&nothing), method.tableau());
             Marcher::new(&problem, scheme, tableau, *stepping, cells, Some(&problem.start))
                 .telling(&mut carve)
-                .run_to_velocity(&request, &mut |time, x0| {
-                    steps.push((time, x0));
-                    if x0 > ends.0 && x0 < ends.1 {
-                        return observe(time / duration);
-                    }
-                    outside = Some(GridError::LeftGrid { time, x0 });
-                    ControlFlow::Break(())
-                })
-        };
-        let (run, velocity) = ran.map_err(|error| outside.unwrap_or(error))?;
+                .run_to_velocity(&request, observe)
+        })?;
         let mut work = run.work;
         work.cells_updated += carver.cells;
         let mut x0 = run.x0;

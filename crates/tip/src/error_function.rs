@@ -1,6 +1,6 @@
 //! The scaled complementary error function, with the same bits on every machine.
 
-use crate::elementary::{exp, sin_cos};
+use crate::elementary::{complex_exp, exp};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -50,18 +50,13 @@ pub fn erfcx(z: Complex64) -> Complex64 {
     if z.re >= pole.max(across) {
         return z * BETWEEN.sum(square);
     }
-    let residue = exponential(square) * 2.0;
-    let turn = exponential(z * (2.0 * pole));
+    let residue = complex_exp(square) * 2.0;
+    let turn = complex_exp(z * (2.0 * pole));
     let place = (across / SPACING).fract();
     if z.re < across && (0.25..=0.75).contains(&place) {
         return z * WHOLE.sum(square) + SPACING / (PI * z) + residue / (1.0 - turn);
     }
     z * BETWEEN.sum(square) + residue / (1.0 + turn)
-}
-
-fn exponential(z: Complex64) -> Complex64 {
-    let (sin, cos) = sin_cos(z.im);
-    Complex64::new(cos, sin) * exp(z.re)
 }
 
 #[cfg(test)]

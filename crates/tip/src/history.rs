@@ -334,8 +334,9 @@ impl Trajectory {
 
     /// The whole motion as visits whose weights depend on their positions, not on their age: positions and weights such
     /// that ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor.
-    /// Behind a support of velocity r the surface is then -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x -
-    /// x0)/(rT)} dt', with R at the time of the surface in the first factor. Where nothing heals, all factors are 1.
+    /// Behind a support of velocity r the surface is then
+    /// -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt', with R at the time of the surface
+    /// in the first factor. Where nothing heals, all factors are 1.
     pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
         let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);

@@ -22,7 +22,7 @@ pub struct Alternative {
 }
 
 /// Largest excess of a minimum that is reported: the 99.7 % quantile of χ² with one degree of freedom.
-const TOLD: f64 = 9.0;
+const REPORTED: f64 = 9.0;
 /// Largest relative excess of the sum of squares at which a minimum is refined, before correlations are known.
 const FOLLOWED: f64 = 0.25;
 /// Largest number of refined minima.
@@ -80,11 +80,11 @@ pub(super) fn judged(
     found: Vec<(Vec<Scan>, Minimum)>,
 ) -> (Vec<Rival>, Vec<Alternative>) {
     let mut rivals: Vec<Rival> = vec![];
-    let mut told = vec![];
+    let mut alternatives = vec![];
     for (scans, end) in found {
         let behind = around.behind(&end);
         let there = Problem { scans, ..problem.clone() };
-        let Some(values) = there.values(&end.parameters).filter(|_| behind < TOLD) else {
+        let Some(values) = there.values(&end.parameters).filter(|_| behind < REPORTED) else {
             continue;
         };
         let Some(deviations) = Around::of(&there, &end).map(|near| near.deviations()) else {
@@ -99,10 +99,10 @@ pub(super) fn judged(
             continue;
         }
         rivals.push(Rival { behind, at: end.parameters[..numbers].to_vec(), deviations });
-        told.push(Alternative { values, scans: there.scans, behind });
+        alternatives.push(Alternative { values, scans: there.scans, behind });
     }
-    sort_by_number(&mut told, |item| item.behind);
-    (rivals, told)
+    sort_by_number(&mut alternatives, |alternative| alternative.behind);
+    (rivals, alternatives)
 }
 
 /// The fits with other footprints, each started at the same relative distance from onset as the best fit.

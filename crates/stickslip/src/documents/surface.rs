@@ -1,6 +1,6 @@
 //! `stickslip/surface`.
 
-use crate::documents::table::{Array, Column, Named, Tabular};
+use crate::documents::table::{Array, Column, Named, Tabular, joined};
 use crate::schema::JsonSchema;
 use crate::{Document, ModelParameters, Question};
 use serde::{Deserialize, Serialize};
@@ -116,6 +116,5 @@ impl Tabular for SurfaceFound {
 }
 
 fn heights(images: &[SurfaceImage]) -> Vec<f64> {
-    let rows: Vec<&[f64]> = images.iter().flat_map(|image| &image.u).map(Vec::as_slice).collect();
-    rows.concat()
+    joined(images.iter().flat_map(|image| &image.u))
 }

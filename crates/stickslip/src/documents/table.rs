@@ -178,8 +178,13 @@ impl From<Vec<f64>> for Column<'_> {
 impl<'v> FromIterator<&'v Vec<f64>> for Column<'_> {
     /// Lists of numbers, one after the other.
     fn from_iter<I: IntoIterator<Item = &'v Vec<f64>>>(lists: I) -> Self {
-        lists.into_iter().map(Vec::as_slice).collect::<Vec<_>>().concat().into()
+        joined(lists).into()
     }
+}
+
+/// Lists of numbers, one after the other.
+pub(crate) fn joined<'v>(lists: impl IntoIterator<Item = &'v Vec<f64>>) -> Vec<f64> {
+    lists.into_iter().map(Vec::as_slice).collect::<Vec<_>>().concat()
 }
 
 impl From<Vec<Option<f64>>> for Column<'_> {

@@ -170,18 +170,13 @@ impl SampleTimes {
         }
     }
 
-    /// The first time that differs; of samples of a whole run, one that is missing at the end.
-    fn worst(self, is_whole: bool) -> Option<ClaimDocument> {
+    /// Adds the first time that differs, or a sample that is missing at the end of a whole run.
+    fn end(self, is_whole: bool, claims: &mut Claims) {
         let missing = self.expected.filter(|_| is_whole).and_then(|times| times.at(self.number));
-        let missing = missing.map(|t| ClaimDocument {
-            field: "samples.t".into(),
-            t: None,
-            claimed: Value::Null,
-            computed: json!(t),
-            allowed: None,
-            count: 1,
-        });
-        self.column.worst.or(missing)
+        match self.column.worst {
+            Some(worst) => claims.0.push(worst),
+            None => claims.judge_if("samples.t", None, missing.as_ref(), &|_, _| 0.0),
+        }
     }
 }
 
@@ -424,7 +419,7 @@ pub(super) fn of_document(
     sort_by_number(&mut samples, |item| item.t);
     let mut times = SampleTimes::of(&run.parameters.sampling, scenario);
     samples.iter().for_each(|sample| times.see(sample.t));
-    claims.0.extend(times.worst(!run.interrupted));
+    times.end(!run.interrupted, &mut claims);
     if let Some(motion) = history {
         let law = (&scenario.support(), scenario.model.wider());
         for sample in samples.drain(..) {
@@ -475,7 +470,7 @@ pub(super) fn of_lines(
         }
     })?;
     due.for_each(drop);
-    claims.0.extend(times.worst(end.is_some_and(|end| !end.interrupted)));
+    times.end(end.is_some_and(|end| !end.interrupted), &mut claims);
     claims.0.extend(columns.worst());
     if let Some(end) = end {
         claims.of_end(end, &computed, scenario.tolerance);

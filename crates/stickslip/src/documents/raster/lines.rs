@@ -1,6 +1,6 @@
 //! The lines of a raster.
 
-use crate::documents::table::Array;
+use crate::documents::table::{Array, joined};
 use crate::schema::JsonSchema;
 use crate::twins::twins;
 use crate::{History, Unusable};
@@ -216,10 +216,8 @@ impl RasterHistory {
 
     pub(super) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let lines = || self.lines.iter();
-        let joined = |of: fn(&LineHistory) -> &Vec<f64>| {
-            lines().map(|line| of(line).as_slice()).collect::<Vec<_>>().concat()
-        };
-        let (t, extension) = (joined(|line| &line.t), joined(|line| &line.extension));
+        let t = joined(lines().map(|line| &line.t));
+        let extension = joined(lines().map(|line| &line.extension));
         let displacement: Vec<Vec<f64>> =
             lines().flat_map(|line| line.displacement.clone()).collect();
         let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();

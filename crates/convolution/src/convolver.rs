@@ -9,14 +9,14 @@ use rustfft::num_complex::Complex;
 use crate::window::Window;
 use crate::{Density, Field, Kernel, Plan};
 
-/// A prepared kernel: its transform divided by that of the window, and plans of the Fourier transforms.
+/// A prepared kernel: its transform divided by φ̂², with φ the spreading window of the [crate](crate), and plans of the
+/// Fourier transforms.
 ///
-/// **Requirements on the window.** One call uses a window of [`length`](Self::length) cells of the density, and
-/// nothing else.
-/// - A kernel with reach: targets at least [`margin`](Plan::margin) inside the window include all sources within
-///   reach, whether or not others lie outside. A window centered on `x` allows targets up to `(separation − reach)/2`
-///   from `x`.
-/// - A kernel without reach: all sources must lie in the window, and the targets within `separation` of each of them.
+/// **Requirements on the window of cells.** One call uses [`length`](Self::length) consecutive cells of the density,
+/// called its window, and no others.
+/// - A kernel with reach: at targets at least [`margin`](Plan::margin) inside the window the sum is complete, whether
+///   or not sources lie outside. A window centered on `x` allows targets up to `(separation − reach)/2` from `x`.
+/// - A kernel without reach: all sources must lie in the window, and each target within `separation` of every source.
 ///
 /// [`first_cell_about`](Self::first_cell_about) centers the window.
 pub struct Convolver {
@@ -123,7 +123,7 @@ fn periodic_samples(kernel: &Kernel, plan: &Plan) -> Vec<f64> {
     (0..length).map(|cell| image(cell) + image(cell - length)).collect()
 }
 
-/// Divides by the window once for writing and once for reading, and normalises.
+/// Divides by φ̂ once for spreading and once for evaluation, and by the length, the factor of both transforms.
 fn deconvolved(spectrum: &[Complex<f64>], length: usize) -> Vec<Complex<f64>> {
     let window = Window::shared();
     let divided = |(mode, k): (usize, &Complex<f64>)| {

@@ -54,7 +54,7 @@ impl Density {
 
     /// Adds a source of the given weight.
     ///
-    /// The position must be finite, and close enough to the other sources for the memory.
+    /// The position must be finite, and so close to the other sources that the cells between them fit in memory.
     #[inline]
     pub fn add(&mut self, position: f64, weight: f64) {
         debug_assert!(position.is_finite(), "a source at {position}");

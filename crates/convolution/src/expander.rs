@@ -14,37 +14,38 @@ pub const TERMS: usize = 32;
 /// Coefficients `c_n` of `S = Σ c_n s^n`, with `s` the distance in spacings.
 pub type PowerSeries = [f64; TERMS];
 
-/// Half of the range of a kernel divided by the transform of the window goes this many cells beyond that of the kernel.
+/// Number of cells by which division by φ̂ extends the reach of a kernel.
 const BEYOND: f64 = WIDTH as f64;
-/// Period of the sum over wave numbers, over the range of the kernel.
+/// Period P of the sum over wave numbers, relative to the extended range of the kernel (twice its reach).
 const PERIOD: f64 = 1.3;
 
-/// The power series about a cell of `S(x) = Σ_j w_j K(x − y_j)`, from the cells around it of the
-/// [`Density`](crate::Density) of the sources:
+/// The power series of `S(x) = Σ_j w_j K(x − y_j)` about the center of cell c, from the [`Density`](crate::Density) D_m
+/// of the sources in the cells m around it:
 ///
 /// ```text
 /// c_n = Σ_m D_m h^n/n! K_n((c − m)h),      K_n(x) = (1/P) Σ_k (ik)^n K̂(k)/φ̂(k) e^{ikx}
 /// ```
 ///
-/// Unlike a [`Spectra`](crate::Spectra) it needs no more of the density than the cells within reach, and gives all
-/// derivatives: none is the derivative of an interpolant, in which round-off of cells would grow with every order.
+/// Here h is the spacing and P the period of the sum over k. Only the cells within reach are needed. Every derivative
+/// is a sum of its own: in the derivatives of an interpolant round-off would grow with every order.
 ///
-/// **Guarantee.** The error of `c_n s^n` is at most 1e-12 Σ|w| max|K| up to two widths of a Gaussian from the cell, and
-/// less nearer to it.
+/// **Guarantee.** For a Gaussian kernel, the error of `c_n s^n` is at most 1e-12 Σ|w| max|K| up to two widths from the
+/// cell.
 #[derive(Clone, Debug)]
 pub struct Expander {
     spacing: f64,
     reach: usize,
-    /// Of the cells from `reach` below to `reach` above.
+    /// Coefficients for unit density in each cell, from `reach` cells below to `reach` cells above.
     weights: Vec<PowerSeries>,
 }
 
 impl Expander {
-    /// Power series of a kernel, given by its transform K̂(k), with the bandwidth `band`; beyond `reach` it is
-    /// negligible. Densities must have the spacing for kernels of the bandwidth `band_of_lattice`, at least `band`.
+    /// Power series for a kernel that is given by its transform K̂(k). K̂ is negligible beyond `band`, the kernel
+    /// beyond `reach`. Densities must have the [`spacing`](Self::spacing) for the bandwidth `band_of_lattice`, at least
+    /// `band`.
     ///
     /// # Panics
-    /// A bandwidth or the reach is not positive and finite.
+    /// `band` or `reach` is not positive, or `band_of_lattice` or `reach` is not finite.
     pub fn new(
         (band, band_of_lattice): (f64, f64),
         reach: f64,
@@ -93,7 +94,7 @@ impl Expander {
     /// on either side.
     ///
     /// # Panics
-    /// The number of cells differs from what the series takes.
+    /// The number of cells is not 2 [`reach`](Self::reach) + 1.
     pub fn add(&self, cells: &[f64], series: &mut PowerSeries) {
         assert_eq!(cells.len(), self.weights.len(), "cells of a series");
         add(&self.weights, cells, series);

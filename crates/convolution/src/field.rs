@@ -54,8 +54,8 @@ impl Field {
     /// The sum `S(x)`.
     ///
     /// # Panics
-    /// `x` is not at least 8 cells inside the window. Between there and [`range`](Self::range) there is a value, but
-    /// sources outside the window are missing.
+    /// `x` is not at least 8 cells inside the window. Nearer to its ends than in [`range`](Self::range) the value lacks
+    /// the sources outside the window.
     #[inline]
     pub fn value(&self, x: f64) -> f64 {
         self.value_and_derivative(x).0

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! **Domain.** `K` is real and effectively band limited: its transform is below round-off for wavenumbers above
-//! [`Kernel::band`]. It may be neither even nor odd, and need not decay.
+//! [`Kernel::band`]. It need not be even or odd, and need not decay.
 //!
 //! **Method.** A non-uniform fast Fourier transform and its inverse. Each source is spread over the sixteen nearest
 //! cells of a uniform lattice with a smooth [`Window`] φ ([`Density`]); the lattice is transformed, multiplied by

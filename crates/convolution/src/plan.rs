@@ -6,7 +6,7 @@ use crate::Kernel;
 use crate::lattice::dyadic_at_most;
 use crate::window::WIDTH;
 
-/// Lattice points per period of the band edge, relative to the sampling theorem.
+/// Number of lattice points relative to the least that the sampling theorem allows for the band.
 pub(crate) const UPSAMPLING: f64 = 2.0;
 
 /// Distance between the ends of a taper and its center, in widths: erfc(5.95)/2 = 2e-17.
@@ -30,8 +30,8 @@ impl Taper {
         0.5 * libm::erfc((separation.abs() - self.center) / self.width)
     }
 
-    /// The taper that does not change separations up to `separation` and gives the fewest cells, `(2A + 11.9w)(band +
-    /// 12.4/w)` up to a factor, hence `w² ≈ 2A/band`.
+    /// The taper that leaves the kernel unchanged up to the separation A, with the width w that gives the fewest cells.
+    /// Their number is proportional to `(2A + 11.9w)(band + 12.4/w)`, hence `w² ≈ 2A/band`.
     fn beyond(separation: f64, band: f64) -> Self {
         let width = (2.0 * separation.max(1.0 / band) / band).sqrt();
         Self { center: separation + TAPER_HALF_WIDTHS * width, width }

@@ -20,7 +20,7 @@ pub struct Rows {
     lattice: Lattice,
     /// Index of the first cell of every row.
     first: i64,
-    /// Number of rows, and of rows with those that fill the last lanes.
+    /// Number of rows; `stride` is this number rounded up to whole SIMD lanes.
     count: usize,
     stride: usize,
     cells: Vec<f64>,
@@ -60,7 +60,7 @@ impl Rows {
         }
     }
 
-    /// `S(x)` and `dS/dx` of the rows from `row` on, as many as there is room for; 0 beyond the last.
+    /// `S(x)` and `dS/dx` of the rows from `row` on, as many as `values` holds; 0 beyond the last row.
     ///
     /// # Panics
     /// The position is outside of the range.
@@ -97,7 +97,7 @@ impl Rows {
     }
 }
 
-/// Sums over the columns of cells times their weights, each row by itself.
+/// Sums over the columns of cells times their weights, separately for each row.
 ///
 /// Also compiled for wider vectors: every row is a separate sum in the order of the columns, so that the bits are the
 /// same.

@@ -17,8 +17,8 @@ use crate::{Density, Field, Rows};
 /// ρ̂(k) = Σ_j w_j e^{-ik(y_j − origin)},      S(x) = (1/P) Σ_k Ŝ(k) e^{ik(x − origin)}
 /// ```
 ///
-/// at the wave numbers k = 2πj/P, j = 0, 1, …, up to the band; P is the length of the range. For one kernel and one
-/// density use a [`Convolver`](crate::Convolver); here many densities, stored as few numbers, are added under
+/// at the wave numbers k = 2πj/P, j = 0, 1, …, up to the band; P is slightly longer than the range. For one kernel and
+/// one density use a [`Convolver`](crate::Convolver); here many densities, stored as few numbers, are added under
 /// different kernels before one inverse transform.
 ///
 /// **Guarantee.** The error of ρ̂ is at most 1e-14 Σ|w|, and that of S at most 1e-14 relative to Σ|Ŝ|/P, provided
@@ -109,10 +109,7 @@ impl Spectra {
         Rows::new(self.spacing, self.first, self.length, count)
     }
 
-    /// ρ̂ of a row of sources.
-    ///
-    /// # Panics
-    /// There is no such row, or the rows are those of another range.
+    /// ρ̂ of a row of sources, of [`rows`](Self::rows) made by these spectra.
     pub fn of_row(&mut self, rows: &Rows, row: usize) -> Vec<Complex<f64>> {
         rows.copy(row, &mut self.cells);
         self.transformed()
@@ -136,10 +133,10 @@ impl Spectra {
         Field::of_cells(self.spacing, self.first, cells)
     }
 
-    /// Sets a row of sums to S(x) from these Ŝ.
+    /// Sets a row of sums, of [`rows`](Self::rows) made by these spectra, to S(x) from these Ŝ.
     ///
     /// # Panics
-    /// As [`field`](Self::field); there is no such row.
+    /// As [`field`](Self::field).
     pub fn set_row(&mut self, rows: &mut Rows, row: usize, spectrum: &[Complex<f64>]) {
         let mut cells = std::mem::take(&mut self.cells);
         self.invert(spectrum, &mut cells);

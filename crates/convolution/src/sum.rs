@@ -27,7 +27,7 @@ pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[
 /// `S(x) = Σ_j w_j K(x − y_j)` at each target, by one lattice that contains them all: a [`Sum`] on their span.
 ///
 /// # Panics
-/// The numbers of weights and sources differ, or a position is not finite.
+/// The numbers of weights and sources differ, or a target is not finite.
 pub fn sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -> Vec<f64> {
     let Span { low, high } = Span::of(targets.iter());
     let sum = Sum::on((low, high), kernel, sources, weights);
@@ -41,7 +41,7 @@ pub fn sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -
 /// the reach of all sources, are excluded from that span.
 pub struct Sum {
     field: Field,
-    /// Beyond it the sum is 0.
+    /// The interval within reach of the sources; beyond it the sum is 0.
     near_sources: Span,
 }
 
@@ -49,7 +49,7 @@ impl Sum {
     /// The sum on the closed interval from `low` to `high`, empty if `low > high`.
     ///
     /// # Panics
-    /// The numbers of weights and sources differ, or a position is not finite.
+    /// The numbers of weights and sources differ, or the kernel has no reach and an end or a source is infinite.
     pub fn on((low, high): (f64, f64), kernel: &Kernel, sources: &[f64], weights: &[f64]) -> Self {
         assert_eq!(sources.len(), weights.len(), "one weight per source");
         let reach = kernel.reach.unwrap_or(f64::INFINITY);

@@ -12,9 +12,9 @@ const HALF: usize = WIDTH / 2;
 /// Number of cells of the window below the position's own cell.
 pub(crate) const BELOW: i64 = HALF as i64 - 1;
 
-/// Shape parameter β = 12π, or 2.36 per cell: the main lobe of φ̂, |8κ| < β, ends at 2π − π/2, the alias of the edge
-/// of the band κ = π/2. Barnett et al. use 2.30, for which φ ends in a step of 1e-16 instead of 4e-17; values hardly
-/// differ, but derivatives are 2.5 times as accurate.
+/// Shape parameter β = 12π, or 2.36 per cell: the main lobe of φ̂, |8κ| < β, ends at 2π − π/2, the alias of the edge of
+/// the band κ = π/2. Barnett et al. use 2.30, for which φ ends in a step of 1e-16 instead of 4e-17. With β = 12π values
+/// hardly differ, but derivatives are 2.5 times as accurate.
 const SHAPE: f64 = 12.0 * std::f64::consts::PI;
 
 /// Pairs of polynomial coefficients per weight. Degree 15 is at round-off, slopes included; degree 13 costs the
@@ -76,8 +76,8 @@ impl Window {
         }
     }
 
-    /// The sixteen weights `φ((k − 7 − offset)/8)`, `k = 0..16`, of the cells from seven below to
-    /// eight above the one at or below a position, for an offset in [0, 1] spacings above it.
+    /// The sixteen weights `φ((k − 7 − offset)/8)`, `k = 0..16`, of the cells around a position. The position is
+    /// `offset` spacings above the cell of weight 7; `offset` is in [0, 1].
     #[inline(always)]
     pub fn weights(&self, offset: f64) -> [f64; WIDTH] {
         let s = 2.0 * offset - 1.0;
@@ -142,7 +142,7 @@ fn unfold(even: [f64; HALF], odd: [f64; HALF]) -> [f64; WIDTH] {
     all
 }
 
-/// `Σ_k coefficients_k cell_k` of the even and of the odd part, vectors over the powers.
+/// Coefficients of the polynomial `Σ_k weight_k cells_k` in `s`: those of the even and of the odd powers.
 ///
 /// Also compiled for wider vectors, because the powers are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]

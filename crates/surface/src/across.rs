@@ -1,4 +1,4 @@
-//! u(x,y,t) of a tip that moves in both coordinates.
+//! The surface u(x,y,t) carved by a tip that moves in both coordinates.
 
 use crate::SurfaceError;
 use ndarray::Array2;
@@ -12,6 +12,8 @@ use stickslip_tip::{Layer, Start};
 /// ```text
 ///     u(x,y,t) = u0(x,y) e^{-(t-t1)/T} - α ∫_{t1}^t w e^{-(t-t')/T} f(x - x0(t'), y - y0(t')) dt'
 /// ```
+///
+/// with the indentation rate α w and the healing time T.
 #[derive(Debug)]
 pub struct SurfaceAcross<'a> {
     scenario: &'a PlanarScenario,
@@ -34,8 +36,8 @@ impl<'a> SurfaceAcross<'a> {
         Ok(Self { scenario, trajectory, texture, layers })
     }
 
-    /// u(x,y,t) at every y (rows) and every x (columns). For each x it sums over the visits within reach: the
-    /// definition, to the accuracy of the trajectory.
+    /// u(x,y,t) at every y (rows) and every x (columns). Each value is a direct sum over the visits within reach of x,
+    /// as accurate as the trajectory.
     ///
     /// # Errors
     /// `t` is outside of the run; x or y is not finite.
@@ -60,7 +62,7 @@ impl<'a> SurfaceAcross<'a> {
         Ok(Array2::from_shape_fn((y.len(), x.len()), |(j, i)| columns[i][j]))
     }
 
-    /// u at every y of some neighbouring x; `left` is the undecayed part of the initial surface.
+    /// u at every y, for each of the neighbouring `x`; `left` is the undecayed fraction of the initial surface.
     fn columns(&self, visits: &[Visit], left: f64, x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
         let along = &self.scenario.along;
         let (model, position) = (&along.model, along.start_position);
@@ -86,9 +88,9 @@ impl<'a> SurfaceAcross<'a> {
     }
 }
 
-/// Number of columns that share the profiles of the visits near them, and their largest distance relative to the
-/// reach of the tip.
+/// Largest number of neighbouring columns for which the profile of a visit is computed once.
 const COLUMNS: usize = 32;
+/// Largest distance between adjacent columns of such a group, relative to the reach of the tip.
 const CLOSE: f64 = 0.25;
 /// Number of visits whose profiles are kept at a time.
 const VISITS: usize = 256;
@@ -97,8 +99,8 @@ fn reach(layer: &Layer) -> f64 {
     layer.along.reach().unwrap_or(f64::INFINITY)
 }
 
-/// Σ weight f(x - x0) h(y - y0) of a layer over the visits within reach, for each x and each y in turn. The profile h of
-/// a visit is computed once for all x. The visits are in the order of x0.
+/// Σ weight g(x - x0) h(y - y0) over the visits within reach, for the layer g(x) h(y). The result has one vector for
+/// each x, with one value for each y. `visits` must be sorted by x0.
 pub fn carved_across(layer: &Layer, visits: &[Visit], x: &[f64], y: &[f64]) -> Vec<Vec<f64>> {
     let reach = reach(layer);
     let low = x.iter().copied().fold(f64::INFINITY, f64::min) - reach;

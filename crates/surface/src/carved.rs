@@ -1,4 +1,4 @@
-//! Σ_j w_j f(x - x_j) over the residence of the tip, by the cheaper of two methods.
+//! Σ_j w_j f(x - x_j) over the residence of the tip (positions x_j, weights w_j), by the cheaper of two methods.
 
 use ndarray::Array1;
 use rayon::prelude::*;
@@ -10,16 +10,16 @@ use stickslip_tip::TipFunction;
 pub enum Method {
     /// One evaluation of f per position of the tip and per x: the definition.
     Direct,
-    /// Spreading, FFT, reading: a bounded number of operations per position and per x.
+    /// A non-uniform FFT: a bounded number of operations per position and per x.
     Fft,
 }
 
-/// Pairs of source and target with the same cost as one source or target by FFT; measured with benches/surface.rs,
-/// flat within a factor of two.
+/// Number of pairs of source and target that cost as much as one source or target by FFT. Measured with
+/// benches/surface.rs; a factor of two changes little.
 const PAIRS_PER_POINT: f64 = 16.0;
-/// Cells of the lattice with the same cost as one point.
+/// Number of lattice cells that cost as much as one source or target by FFT.
 const CELLS_PER_POINT: f64 = 2.0;
-/// Largest number of cells of a lattice: a gigabyte with its transforms.
+/// Largest number of cells of a lattice, which takes a gigabyte with its transforms.
 pub(crate) const MOST_CELLS: f64 = 1e7;
 
 /// Least and largest of these numbers.
@@ -27,7 +27,7 @@ fn span(v: &[f64]) -> (f64, f64) {
     v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
 }
 
-/// Number of cells of a lattice for these positions and an interval of x.
+/// Number of cells of a lattice for sources at these positions and targets in the interval.
 pub(crate) fn cells(tip: &TipFunction, positions: &[f64], (c, d): (f64, f64)) -> f64 {
     let (a, b) = span(positions);
     let extent = match tip.reach() {
@@ -38,8 +38,8 @@ pub(crate) fn cells(tip: &TipFunction, positions: &[f64], (c, d): (f64, f64)) ->
 }
 
 impl Method {
-    /// The cheaper method for these positions and points; the definition if no lattice over their extent fits in
-    /// memory.
+    /// The cheaper method for these positions and points; `Direct` if a lattice over their extent would have more than
+    /// 1e7 cells.
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
         let (sources, targets) = (positions.len() as f64, x.len() as f64);
         let cells = cells(tip, positions, span(x));
@@ -51,7 +51,7 @@ impl Method {
 /// Σ_j `weights_j` f(x - `positions_j`) at every x, by the cheaper method.
 ///
 /// # Panics
-/// The numbers of weights and positions differ, or a position or x is not finite.
+/// The numbers of weights and positions differ, or x is not finite and [`Method::Fft`] is used.
 pub fn carved(tip: &TipFunction, positions: &[f64], weights: &[f64], x: &[f64]) -> Array1<f64> {
     carved_by(Method::cheaper(tip, positions, x), tip, positions, weights, x)
 }

@@ -13,10 +13,10 @@ impl Surface<'_> {
     ///     u(x,y,t) = u0(x,y) - α ∫_{t1}^t f(x - x0(t'), y)dt'
     /// ```
     ///
-    /// In the extended model each node is weighted, and all grooves heal. Steady motion before the run carved with
-    /// the same footprint; a given profile and noise are known on the path only, and are assumed to be the same for
-    /// all y. The cost is that of one surface u(x) for each layer of the footprint and one multiplication for each
-    /// layer and pixel.
+    /// In the extended model the integrand has the weight and the decay given in the [crate documentation](crate).
+    /// Steady motion before the run carved with the same footprint. A given profile and noise, known on the path only,
+    /// are assumed to be the same for all y. The cost is that of one surface u(x) for each layer of the footprint and
+    /// one multiplication for each layer and pixel.
     ///
     /// # Errors
     /// `t` is outside of the run; x or y is not finite.
@@ -72,7 +72,7 @@ impl Surface<'_> {
         Ok(Array2::from_shape_fn((y.len(), x.len()), pixel) * -self.model.alpha())
     }
 
-    /// Σ_k h_k(y) (-α Σ_j w_j g_k(x - x_j) + `before`(k)).
+    /// Σ_k h_k(y) (-α Σ_j w_j g_k(x - x_j) + `before`(k)) over the layers g_k(x) h_k(y) of the footprint.
     fn layered(
         &self,
         footprint: &Footprint,
@@ -96,7 +96,7 @@ impl Surface<'_> {
         Array2::from_shape_fn((y.len(), layers.len()), height).dot(&along)
     }
 
-    /// (24) with the layer's g for f, at the start of the run.
+    /// The steady profile (24) at the start of the run, with the factor g(x) of the layer in place of f.
     fn steady_past(&self, layer: &Layer, x: &[f64]) -> Array1<f64> {
         let Some(position) = self.initial.steady_position() else {
             return Array1::zeros(x.len());

@@ -4,7 +4,8 @@
 //!     u(x,t) = u0(x) - α ∫_{t1}^t f(x - x0(t'))dt'        (14)
 //! ```
 //!
-//! and in the extended model u0(x) e^{-(t-t1)/T} - α ∫ w(t') e^{-(t-t')/T} f(x - x0(t'))dt'.
+//! and in the extended model u0(x) e^{-(t-t1)/T} - α ∫ w(t') e^{-(t-t')/T} f(x - x0(t'))dt', with the indentation rate
+//! α w and the healing time T.
 //!
 //! The integration of the tip does not use the surface; this crate computes it afterwards, at any x and at any t of
 //! the run, as a sum over the residence of the tip, the time that it spent at each position. Heights in units of

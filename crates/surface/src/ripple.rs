@@ -6,27 +6,27 @@ use stickslip_convolution::{Kernel, Sum, direct_sum};
 use stickslip_tip::Trajectory;
 use stickslip_tip::elementary::exp;
 
-/// One wavelength of the surface far behind the tip. On a healing surface u at the distance D behind the support is
-/// U(x) e^{-D/(rT)} with U a periodic function, out of the reach of the tip: then the heights are those of U.
+/// One wavelength of the surface far behind the tip. On a surface that heals with the time T, u = U(x) e^{-D/(rT)}
+/// there, with a periodic U and the distance D behind the support; the heights are then those of U.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ripple {
     /// Half peak-to-peak of u∞(x), (35), or of U(x).
     pub amplitude: f64,
-    /// Its highest height.
+    /// Largest height of u∞ or U.
     pub crest: f64,
-    /// Its lowest height.
+    /// Smallest height of u∞ or U.
     pub trough: f64,
 }
 
 /// Number of points over the wavelength at first, and around an extremum in each refinement.
 const POINTS: usize = 256;
 const POINTS_AROUND: usize = 33;
-/// Number of refinements. Each narrows the position of an extremum by 16; the error of the height is proportional to
-/// its square.
+/// Number of refinements. Each divides the error of the position of an extremum by 16, and that of the height by 256.
 const REFINEMENTS: usize = 4;
 
-/// The ripple over the last whole wavelength out of reach of the tip, in the carved groove without the initial
-/// surface. `None` for a footprint without reach, or if the run has not left one wavelength behind.
+/// The ripple over the last whole wavelength out of reach of the tip, in the carved groove without the initial surface.
+/// `None` for a footprint without reach, if the groove out of reach is shorter than a wavelength, or if a height is not
+/// finite.
 pub fn ripple_behind(
     surface: &Surface,
     trajectory: &Trajectory,
@@ -47,7 +47,7 @@ pub fn ripple_behind(
     ripple.amplitude.is_finite().then_some(ripple)
 }
 
-/// Highest and lowest height in a range, of the undecayed part of the surface: u∞, or U where it heals.
+/// Largest and smallest height in a range: of u∞, or of U on a healing surface.
 fn extrema_of_lasting(
     surface: &Surface,
     trajectory: &Trajectory,

@@ -6,7 +6,7 @@ use super::{COEFFICIENTS, HALF, SHAPE, Window};
 /// point of the square root, is below 1e-17 from here on.
 const TERMS: usize = 40;
 
-/// Powers of `s` in each of the lower eight weights, for `s = 2·offset − 1` in [−1, 1].
+/// Polynomial coefficients of the lower eight weights in `s = 2·offset − 1`, which lies in [−1, 1].
 pub(super) fn lower_weights() -> [[f64; COEFFICIENTS]; HALF] {
     let chebyshev = chebyshev();
     std::array::from_fn(|cell| {

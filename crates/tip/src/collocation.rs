@@ -23,17 +23,17 @@ pub struct Collocation {
     /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes: the inverse of
     /// `a`.
     pub derivative: [Stages; STAGES],
-    /// Derivative of that polynomial at τ = 0.
+    /// Derivative of the same polynomial (as for `derivative`) at τ = 0.
     pub derivative_at_start: Stages,
-    /// Both, by value at a node: what it adds to the derivatives at τ = 0 and at the nodes, at the last one twice so
-    /// that they fill vectors.
+    /// Entry j: derivatives at τ = 0 and at the nodes for a unit value at node j. The last derivative is repeated, to
+    /// fill a vector register.
     slopes: [[f64; STAGES + 2]; STAGES],
-    /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): factor from the defect at the start of a step, times its
-    /// length, to the largest error within the step.
+    /// `max_τ |∫_0^τ N| / |N(0)|` with N(τ) = Π(τ - `c_i`): ratio of the largest error within a step to the product of
+    /// its length and the defect at its start.
     pub defect_to_error: f64,
     /// `max_τ |τ N(τ)|`, τ in [0, 1]: the error of interpolation per divided difference.
     largest_node_product: f64,
-    /// `1/Π_{k≠j}(c_j - c_k)`: the Lagrange polynomials less their products of differences.
+    /// `1/Π_{k≠j}(c_j - c_k)`: the constant factors of the Lagrange polynomials.
     scales: Stages,
     /// Row m: coefficient of (τ-1)^{m+1} in the polynomial that is 0 at τ = 0 and has given values at the
     /// nodes.
@@ -112,21 +112,21 @@ impl Collocation {
         tau * (0..STAGES).map(|i| values[i] / self.c[i] * basis[i]).sum::<f64>()
     }
 
-    /// Values at τ = 1 + ρ `c_i`, minus that at τ = 1, of the same polynomial: its extrapolation beyond the unit
-    /// step.
+    /// Extrapolates the polynomial of [`value`](Self::value) beyond the unit step: its values at τ = 1 + `ratio` `c_i`,
+    /// minus that at τ = 1.
     pub fn continued(&self, values: &Stages, ratio: f64) -> Stages {
         let beyond = self.about_the_end(values);
         self.c.map(|c| beyond(ratio * c))
     }
 
-    /// Value of the same polynomial at τ = 1 + y minus that at τ = 1, for any y.
+    /// As a function of y: the polynomial of [`value`](Self::value) at τ = 1 + y, minus its value at τ = 1.
     pub fn about_the_end(&self, values: &Stages) -> impl Fn(f64) -> f64 + use<> {
         let power = apply(&self.about_the_end, values);
         move |y| y * power.iter().rev().fold(0.0, |sum, p| sum * y + p)
     }
 
-    /// The largest error on the unit step of the polynomial as an interpolant, from its error at another τ where the
-    /// value is known: both are the same divided difference times a product of node distances.
+    /// The largest error of interpolation by the polynomial of [`value`](Self::value) on the unit step, from the
+    /// `known` value at another τ. Both errors are the same divided difference times a product of node distances.
     pub fn interpolation_error(&self, values: &Stages, tau: f64, known: f64) -> f64 {
         let product: f64 = tau * self.c.iter().map(|c| tau - c).product::<f64>();
         (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
@@ -139,8 +139,8 @@ impl Collocation {
         self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
     }
 
-    /// Derivatives of the same polynomial at τ = 0 and at the nodes; that at the last node is repeated, to fill a
-    /// vector register.
+    /// Derivatives of the polynomial of [`value`](Self::value) at τ = 0 and at the nodes. The last one is repeated, to
+    /// fill a vector register.
     #[inline]
     pub fn slopes(&self, values: &Stages) -> [f64; STAGES + 2] {
         let mut sums = [0.0; STAGES + 2];
@@ -152,7 +152,7 @@ impl Collocation {
         sums
     }
 
-    /// Derivative of the polynomial at τ.
+    /// Derivative at τ of the polynomial of [`value`](Self::value).
     pub fn slope(&self, values: &Stages, tau: f64) -> f64 {
         self.between(&apply(&self.derivative, values), tau)
     }

@@ -1,11 +1,11 @@
-//! Eigenvalues of a real matrix: balancing, its range, Hessenberg form, Francis's QR iteration.
+//! Eigenvalues of a real matrix: balancing, reduction to its range, Hessenberg form, Francis's QR iteration.
 //!
 //! Matrices here are graded over dozens of orders of magnitude. Most of the exponentials that represent the past have
 //! decayed after a period, and a monodromy matrix maps the whole state to the few directions in which a deviation
-//! persists; the other eigenvalues are zero except for round-off. So the matrix is reduced to its range first: with
-//! the columns of V an orthonormal basis of it, M V = V (Vᵀ M V), and the nonzero eigenvalues are those of the small
-//! matrix Vᵀ M V. Every negligible entry is set to zero where it is detected, shifts change when they do not help,
-//! and the number of iterations is bounded.
+//! persists; the other eigenvalues are zero except for round-off. So the matrix is reduced to its range first: if the
+//! columns of V are an orthonormal basis of the range, M V = V (Vᵀ M V), and the nonzero eigenvalues are those of the
+//! small matrix Vᵀ M V. Every negligible entry is set to zero where it is detected, shifts change when they do not
+//! help, and the number of iterations is bounded.
 //!
 //! References: Golub & Van Loan, *Matrix Computations*, sections 5.2 and 7.5; Parlett & Reinsch, Numer. Math.
 //! 13, 293 (1969).
@@ -15,17 +15,19 @@ use crate::stop;
 use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
 use num_complex::Complex;
 
-/// Smaller entries, in units of the largest column, are round-off.
+/// Columns with a smaller norm, relative to that of the largest column, are round-off.
 const ROUND_OFF: f64 = 1e-15;
 /// Largest number of sweeps for one eigenvalue or pair; ordinary matrices need two or three.
 const MOST_SWEEPS: usize = 90;
-/// Number of unsuccessful sweeps after which exceptional shifts replace those of the corner once.
+/// Period, in sweeps without success, of the sweeps with exceptional shifts instead of those from the corner.
 const SWEEPS_PER_STALL: usize = 10;
-/// Number of sweeps after which an entry that is negligible in the whole matrix counts as negligible everywhere.
+/// Number of sweeps after which an entry is compared with the norm of the matrix instead of its neighbours on the
+/// diagonal.
 const PATIENCE: usize = 40;
 
-/// All eigenvalues, with an error of about round-off of the norm of the balanced matrix. Of a conjugate pair the one
-/// above the real axis is first. `None` if an entry is not finite, or the iteration does not converge.
+/// All eigenvalues, with an error of about round-off of the norm of the balanced matrix. In a conjugate pair the
+/// eigenvalue above the real axis is first. `None` if the matrix is not square, an entry is not finite, or the
+/// iteration does not converge or is [interrupted](stop).
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -57,7 +59,7 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(found.into_iter().map(|value| value * largest).collect())
 }
 
-/// An orthonormal basis of the range of the columns, by Gram-Schmidt, the largest column first.
+/// An orthonormal basis of the span of the columns, by Gram-Schmidt, the largest column first.
 fn range(mut left: DMatrix<f64>) -> DMatrix<f64> {
     let (rows, columns) = left.shape();
     let mut basis: Vec<DVector<f64>> = vec![];
@@ -82,7 +84,7 @@ fn range(mut left: DMatrix<f64>) -> DMatrix<f64> {
     if basis.is_empty() { DMatrix::zeros(rows, 0) } else { DMatrix::from_columns(&basis) }
 }
 
-/// Rows and columns of equal size, by a diagonal similarity in powers of two.
+/// Makes each row about as large as its column, by a diagonal similarity in powers of two.
 fn balance(matrix: &mut DMatrix<f64>) {
     const MOST_ROUNDS: usize = 100;
     const GAIN: f64 = 0.95;
@@ -154,7 +156,7 @@ impl Deflation {
         0
     }
 
-    /// The eigenvalues of the two by two block that starts here.
+    /// The eigenvalues of the two by two block that starts at row i.
     fn pair(&self, i: usize) -> [Complex<f64>; 2] {
         let (a, d) = (self.h[(i, i)], self.h[(i + 1, i + 1)]);
         let product = self.h[(i, i + 1)] * self.h[(i + 1, i)];
@@ -188,7 +190,7 @@ impl Deflation {
         }
     }
 
-    /// Proportional to the first column of (H - a)(H - b), a and b the shifts.
+    /// A multiple of the first column of (H - a)(H - b), with the shifts a and b.
     fn first_column(&self, start: usize, end: usize, stalled: bool) -> [f64; 3] {
         let h = |i: usize, k: usize| self.h[(i, k)];
         let last = end - 1;
@@ -209,7 +211,7 @@ impl Deflation {
         ]
     }
 
-    /// Applies the reflection 1 - 2vvᵀ/vᵀv in the rows, and columns, from k on, within the block.
+    /// Applies the reflection 1 - 2vvᵀ/vᵀv to the rows and to the columns from k on, within the block.
     fn reflect(&mut self, v: &[f64], k: usize, (start, end): (usize, usize)) {
         let factor = 2.0 / v.iter().map(|v| v * v).sum::<f64>();
         for column in k..end {

@@ -1,10 +1,10 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! Those of the C library differ in the last bit from one processor to the next, and between browsers and both. A fit
-//! of exponentials amplifies such differences, and so does a motion: therefore this crate, and all code that
-//! determines a run, uses the functions of this module (`clippy.toml` of this crate lists the forbidden ones). They
-//! are those of the crate `libm`, which is the same code everywhere. Only the exponential is implemented here,
-//! because it is evaluated too often for that.
+//! The functions of the C library differ in the last bit between processors, and those of browsers differ from them and
+//! each other. A fit of exponentials amplifies such differences, and so does a motion. Therefore this crate, and all
+//! code that determines a run, uses the functions of this module (`clippy.toml` of this crate lists the forbidden
+//! ones). They come from the crate `libm`, which is the same code everywhere. Only the exponential is implemented here,
+//! because that of `libm` is too slow.
 
 use num_complex::Complex;
 use std::f64::consts::LOG2_E;
@@ -12,7 +12,7 @@ use std::f64::consts::LOG2_E;
 pub use libm::{cos, sincos as sin_cos};
 pub(crate) use libm::{exp2, hypot, log as ln, log2, log10, pow, sin};
 
-/// Largest |x|: beyond it e^x or its inverse may leave the normal range of f64.
+/// Largest |x| for which both e^x and e^{-x} are in the normal range of f64, with some margin.
 pub(crate) const LARGEST: f64 = 700.0;
 /// Adding this number to another one leaves the nearest integer in the last bits.
 pub(crate) const ROUNDS: f64 = 1.5 * (1_u64 << 52) as f64;

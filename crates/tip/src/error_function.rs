@@ -10,7 +10,7 @@ const POINTS: usize = 12;
 /// Spacing h = √(π/POINTS) of their points.
 const SPACING: f64 = 0.511_663_353_973_244_3;
 
-/// One of the two rules for w(ζ) = (2iζ/π) ∫_0^∞ e^{-t²}/(ζ² - t²) dt, ζ = iz.
+/// One of two trapezoidal rules for the Faddeeva function w(ζ) = (2iζ/π) ∫_0^∞ e^{-t²}/(ζ² - t²) dt at ζ = iz.
 struct Rule {
     /// t²
     squares: [f64; POINTS],
@@ -20,7 +20,7 @@ struct Rule {
 
 /// Points at (k + ½)h.
 static BETWEEN: LazyLock<Rule> = LazyLock::new(|| Rule::starting_at(0.5));
-/// Points at kh; that at 0 is kept apart.
+/// Points at kh, k = 1, 2, …; the term of t = 0 is added separately.
 static WHOLE: LazyLock<Rule> = LazyLock::new(|| Rule::starting_at(1.0));
 
 impl Rule {
@@ -41,10 +41,10 @@ impl Rule {
     }
 }
 
-/// erfcx(z) = e^{z²} erfc(z) for Re z ≥ 0, to some units in the last place, by the trapezoidal rule, corrected for the
+/// erfcx(z) = e^{z²} erfc(z) for Re z ≥ 0, to a few units in the last place, by the trapezoidal rule, corrected for the
 /// pole of its integrand (M. Al Azah & S. N. Chandler-Wilde, SIAM J. Numer. Anal. 59, 2346, 2021).
 ///
-/// Of two sets of points, that is taken which stays away from the pole.
+/// Of two sets of points, the one farther from the pole is used.
 pub fn erfcx(z: Complex64) -> Complex64 {
     let (square, pole, across) = (z * z, PI / SPACING, z.im.abs());
     if z.re >= pole.max(across) {

@@ -1,10 +1,10 @@
 //! `e^{s x}` for many complex s in SIMD lanes.
 //!
-//! Half of what a cycle takes is exponentials, each for some forty instructions of the libraries' functions and as many
-//! again for the sine and cosine. Side by side in the lanes of the machine they take a quarter of that, by the usual
-//! reductions, x = k ln 2 + ρ and y = q π/2 + ρ in parts that leave nothing of x or y, and polynomials in ρ: that of e^ρ is
-//! in [`crate::elementary`], those of sin and cos are the ones of fdlibm. Nothing is fused, so that all machines agree to
-//! the last bit.
+//! Half of the time for a limit cycle goes into exponentials. With library functions each takes some forty
+//! instructions, and as many again for the sine and cosine; in SIMD lanes it takes a quarter of that. The real part is
+//! reduced to k ln 2 + ρ and the imaginary part to q π/2 + ρ, without loss of digits. The polynomial for e^ρ is in
+//! [`crate::elementary`], those for sin ρ and cos ρ are from fdlibm. No multiplication is fused with an addition, so
+//! that all machines agree to the last bit.
 
 use crate::elementary::{self, LARGEST, ROUNDS, exp_within};
 use multiversion::multiversion;
@@ -14,14 +14,14 @@ use std::f64::consts::FRAC_2_PI;
 /// Number of SIMD lanes: several vectors, so that the compiler vectorises the loops.
 const LANES: usize = 12;
 
-/// Largest phase: larger ones are evaluated by the library. π/2 is subtracted in parts of 33 bits, at most this
-/// often.
+/// Largest phase evaluated here; larger ones are left to the library. Up to it all multiples of π/2 are exact in parts
+/// of 33 bits.
 const LARGEST_PHASE: f64 = 1e6;
 /// π/2 in parts; all but the last have few bits.
 const HALF_PI: [f64; 3] =
     [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 
-/// (sin ρ - ρ)/ρ³ in ρ², and (cos ρ - 1 + ρ²/2)/ρ⁴.
+/// Coefficients of the powers of ρ² in (sin ρ - ρ)/ρ³.
 const SIN: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
@@ -30,6 +30,7 @@ const SIN: [f64; 6] = [
     -2.505_076_025_340_686_3e-8,
     1.589_690_995_211_55e-10,
 ];
+/// Coefficients of the powers of ρ² in (cos ρ - 1 + ρ²/2)/ρ⁴.
 const COS: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
@@ -39,8 +40,8 @@ const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Replaces each of these z by e^z, and the number at its place in `inverses` by e^{-z}. The errors of both are some four
-/// roundings of the larger of 1 and the phase; real parts are limited to ±700.
+/// Replaces each of these z by e^z, and the number at its place in `inverses` by e^{-z}. The relative errors of both
+/// are about four roundings times the larger of 1 and |Im z|. Real parts are limited to ±700.
 ///
 /// ```
 /// use num_complex::Complex;

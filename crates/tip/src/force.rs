@@ -10,11 +10,11 @@ use thiserror::Error;
 /// A Gaussian pulse A exp(-(t-T)²/(2W²)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pulse {
-    /// Amplitude A.
+    /// Amplitude A, in kσ.
     pub amplitude: f64,
-    /// Time T of the maximum.
+    /// Time T of the maximum, in Γ/k.
     pub time: f64,
-    /// Width W.
+    /// Width W, in Γ/k.
     pub width: f64,
 }
 
@@ -71,7 +71,7 @@ impl Pulse {
         self.time + WIDTHS_OF_PULSE * self.width
     }
 
-    /// Adds the Taylor coefficients of the pulse: `W² F' = -(t - T) F`.
+    /// Adds the Taylor coefficients of the pulse F about t, from `W² F' = -(t - T) F`.
     fn add_series(&self, t: f64, coefficients: &mut [f64]) {
         let z = (t - self.time) / self.width;
         let (mut before, mut here) = (0.0, self.amplitude * libm::exp(-0.5 * z * z));
@@ -88,7 +88,7 @@ impl Force {
     /// A sum of Gaussian pulses and, if given, the cubic spline through a table (t, force), 0 outside.
     ///
     /// # Errors
-    /// Entries that are not finite, widths ≤ 0, a table that is short or unsorted.
+    /// An entry is not finite, a width is not positive, or the table is too short or not sorted by time.
     pub fn new(
         pulses: Vec<Pulse>,
         table: Option<(Vec<f64>, Vec<f64>)>,
@@ -106,7 +106,7 @@ impl Force {
         Ok(Self { pulses, table, function: None })
     }
 
-    /// A force given by any smooth function of time; it must vary over times of order one.
+    /// A force given by a smooth function of time that does not vary over times much shorter than 1 (Γ/k).
     pub fn from_fn(function: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self { function: Some(Arc::new(function)), ..Self::default() }
     }

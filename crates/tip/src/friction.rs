@@ -1,4 +1,4 @@
-//! Friction: the work that the support does on a tip, and the force to move on after it stood still.
+//! Friction: the work that the support does on a tip, and the peak of the lateral force after a rest of the support.
 
 use crate::motion::extrema_within;
 use crate::{Step, Support, SupportPath, Trajectory};
@@ -25,12 +25,12 @@ pub struct Hold {
     pub from: f64,
     /// Time at which it moves on, in Γ/k.
     pub to: f64,
-    /// The peak of the lateral force while the support then moves in one direction; `None` if the force is largest at
-    /// the end of that motion.
+    /// The peak of the lateral force after the rest, until the support turns or stops; `None` if the force is largest
+    /// at the end of that time.
     pub peak: Option<Peak>,
 }
 
-/// A largest extension of the spring.
+/// A maximum of the extension of the spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Time, in Γ/k.
@@ -61,7 +61,7 @@ pub fn loops(motion: &Trajectory) -> Vec<Loop> {
         .collect()
 }
 
-/// The rests of a support on a path after which it moves on, as far as the motion includes the end of the rest.
+/// The rests of a support on a path, without one that lasts until the end of the motion.
 pub fn holds(motion: &Trajectory) -> Vec<Hold> {
     let Support::Path(path) = motion.support() else { return vec![] };
     let (t, way) = path.knots();
@@ -93,7 +93,8 @@ fn direction(way: f64) -> Ordering {
     way.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
-/// The largest extension of the spring in the direction of the support, if it is not that at the end.
+/// The largest extension of the spring in the direction of the support; `None` if it is reached at the end of the
+/// phase.
 fn peak(motion: &Trajectory, phase: Phase) -> Option<Peak> {
     let support = motion.support();
     let steps = motion.steps();

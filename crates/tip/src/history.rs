@@ -10,19 +10,20 @@ use std::sync::LazyLock;
 
 /// One accepted step: the stage polynomial of the tip's displacement.
 ///
-/// Positions are stored as the extension of the spring and as displacements, not as x0: so a tip that has travelled
-/// 1e6 widths keeps its last digits.
+/// Positions are stored as the extension of the spring and as displacements, not as x0, so that a tip that has
+/// travelled 1e6 widths keeps its last digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// Time at the start of the step.
     pub t: f64,
     /// Duration of the step.
     pub h: f64,
-    /// Extension rt - x0 of the spring at the start of the step; l = rt - r - x0.
+    /// Extension R - x0 of the spring at the start of the step, in σ; R = rt at constant velocity, and R = 0 without a
+    /// spring.
     pub extension: f64,
     /// x0 minus its value at the start, at the collocation nodes; the last node is the end of the step.
     pub displacement: Stages,
-    /// The height of the surface under the tip, with a depth limit (61).
+    /// The height of the surface under the tip; `None` without a depth limit (61).
     pub height: Option<Heights>,
 }
 
@@ -49,7 +50,7 @@ impl Step {
         self.extension + (r * self.h - self.displacement[STAGES - 1])
     }
 
-    /// l(t) = rt - r - x0(t) on its polynomial, for support velocity r.
+    /// l(t) = rt - r - x0(t) by the stage polynomial, for support velocity r.
     pub fn l(&self, r: f64, t: f64) -> f64 {
         let moved = RADAU.value(&self.displacement, self.part(t));
         self.extension - r + (r * (t - self.t) - moved)
@@ -60,7 +61,7 @@ impl Step {
         r * t - r - self.l(r, t)
     }
 
-    /// x0'(t) on its polynomial: one order less accurate than x0.
+    /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.
     pub fn velocity(&self, t: f64) -> f64 {
         RADAU.slope(&self.displacement, self.part(t)) / self.h
     }
@@ -70,7 +71,7 @@ impl Step {
         (t - self.t) / self.h
     }
 
-    /// R(t) - x0(t), the extension of the spring, on its polynomial.
+    /// R(t) - x0(t), the extension of the spring, by the stage polynomial.
     pub fn lag(&self, support: &Support, t: f64) -> f64 {
         let moved = RADAU.value(&self.displacement, self.part(t));
         self.extension + (support.advance(self.t, t - self.t) - moved)
@@ -85,7 +86,7 @@ impl Step {
         }
     }
 
-    /// x0(t) on its polynomial, for any support.
+    /// x0(t) by the stage polynomial, for any support.
     pub fn position(&self, support: &Support, t: f64) -> f64 {
         match support {
             Support::Moving(r) => self.x0(*r, t),
@@ -93,7 +94,7 @@ impl Step {
         }
     }
 
-    /// The height under the tip at t, on its polynomial, with a depth limit.
+    /// The height under the tip at t, by its polynomial; `None` without a depth limit.
     pub fn height(&self, t: f64) -> Option<f64> {
         self.height.map(|height| height.at(self.part(t)))
     }
@@ -133,7 +134,7 @@ impl Step {
     }
 
     /// Calls `each` with the moments of the step until t, for sums over the [residence](Trajectory::residence) of the
-    /// tip: the nodes of a step that is over; Gauss points of one that is not, or in which more heals than nodes resolve.
+    /// tip. They are the nodes if the step ends by t and heals little meanwhile, Gauss points otherwise.
     pub fn each_moment(&self, wider: &Wider, t: f64, mut each: impl FnMut(Moment)) {
         let time = wider.healing_time.unwrap_or(f64::INFINITY);
         let passed = t - self.t;
@@ -171,7 +172,7 @@ impl Step {
 #[derive(Debug, Clone, Copy)]
 pub struct Moment {
     at: At,
-    /// The time, in Γ/k.
+    /// The weight, in Γ/k.
     pub weight: f64,
 }
 
@@ -219,21 +220,22 @@ impl AsRef<Self> for Step {
     }
 }
 
-/// Points of the Gauss rule on a part of a step. It integrates f(x - polynomial) far beyond the accuracy of the
-/// polynomial itself.
+/// Number of points of the Gauss rule on a part of a step. The rule integrates f(x - polynomial) far beyond the
+/// accuracy of the polynomial itself.
 const POINTS_ON_A_PART: usize = 16;
-/// Longest part for it, in healing times: on e^{-β} it errs by at most (16!)⁴β³²/(33 (32!)³), 3e-26 of β = 8.
+/// Longest part for this rule, in healing times T. The integral of e^{-t/T} over a part of length βT has a relative
+/// error of at most (16!)⁴β³²/(33 (32!)³), 3e-26 for β = 8.
 const MOST_AT_POINTS: f64 = 8.0;
-/// Longest step for the nodes, in healing times. They err on e^{-β} by at most 6 (5!)⁴β¹¹/(2 (11!)³), 5e-18.
+/// Longest step for the nodes, in healing times: the corresponding error is at most 6 (5!)⁴β¹¹/(2 (11!)³), 5e-18.
 const MOST_AT_NODES: f64 = 0.5;
-/// Healing times after which nothing is left: e^{-40} is 4e-18.
+/// Number of healing times after which an imprint is negligible: e^{-40} is 4e-18.
 const GONE: f64 = 40.0;
 
 static GAUSS: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(POINTS_ON_A_PART).unwrap() }));
 
 impl<S: AsRef<Step>> Trajectory<S> {
-    /// A trajectory in the extended model, or for another motion of the support.
+    /// A trajectory of consecutive steps without gaps, in the extended model and for any motion of the support.
     ///
     /// # Panics
     /// If there are no steps.
@@ -277,12 +279,12 @@ impl<S: AsRef<Step>> Trajectory<S> {
         self.step_at(t).as_ref().position(&self.support, t)
     }
 
-    /// The height of the surface under the tip, where there is a depth limit.
+    /// The height of the surface under the tip; `None` without a depth limit.
     pub fn height(&self, t: f64) -> Option<f64> {
         self.step_at(t).as_ref().height(t)
     }
 
-    /// The step that contains t; before the first and after the last, that one.
+    /// The step that contains t; the first one for earlier t, the last one for later t.
     pub fn step_at(&self, t: f64) -> &S {
         let after = self.steps.partition_point(|step| step.as_ref().t <= t);
         &self.steps[after.max(1) - 1]
@@ -303,7 +305,7 @@ impl Trajectory {
         self.support.velocity(self.start())
     }
 
-    /// l(t) = rt - r - x0(t). Outside of the run, the polynomial of the first or last step.
+    /// l(t) = rt - r - x0(t). Outside of the run, the first or last step is extrapolated.
     pub fn l(&self, t: f64) -> f64 {
         self.step_at(t).l(self.r(), t)
     }
@@ -318,8 +320,8 @@ impl Trajectory {
         self.step_at(t).velocity(t)
     }
 
-    /// Where the tip was until time t, and for how long: positions and weights such that
-    /// ∫_{start}^t w(t') e^{-(t-t')/T} g(x0(t'))dt' = Σ `w_j` g(`x_j`), with w and T of the wider law.
+    /// Where the tip was until time t, and for how long: positions and weights such that ∫_{start}^t w(t')
+    /// e^{-(t-t')/T} g(x0(t'))dt' = Σ `w_j` g(`x_j`), with w and T of the extended model.
     pub fn residence(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, mut weights) = (vec![], vec![]);
         for step in self.steps.iter().take_while(|step| step.t < t) {
@@ -332,11 +334,10 @@ impl Trajectory {
         (positions, weights)
     }
 
-    /// The whole motion as visits whose weights depend on their positions, not on their age: positions and weights such
-    /// that ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the largest factor.
-    /// Behind a support of velocity r the surface is then
-    /// -α e^{-(R - x)/(rT)} ∫ w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt', with R at the time of the surface
-    /// in the first factor. Where nothing heals, all factors are 1.
+    /// The residence of the whole motion with weights that do not depend on the time of the surface: positions and
+    /// weights such that ∫ w(t') e^{(R - x0)/(rT)} g(x0(t'))dt' = e^s Σ `w_j` g(`x_j`), and the exponent s of the
+    /// largest factor. At time t the surface behind a support of constant velocity r is then -α e^{-(R(t) - x)/(rT)} ∫
+    /// w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt'. Without healing all exponentials are 1.
     pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
         let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);

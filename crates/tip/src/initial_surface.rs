@@ -1,8 +1,8 @@
 //! The initial surface u0(x).
 //!
 //! The initial surface is a sum of reliefs. An infinite steady past is the profile (24), a flat start is no relief,
-//! noise and a measured profile are splines. (15) contains the force of u0 with a factor α; according to (14) it is
-//! -u0'(x0), because u0 is a height.
+//! noise and a measured profile are splines. Equation (15) contains the force of u0 with a factor α; according to (14)
+//! it is -u0'(x0), because u0 is a height.
 
 use crate::Model;
 use crate::memory::ROOM;
@@ -55,7 +55,7 @@ impl InitialSurface {
     /// Adds a [`Relief::profile`].
     ///
     /// # Errors
-    /// Too short, not finite, unsorted.
+    /// The profile is too short, not finite or not sorted by x.
     pub fn with_profile(self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
         Ok(self.with(Relief::profile(x, u)?))
     }
@@ -73,7 +73,7 @@ impl InitialSurface {
         carved + self.texture(x)
     }
 
-    /// The part of u0(x) that no tip has carved: the given profile and the noise.
+    /// u0(x) without the groove of steady motion (24).
     pub fn texture(&self, x: f64) -> f64 {
         let texture = |relief: &&Relief| relief.steady_position().is_none();
         self.reliefs.iter().filter(texture).fold(0.0, |sum, r| sum + r.height(x))
@@ -84,7 +84,7 @@ impl InitialSurface {
         self.reliefs.iter().filter_map(Relief::end).reduce(f64::max)
     }
 
-    /// Position of the tip whose groove in steady motion, (24), is part of u0.
+    /// Position of the tip whose groove in steady motion, (24), is part of u0; `None` if no such groove is.
     pub fn steady_position(&self) -> Option<f64> {
         self.reliefs.iter().find_map(Relief::steady_position)
     }
@@ -101,8 +101,8 @@ impl InitialSurface {
         sum(told.map(|(relief, piece)| relief.slope_and_curvature_on(*piece, x)))
     }
 
-    /// Sets u0 and its derivatives on the stretch, without the groove of steady motion; `None` if some of them are
-    /// unknown. Otherwise the number of those that are not 0.
+    /// Sets `jet` to u0 and its derivatives on the stretch, without the groove of steady motion. Returns the number of
+    /// entries that may differ from 0, or `None` if derivatives are unknown.
     pub(crate) fn jet_on(&self, stretch: &Stretch, x: f64, jet: &mut [f64; ROOM]) -> Option<usize> {
         if stretch.flat || self.reliefs.is_empty() {
             return Some(0);
@@ -115,7 +115,7 @@ impl InitialSurface {
         reliefs.try_fold(0, add)
     }
 
-    /// u0 of the same function.
+    /// The height at x of the function of [`slope_and_curvature_on`](Self::slope_and_curvature_on).
     pub(crate) fn height_on(&self, stretch: &Stretch, x: f64) -> f64 {
         let told = self.reliefs.iter().zip(&stretch.pieces);
         told.map(|(relief, piece)| relief.height_on(*piece, x)).sum()

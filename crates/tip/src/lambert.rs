@@ -2,9 +2,10 @@
 
 use crate::elementary::ln;
 
-/// W(c) e^{W(c)} = c, the branch W ≥ 0 for c ≥ 0.
+/// The solution W ≥ 0 of W e^W = c for c ≥ 0; 0 for c < 0.
 ///
-/// Newton's iteration for W + ln W = ln c, which is concave and increasing: from below it never overshoots.
+/// Newton's iteration for W + ln W = ln c. The left side is concave and increasing, so that iterates below W never
+/// overshoot.
 pub(crate) fn w0(c: f64) -> f64 {
     if c <= 0.0 {
         return 0.0;

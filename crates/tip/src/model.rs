@@ -16,12 +16,12 @@ pub struct Model {
 /// A parameter outside its range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ModelError {
-    /// α must be finite and ≥ 0.
+    /// α must be finite, and ≥ 0 with a spring.
     #[error(
         "the dimensionless indentation rate alpha (13) must be a finite number, 0 or above, not {0:?} (below 0 only without a spring)"
     )]
     Alpha(f64),
-    /// r must be finite and > 0.
+    /// r must be finite and > 0 with a spring.
     #[error("the dimensionless support velocity r (12) must be a finite number above 0, not {0:?}")]
     R(f64),
     /// r must be 0 without a spring, because there is no support.
@@ -36,6 +36,8 @@ pub enum ModelError {
 }
 
 impl Model {
+    /// The basic model, without the terms of the extended one.
+    ///
     /// # Errors
     /// `alpha` < 0, `r` ≤ 0, or either not finite.
     pub fn new(tip: TipFunction, alpha: f64, r: f64) -> Result<Self, ModelError> {
@@ -101,8 +103,8 @@ impl Model {
 
     /// Relative indentation rate w0 of a tip in steady motion, in units of α: 1 without a depth limit.
     ///
-    /// With b of (61) the height under the tip is h0 = -(α w0/r)φ, φ = ∫_0^∞ f(y) e^{-sy}dy, and
-    /// w0 = e^{-|h0|/b}, so that w0 = W(c)/c with c = α|φ|/(rb) and Lambert's W.
+    /// With the depth limit b of (61) the height under the tip is h0 = -(α w0/r)φ, φ = ∫_0^∞ f(y) e^{-sy}dy, and w0 =
+    /// e^{-|h0|/b}. Hence w0 = W(c)/c with c = α|φ|/(rb) and Lambert's function W; s is [`fading`](Self::fading).
     pub fn steady_weight(&self) -> f64 {
         let Some(limit) = self.wider.depth_limit else { return 1.0 };
         let depth = self.tip.fading_tail(0.0, self.fading()).abs();
@@ -110,7 +112,7 @@ impl Model {
         if c > 0.0 { lambert::w0(c) / c } else { 1.0 }
     }
 
-    /// Height h0 of the surface under a tip in steady motion.
+    /// Height h0 of the surface under a tip in steady motion, in kσ²/a.
     pub fn steady_height(&self) -> f64 {
         0.0 - self.steady_density() * self.tip.fading_tail(0.0, self.fading())
     }
@@ -138,7 +140,7 @@ impl Model {
         self.r + self.steady_l()
     }
 
-    /// Height of the surface far behind a tip in steady motion, (25); 0 if the surface heals.
+    /// Height of the surface far behind a tip in steady motion, (25), in kσ²/a; 0 if the surface heals.
     pub fn steady_surface_behind(&self) -> f64 {
         if self.wider.healing_time.is_some() {
             return 0.0;

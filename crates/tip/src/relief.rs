@@ -68,10 +68,11 @@ pub(crate) struct Piece {
 
 /// Largest distance at which a step evaluates the surface (`memory::longest_look`).
 const FARTHEST_LOOK: f64 = 12.0;
-/// A knot within this fraction of an interval counts as reached,
+/// A tip counts as being at a knot within this fraction of the interval,
 const AT_A_KNOT: f64 = 1e-9;
-/// or within this many roundings of x; but never within more than this fraction of an interval.
+/// or within this fraction of |x|, which is 64 roundings,
 const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
+/// but never at more than this fraction of the interval from it.
 const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl Piece {
@@ -92,12 +93,12 @@ impl Relief {
         Self(Shape::SteadyPast(SteadyPast { tip, depth, fading, position, reach, behind }))
     }
 
-    /// The cubic spline through (x, u) with slope 0 at both ends, and 0 outside. So the slope, which determines the
-    /// force, is continuous. (A kink in a hollow would hold a slow tip permanently, because it is pushed back from
+    /// The cubic spline through (x, u) with slope 0 at both ends, and 0 outside. The slope, which determines the force,
+    /// is therefore continuous. (A kink in a hollow would hold a slow tip permanently, because it is pushed back from
     /// either side.)
     ///
     /// # Errors
-    /// Too short, not finite, unsorted.
+    /// The profile is too short, not finite or not sorted by x.
     pub fn profile(x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
         let (x, u) = checked(x, u)?;
         Ok(Self(Shape::Spline(CubicSpline::through(x, u, Ends::Level))))
@@ -112,14 +113,14 @@ impl Relief {
         Self(Shape::Spline(CubicSpline::through(x, u, Ends::Straight)))
     }
 
-    /// A height and its slope as fields on one lattice, and 0 beyond their ends, where both must have decayed: the
-    /// groove of other scans of a tip. With `along` = (X, mirrored) the relief at x is the field at X + x, or at X -
-    /// x if it is mirrored.
+    /// The groove of other scans of a tip: its height and slope as fields on one lattice. Beyond the ends of the
+    /// fields, where both must have decayed, they are 0. With `along` = (X, mirrored) the relief at x is the field at X
+    /// + x, or at X - x if mirrored.
     pub fn on_lattice(heights: Field, slopes: Field, along: (f64, bool)) -> Self {
         Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }
 
-    /// A height that is known by power series: the groove of earlier lines. `along` is as in
+    /// A height given by power series: the groove of earlier scan lines. `along` is as in
     /// [`on_lattice`](Self::on_lattice).
     pub fn expanded(ground: Arc<dyn Ground>, along: (f64, bool)) -> Self {
         Self(Shape::Expanded(Expanded::new(ground, along)))
@@ -167,8 +168,8 @@ impl Relief {
         }
     }
 
-    /// Adds the height and its derivatives on a piece to these, without the groove of steady motion; `None` if they
-    /// are unknown. Otherwise the number of those that are not 0.
+    /// Adds the height and its derivatives on a piece to `jet`, without the groove of steady motion. Returns the number
+    /// of entries that may differ from 0, or `None` if derivatives are unknown.
     pub(crate) fn add_jet_on(
         &self,
         piece: Option<usize>,
@@ -198,7 +199,7 @@ impl Relief {
         }
     }
 
-    /// The end of a relief with breaks.
+    /// The largest x of a spline; `None` for other reliefs.
     pub(crate) fn end(&self) -> Option<f64> {
         match &self.0 {
             Shape::SteadyPast(_) | Shape::OnLattice(_) | Shape::Expanded(_) => None,
@@ -240,7 +241,7 @@ pub(crate) fn noise_points(noise: Noise, from: f64, to: f64) -> usize {
     ((to - from) / noise.spacing).ceil().max(3.0) as usize + 1
 }
 
-/// Heights of a noise, from one of the streams of its seed; 0 is that of a single coordinate.
+/// Heights of a noise, from one of the streams of its seed; a noise u0(x) uses stream 0.
 pub(crate) fn noise_heights(noise: Noise, points: usize, stream: u64) -> Vec<f64> {
     let mut rng = ChaCha8Rng::seed_from_u64(noise.seed);
     rng.set_stream(stream);

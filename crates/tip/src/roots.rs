@@ -5,13 +5,13 @@ const MOST_ITERATIONS: usize = 60;
 
 /// The zero of a function that changes sign between a and b, to round-off.
 ///
-/// Ridders' method: the false position of `f e^{kx}`, k such that the midpoint falls on a line too.
+/// Ridders' method: false position for `f e^{kx}`, with k such that its values at a, b and the midpoint lie on a line.
 /// Reference: C. Ridders, IEEE Trans. Circuits Syst. 26, 979 (1979).
 pub fn zero_between(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     zero_to(f, (a, b), 0.0)
 }
 
-/// The same, or a nearby point where the function is at most `enough`.
+/// As [`zero_between`], but returns the first x at which |f(x)| is at most `enough`.
 pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     let mut last = a;
@@ -40,7 +40,7 @@ pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) 
     0.5 * (a + b)
 }
 
-/// The same by bisection: slower, but it ends at the sign change for any function.
+/// As [`zero_between`], by bisection: slower, but it ends at the sign change for any function.
 pub fn halved_between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let sign = f(low).signum();
     let mut halvings = 0..MOST_ITERATIONS;
@@ -49,7 +49,7 @@ pub fn halved_between(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 /// A bracket of the point where a property is lost, from a point with the property to one without it. It is halved
-/// until it is narrow, or until no number lies within.
+/// until `is_narrow`, or until no floating-point number lies within it.
 pub fn bisected(
     (mut has, mut has_not): (f64, f64),
     is_before: impl Fn(f64) -> bool,

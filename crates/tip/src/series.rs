@@ -8,7 +8,7 @@ pub enum SeriesError {
     /// Columns of different lengths.
     #[error("the columns have {0} and {1} rows: each row is a pair")]
     Uneven(usize, usize),
-    /// A spline needs three points.
+    /// Fewer than three rows, which a spline needs.
     #[error("{0} rows were found: at least 3 are needed")]
     Short(usize),
     /// A row that is not finite.

@@ -19,14 +19,14 @@ pub fn sort_by_number<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
     }
 }
 
-/// The indices of these numbers, that of the least first; equal numbers keep their order.
+/// The indices of these numbers in ascending order of the numbers; equal numbers keep their order.
 pub fn ascending(numbers: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     order.sort_by(|a, b| numbers[*a].total_cmp(&numbers[*b]));
     order
 }
 
-/// The place of each number among all of them.
+/// The rank of each number in ascending order, from 0.
 fn places(numbers: &[f64]) -> Vec<usize> {
     let mut places = vec![0; numbers.len()];
     for (place, i) in ascending(numbers).into_iter().enumerate() {

@@ -11,8 +11,8 @@ pub(crate) struct CubicSpline {
 }
 
 impl CubicSpline {
-    /// The spline with this at both ends. The callers ensure that `x` increases, is as long as `y`, and contains at
-    /// least two points.
+    /// The spline with this condition at both ends. The callers ensure that `x` increases, is as long as `y`, and
+    /// contains at least two points.
     pub(crate) fn through(x: Vec<f64>, y: Vec<f64>, ends: Ends) -> Self {
         let m = second_derivatives(&x, &y, ends);
         Self { x, y, m }
@@ -35,7 +35,7 @@ impl CubicSpline {
         self.jet_on(self.piece_of(x), x)
     }
 
-    /// The same on the polynomial of the given piece, evaluated at any x.
+    /// Value, first and second derivative of the polynomial of a piece, evaluated at any x.
     pub(crate) fn jet_on(&self, piece: usize, x: f64) -> (f64, f64, f64) {
         let (low, high) = self.ends_of(piece);
         let h = high - low;
@@ -93,7 +93,7 @@ pub(crate) enum Ends {
     Level,
 }
 
-/// The tridiagonal system of the second derivatives, by Thomas's algorithm (diagonally dominant).
+/// The second derivatives at the knots: solves their tridiagonal, diagonally dominant system by Thomas's algorithm.
 fn second_derivatives(x: &[f64], y: &[f64], ends: Ends) -> Vec<f64> {
     let last = x.len() - 1;
     let h = |i: usize| x[i + 1] - x[i];

@@ -43,7 +43,7 @@ pub trait Saved {
     /// Reads the data that [`save`](Self::save) wrote, into an object of the same type and options.
     ///
     /// # Errors
-    /// A state of another kind.
+    /// The state is damaged or of another kind.
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged>;
 }
 

@@ -35,7 +35,7 @@ pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T 
     work()
 }
 
-/// The flag of this thread, to be shared with other threads that take part in its computation.
+/// The flag of this thread, if it has one, to be shared with other threads that take part in its computation.
 pub fn flag() -> Option<Arc<AtomicBool>> {
     FLAG.with_borrow(Clone::clone)
 }

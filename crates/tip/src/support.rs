@@ -47,8 +47,8 @@ impl SupportPath {
     /// A piecewise linear path through these knots; times and displacements are relative to the start of the run.
     ///
     /// # Errors
-    /// Fewer than two rows, a number that is not finite, times that do not increase, or a first row other
-    /// than 0, 0.
+    /// Fewer than three rows, columns of different lengths, a number that is not finite, times that do not increase, or
+    /// a first row other than 0, 0.
     pub fn new(t: Vec<f64>, displacement: Vec<f64>) -> Result<Self, PathError> {
         let (t, displacement) = checked(t, displacement)?;
         if t[0].abs() > 0.0 || displacement[0].abs() > 0.0 {

@@ -70,8 +70,10 @@ impl Default for Wider {
 const RANGE: (f64, f64) = (1e-100, 1e100);
 
 impl Wider {
+    /// Checks the range of each parameter.
+    ///
     /// # Errors
-    /// A parameter that is not a finite number above 0.
+    /// A parameter is not from 1e-100 to 1e100.
     pub fn validate(&self) -> Result<(), WiderError> {
         let bad = |value: &f64| !(RANGE.0..=RANGE.1).contains(value);
         if let Some(b) = self.depth_limit.filter(bad) {
@@ -86,7 +88,7 @@ impl Wider {
         Ok(())
     }
 
-    /// Whether the tip is resonant: for M > 1/2 it swings back after a slip by its spring alone.
+    /// Whether the tip is resonant, M > 1/2: after a slip its spring alone swings it back.
     pub fn swings_back(&self) -> bool {
         self.inertia.is_some_and(|mass| mass > 0.5)
     }
@@ -97,7 +99,7 @@ impl Wider {
         self.depth_limit.is_none() && self.healing_time.is_none()
     }
 
-    /// Whether it is the basic model.
+    /// Whether these are the parameters of the basic model.
     pub fn is_papers(&self) -> bool {
         *self == Self::default()
     }

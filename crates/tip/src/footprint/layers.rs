@@ -4,7 +4,7 @@ use super::{Across, Gaussian2d, Layer};
 use crate::sorting::sort_by_number;
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
-/// The layers of a sum of two-dimensional Gaussians: one for each |d| and v.
+/// The layers of a sum of two-dimensional Gaussians: one for each width in y and distance of the center from y = 0.
 pub(super) fn of(terms: &[Gaussian2d]) -> Result<Vec<Layer>, TipFunctionError> {
     validate(terms)?;
     let mut acrosses: Vec<Across> = vec![];

@@ -1,15 +1,14 @@
 //! The footprint f(x,y) of the tip in three dimensions, (56). The motion depends on f(x,0) only.
 //!
-//! Every f(x,y) that is even in x and in y is represented by a sum of layers, products of an even g(x) and an even
-//! h(y):
+//! Every f(x,y) is even in y and represented by a sum of layers, products of a g(x) and an even h(y):
 //!
 //! ```text
 //!     f(x,y) = Σ_k g_k(x) h_k(y)
 //! ```
 //!
 //! A separable tip (58) is one layer. A sum of two-dimensional Gaussians has one layer for every distinct center and
-//! width in y. A table has one layer for every row of its lattice. The surface of a layer is h(y) times that of the
-//! plane problem with the tip g, so that an image requires one plane surface per layer, not one per row of pixels.
+//! width in y. A table has one layer for every row of its lattice. The surface of a layer is h(y) times the surface
+//! u(x) of a tip with f = g. So an image requires one u(x) per layer, not one per row of pixels.
 
 mod layers;
 mod table;
@@ -21,24 +20,24 @@ use std::f64::consts::{PI, SQRT_2};
 /// One term a exp(-(x-c)²/(2w²)) exp(-(y-d)²/(2v²)). Lengths in units of σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaussian2d {
-    /// a
+    /// Amplitude a.
     pub amplitude: f64,
-    /// c
+    /// Center c in x.
     pub center: f64,
-    /// w
+    /// Width w in x.
     pub width: f64,
-    /// d
+    /// Center d in y.
     pub center_y: f64,
-    /// v
+    /// Width v in y.
     pub width_y: f64,
 }
 
 /// h(y) = exp(-(y-d)²/(2v²)) + exp(-(y+d)²/(2v²)), or exp(-y²/(2v²)) for d = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Across {
-    /// d ≥ 0
+    /// Center d ≥ 0, in σ.
     pub center: f64,
-    /// v
+    /// Width v, in σ.
     pub width: f64,
 }
 
@@ -102,10 +101,11 @@ impl Across {
 }
 
 impl Footprint {
-    /// f(x) h(y), (58), with h(y) = exp(-y²/(2 `width_y`²)): (59) for a Gaussian of that width.
+    /// The separable footprint f(x) h(y), (58), with h(y) = exp(-y²/(2 `width_y`²)). A Gaussian f(x) of the same width
+    /// makes it (59).
     ///
     /// # Errors
-    /// A width that is not a positive finite number.
+    /// `width_y` is not a positive finite number.
     pub fn separable(tip: TipFunction, width_y: f64) -> Result<Self, TipFunctionError> {
         let across = Across::central(width_y);
         if !across.is_valid() {
@@ -118,7 +118,7 @@ impl Footprint {
     /// Any sum of two-dimensional Gaussians that is even in x and in y.
     ///
     /// # Errors
-    /// A term that is not finite, a width ≤ 0, zero along the path, not even in x or not even in y.
+    /// A term is not finite, a width is not positive, or f is not even in x, not even in y, or 0 for y = 0.
     pub fn gaussian_sum(terms: &[Gaussian2d]) -> Result<Self, TipFunctionError> {
         Self::from_layers(layers::of(terms)?)
     }
@@ -128,7 +128,7 @@ impl Footprint {
     /// [`TipFunction::table`].
     ///
     /// # Errors
-    /// Not a full grid, too few or too many rows, not finite, not from 0, or not decaying.
+    /// The points are not a full grid from x = 0 and y = 0, too few, too many or not finite, or f does not decay.
     pub fn table(x: &[f64], y: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
         Self::from_layers(table::layers_through(x, y, f)?)
     }
@@ -136,7 +136,7 @@ impl Footprint {
     /// A sum of layers. f(x,0) is the sum of their g, each multiplied by its h(0).
     ///
     /// # Errors
-    /// No layer of Gaussians, an `across` that is not finite or has no positive width, or zero along the path.
+    /// No layer is of Gaussians, an `across` is not finite or has no positive width, or f(x,0) is 0.
     pub fn from_layers(layers: Vec<Layer>) -> Result<Self, TipFunctionError> {
         if let Some(i) = layers.iter().position(|layer| !layer.across.is_valid()) {
             let width = layers[i].across.width;
@@ -195,8 +195,8 @@ impl Footprint {
         TipFunction::gaussian_sum(layers::combined(&self.layers, Across::curvature_at_0)).ok()
     }
 
-    /// A bound on the transverse stiffness k'/k (52), above which steady motion along y = 0 is stable; 0 if
-    /// `f_yy(x,0)` ≤ 0 for all x, infinite if the argument yields no bound.
+    /// A bound on the transverse stiffness k'/k (52), above which steady motion along y = 0 is stable; 0 if `f_yy(x,0)`
+    /// ≤ 0 for all x, infinite if the argument below yields no bound.
     ///
     /// A small y0 ~ exp(μt) obeys μ + k'/k = (α/r) [S(0) - S(μ/r)], S the Laplace transform of `f_yy(x,0)` over x > 0.
     /// The real part of the right side minus μ is harmonic for Re μ > 0, hence largest on the imaginary axis,
@@ -232,5 +232,5 @@ impl Footprint {
     }
 }
 
-/// Number of wave numbers scanned up to the band limit: the curve turns over at most once in a hundred of them.
+/// Number of wave numbers scanned up to the band limit: the curve has at most one extremum in a hundred of them.
 const WAVE_NUMBERS: u32 = 4000;

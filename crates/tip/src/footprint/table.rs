@@ -5,7 +5,7 @@ use crate::sorting::{ascending, sort_by_number, sort_numbers};
 use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
-/// Largest number of rows of the lattice: each is a layer, and an image requires one plane surface per layer.
+/// Largest number of rows of the lattice: each is a layer, and an image requires one surface u(x) per layer.
 const MOST_ROWS_ACROSS: usize = 200;
 /// Rows below this fraction of the largest value are round-off of the interpolation.
 const NOTHING: f64 = 1e-17;

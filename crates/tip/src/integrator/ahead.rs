@@ -6,7 +6,8 @@ use crate::collocation::{RADAU, Stages};
 use crate::step;
 
 impl Integrator<'_> {
-    /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
+    /// Predicts a step of length h: the last polynomials, extrapolated where this is reliable, otherwise straight
+    /// lines.
     pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
         Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }
     }

@@ -92,9 +92,9 @@ impl Control {
     /// the defect of its stage polynomial at the start (its velocity minus the exact one), the other its error as an
     /// interpolant. `beside` is the error of any other quantity that the step determines.
     ///
-    /// As long as the `stiffness` of the groove is small compared with 1/h, the error follows from the defect, which
-    /// is δ N(τ)/N(0), where N vanishes at the nodes. If the stiffness is large, the stages are exact but velocities
-    /// are not, and the error of the stage polynomial is that of interpolation.
+    /// As long as the `stiffness` of the groove is small compared with 1/h, the error follows from the defect, δ
+    /// N(τ)/N(0) with δ at the start and N(τ) = Π(τ - `c_i`). If the stiffness is large, the stages are exact but
+    /// velocities are not, and the error of the stage polynomial is that of interpolation.
     #[inline]
     pub(crate) fn judge(
         &mut self,

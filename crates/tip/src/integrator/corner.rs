@@ -25,12 +25,13 @@ pub(crate) struct Corner {
 
 /// Accuracy of the end time of a step, in roundings of t.
 const ROUNDINGS_OF_TIME: f64 = 8.0;
-/// Weight of the error of heights as polynomials: it may reach the tolerance itself, the error of a step only a small
-/// part of it.
+/// Weight of the error of heights between the nodes. It may reach the tolerance itself; the error of a step must stay
+/// below a small part of the tolerance.
 const SHARE_OF_DENSE: f64 = 0.1;
 /// Accuracy of heights, in units of α: they are sums of terms of this size, at positions rounded by up to 3e-14.
 const ROUND_OFF: f64 = 4e-13;
-/// Share of the allowed error for a step on the wrong side, which indents by 2|h|/b too much or too little.
+/// Share of the allowed error for a step on the wrong side of the kink, whose indentation has a relative error of
+/// 2|h|/b.
 const SHARE: f64 = 0.1;
 /// Accuracy of the zero of a height, in units of the slack.
 const SHARE_OF_SLACK: f64 = 0.1;
@@ -47,13 +48,13 @@ impl Corner {
         Some(Self { height, side, turned: false, slack, round_off, weight })
     }
 
-    /// Largest height that counts as 0 in a step (t, h), because t is rounded too.
+    /// Largest |height| that counts as 0 in a step of length h from t; it allows for the rounding of t.
     fn slack(&self, heights: &Heights, (t, h): (f64, f64)) -> f64 {
         let rise = heights.rise().iter().fold(0.0, |m: f64, rise| m.max(rise.abs()));
         self.slack.max(ROUNDINGS_OF_TIME * f64::EPSILON * t.abs() * rise / h)
     }
 
-    /// Whether all these heights are well on the side of the step, as in most steps.
+    /// Whether all these heights are on the side of the step, as in most steps.
     pub(crate) fn keeps(&self, heights: &[f64]) -> bool {
         heights.iter().all(|height| self.side * height >= 0.0)
     }
@@ -115,7 +116,7 @@ impl Corner {
         self.side = if turns.unwrap_or(self.height) > 0.0 { 1.0 } else { -1.0 };
     }
 
-    /// Changes the side for the next attempt; false if the other side has been tried.
+    /// Changes the side for the next attempt; false if the other side has already been tried.
     pub(crate) fn turn(&mut self) -> bool {
         self.side = -self.side;
         !std::mem::replace(&mut self.turned, true)
@@ -136,7 +137,8 @@ impl Corner {
         Some((last, last.height?))
     }
 
-    /// Error of the heights as a polynomial of time, from the last step, converted to an error of the displacement.
+    /// Error of the heights as a polynomial of time, estimated with the last step and converted to an error of the
+    /// displacement.
     pub(crate) fn error(&self, heights: &Heights, last: Option<&Step>, h: f64) -> f64 {
         let Some((last, before)) = self.same_side(last) else { return 0.0 };
         let error = step::interpolation_error(&heights.rise(), h, (&before.rise(), last.h));

@@ -24,7 +24,7 @@ pub enum IntegrationError {
     Forgotten {
         /// Time reached.
         t: f64,
-        /// Distance over which the past is kept.
+        /// Distance behind the tip over which the past is kept, in σ.
         kept: f64,
     },
 }

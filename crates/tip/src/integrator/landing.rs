@@ -43,7 +43,7 @@ impl Integrator<'_> {
         landing(self.t, h, end)
     }
 
-    /// Time at which the tip leaves the stretch, if it does, from the values of its polynomial at the nodes.
+    /// As [`leaves`], for the tip and its stretch.
     pub(super) fn leaves(
         &self,
         nodes: &[f64],
@@ -55,8 +55,9 @@ impl Integrator<'_> {
     }
 }
 
-/// Time at which a coordinate that begins at x leaves the range from `low` to `high` by more than a slack, if it
-/// does, from the values of its polynomial at the nodes.
+/// Time, in the unit of `nodes`, at which a coordinate that begins at x leaves the range from `low` to `high`; `None`
+/// if it stays within `slack` of the range. Its displacement is `at` as a function of time, and `displacement` at the
+/// nodes.
 pub(crate) fn leaves(
     (low, high, slack): (f64, f64, f64),
     x: f64,

@@ -1,8 +1,8 @@
 //! Adaptive collocation of the closed equation, with the displacement of the tip within the step as the only unknown.
 //!
-//! Radau IIA is applied to (10) and (11) together. The stage values of u never appear. Within a step the groove is
-//! the sum of that of the past, from the memory, and the contribution of the step: the Butcher matrix applied to
-//! `f'(x_i - x_j)`. So s scalar unknowns remain.
+//! Radau IIA is applied to (10) and (11) together. The stage values of u never appear. Within a step the groove is the
+//! sum of the groove of the past, from the memory, and the contribution of the step: the Butcher matrix applied to
+//! `f'(x_i - x_j)`. So one scalar unknown remains for each stage.
 
 mod ahead;
 pub(crate) mod control;
@@ -64,7 +64,8 @@ pub struct Integrator<'a> {
     velocity: f64,
     /// u_xx at the tip: minus the stiffness that the groove adds.
     curvature: f64,
-    /// u0' and Fext as `velocity` has them: where they jump, the next step begins with others.
+    /// u0' and Fext as contained in `velocity`, their limits from before; where they jump, the next step begins with
+    /// other values.
     limits_from_before: (f64, f64),
     /// The stretch of u0 on which the present step began.
     stretch: Stretch,
@@ -79,8 +80,8 @@ pub struct Integrator<'a> {
 /// allowed in a step.
 pub(crate) const ENOUGH: f64 = 0.01;
 
-/// Error of the velocity, as a multiple of the error of a step over its length: with inertia it displaces the tip by
-/// M times as much.
+/// Error of the velocity, relative to the error of a step divided by its length. With inertia M an error of the
+/// velocity displaces the tip by M times as much.
 pub(crate) const COASTING: f64 = 10.0;
 
 impl<'a> Integrator<'a> {
@@ -121,7 +122,7 @@ impl<'a> Integrator<'a> {
         integrator.set_off(model.r())
     }
 
-    /// Computes surface and forces at the position of the tip; with inertia it has this velocity.
+    /// Computes surface and forces at the position of the tip; with inertia the tip has this velocity.
     fn set_off(mut self, velocity: f64) -> Self {
         let (x, wider) = (self.position(), self.model.wider());
         let (slope, curvature) = self.surface.slope_and_curvature(x);
@@ -184,7 +185,7 @@ impl<'a> Integrator<'a> {
         &self.memory
     }
 
-    /// The same, to be replaced by one of another past.
+    /// The memory in use, to be replaced by one of another past.
     pub fn memory_mut(&mut self) -> &mut Policy {
         &mut self.memory
     }
@@ -328,7 +329,7 @@ impl<'a> Integrator<'a> {
         step
     }
 
-    /// The largest decay rate over a groove of this curvature, in k/Γ.
+    /// The largest rate, in k/Γ, at which the tip relaxes in a groove of this curvature.
     fn fastest(&self, curvature: f64) -> f64 {
         let stiffness = 1.0 + curvature;
         let Some(mass) = self.model.wider().inertia else { return stiffness };
@@ -353,9 +354,9 @@ impl<'a> Integrator<'a> {
 
 /// Reasons for repeating an attempt with another step.
 pub(crate) enum Retry {
-    /// The error was too large.
+    /// The error was too large: use this shorter length.
     Shorter(f64),
-    /// The step passed a knot of u0, or the kink of |h|, where it must end.
+    /// The step passed a knot of u0, or the kink of |h|, where it must end: use this length.
     ToKnot(f64),
     /// The step began at the kink of |h|, and moved to the other side.
     OtherSide,

@@ -36,7 +36,7 @@ pub(super) struct Begin {
     pub(super) extension: f64,
     /// Velocity of the support.
     pub(super) velocity: f64,
-    /// Side of the corner of |h|.
+    /// Side of the kink of |h|: 1 above, -1 below; 0 without a depth limit.
     pub(super) side: f64,
     /// Time since the start of the run.
     pub(super) age: f64,
@@ -100,7 +100,7 @@ impl Look {
     }
 }
 
-/// The factored Jacobian: one of the two forms.
+/// The factored Jacobian: `limited` with a depth limit, `plain` without.
 struct Jacobian {
     plain: Option<Factors>,
     limited: Option<LimitedFactors>,

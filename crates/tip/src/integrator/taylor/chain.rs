@@ -1,25 +1,25 @@
 //! The Taylor series of the tip's motion, from the derivatives of the groove under it.
 //!
 //! With exponentials for f the system is polynomial. Its unknowns need not be the states of the exponentials: the
-//! derivatives of the groove where the tip is, `g_n = α ∫ w f⁽ⁿ⁾(x0 - x0(t'))dt' - ∂ⁿu0`, follow each other,
+//! derivatives of the groove under the tip, `g_n = α ∫ w f⁽ⁿ⁾(x0 - x0(t'))dt' - ∂ⁿu0`, obey
 //!
 //! ```text
 //!     g_n' = α w f⁽ⁿ⁾(0) + v g_{n+1} - g_n/T        M v' + v = g_1 + κ(R - x0) + F        x0' = v
 //! ```
 //!
-//! and of `g_n` the coefficients up to `t^{p-n}` are all that x0 takes up to `t^p`: a triangle of p³/6 products, the n
-//! side by side. Under a depth limit `-g_0` is the height, and `w' = σ w g_0'/b` on its side σ of the corner; else w = 1.
+//! For x0 up to `t^p`, `g_n` is needed up to `t^{p-n}`: a triangle of p³/6 products, with n in the SIMD lanes. With a
+//! depth limit b, `-g_0` is the height and `w' = σ w g_0'/b`, where σ = ±1 is the side of the kink; otherwise w = 1.
 
 use super::series::{MOST_ORDER, Series};
 use crate::memory::ROOM;
 use multiversion::multiversion;
 
-/// Lanes that are summed side by side.
+/// Number of SIMD lanes.
 const LANES: usize = 4;
-/// Of a row, with room for a group of lanes that begins one after the first.
+/// Length of a row, with room for a group of lanes that begins at its second entry.
 const WIDTH: usize = ROOM + LANES;
 type Row = [f64; WIDTH];
-/// 1/k
+/// 1/k at index k.
 pub(crate) const INVERSE: [f64; MOST_ORDER + 1] = {
     let mut inverse = [0.0; MOST_ORDER + 1];
     let mut k = 1;
@@ -30,40 +30,41 @@ pub(crate) const INVERSE: [f64; MOST_ORDER + 1] = {
     inverse
 };
 
-/// What acts on the tip while it moves.
+/// The terms of the equation of motion during a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Acting {
-    /// κ
+    /// κ: 1, or 0 without a spring.
     pub(super) spring: f64,
     /// R', velocity of the support.
     pub(super) support: f64,
-    /// 1/T, 0 where nothing heals.
+    /// 1/T; 0 without healing.
     pub(super) healing: f64,
-    /// M and the velocity that the tip has, where there is inertia.
+    /// M and the velocity of the tip at the start, with inertia.
     pub(super) inertia: Option<(f64, f64)>,
-    /// R - x0
+    /// R - x0 at the start.
     pub(super) extension: f64,
-    /// w now and σ/b, where there is a depth limit.
+    /// w at the start and σ/b, with a depth limit.
     pub(super) depth: Option<(f64, f64)>,
 }
 
-/// Coefficients of powers of time, up to an order.
+/// The Taylor coefficients of a step, up to an order.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     order: usize,
-    /// Row k: coefficients of t^k of `g_1`, `g_2`, …, under a depth limit from `g_0` on.
+    /// Row k: coefficients of t^k of `g_1`, `g_2`, …, with a depth limit from `g_0` on.
     rows: Box<[Row; MOST_ORDER]>,
-    /// Where `g_1` is in them.
+    /// Index of `g_1` in a row.
     slope: usize,
-    /// Sources, one entry further on: α f', α f'', … at 0.
+    /// Source terms α f⁽ⁿ⁾(0) of the entries of a row, from index 1 on.
     sources: Row,
-    /// Of the force.
+    /// Coefficients of the force.
     pub(super) force: [f64; MOST_ORDER],
-    /// Of the velocity, the highest first: each product of two series is then a sum along both.
+    /// Coefficients of the velocity, the highest first, so that a product of two series is a sum in the order of both
+    /// arrays.
     velocity: [f64; MOST_ORDER],
-    /// Of w, likewise, with room to fill the lanes.
+    /// Coefficients of w, the highest first, with room to fill the lanes.
     weight: [f64; MOST_ORDER + LANES],
-    /// Of `g_0'` times what it does to w.
+    /// Coefficients of w'/w = σ `g_0'`/b.
     rate: [f64; MOST_ORDER],
     displacement: Series,
     height: Series,
@@ -87,17 +88,17 @@ impl Chain {
         }
     }
 
-    /// Of x0 less its value at the start.
+    /// The series of x0 minus its value at the start.
     pub(super) fn displacement(&self) -> &Series {
         &self.displacement
     }
 
-    /// Of the height under the tip, where there is a depth limit.
+    /// The series of the height under the tip, with a depth limit.
     pub(super) fn height(&self) -> &Series {
         &self.height
     }
 
-    /// Of w, likewise.
+    /// The series of w.
     pub(super) fn weights(&self) -> &Series {
         &self.weights
     }
@@ -107,13 +108,13 @@ impl Chain {
         self.rows[0][self.slope + 1]
     }
 
-    /// Minus the height under the tip at the start, where there is a depth limit.
+    /// Minus the height under the tip at the start, with a depth limit.
     pub(super) fn depth_now(&self) -> f64 {
         self.rows[0][0]
     }
 
-    /// What the series begins with: `past` and `of_tip` are the derivatives of the groove and of f from the 0th on, over α,
-    /// `relief` are u0 and its derivatives.
+    /// Sets the data at the start of the series, derivatives from the 0th on: `past` of the groove divided by α,
+    /// `of_tip` of f at 0, `relief` of u0.
     pub(super) fn start(
         &mut self,
         (order, with_height): (usize, bool),
@@ -135,7 +136,7 @@ impl Chain {
         sources.for_each(|(source, of_tip)| *source = alpha * of_tip);
     }
 
-    /// The series, from what [`start`](Self::start) was given and from the force.
+    /// Computes the series from the data of [`start`](Self::start) and from the force.
     pub(super) fn run(&mut self, acting: &Acting) {
         run(self, acting);
     }
@@ -160,7 +161,7 @@ impl Chain {
         self.advance(k, acting);
     }
 
-    /// The rows after k that need this number of groups, and where they end.
+    /// Computes the rows after k that need this number of groups of lanes, and returns the index of the last one.
     #[inline(always)]
     fn rows_of<const GROUPS: usize>(&mut self, mut k: usize, acting: &Acting) -> usize {
         let needed = self.order - 1 + self.slope;
@@ -175,7 +176,7 @@ impl Chain {
         k
     }
 
-    /// The next coefficients of velocity and displacement.
+    /// Computes the next coefficients of velocity and displacement.
     #[inline(always)]
     fn advance(&mut self, k: usize, acting: &Acting) {
         let next = INVERSE[k + 1];
@@ -196,8 +197,8 @@ impl Chain {
         self.displacement.set(k + 1, self.velocity[at] * next);
     }
 
-    /// Row k + 1, by `Σ_i v_i g_{n+1, k-i}`, of few lanes every other product in a sum of its own: in this order on every
-    /// machine.
+    /// Computes row k + 1 by `Σ_i v_i g_{n+1, k-i}`, the same order on every machine. In short rows alternate products
+    /// go to two sums.
     #[inline(always)]
     fn products<const GROUPS: usize>(&mut self, k: usize, acting: &Acting) {
         let (rows, after) = self.rows.split_at_mut(k + 1);
@@ -235,7 +236,7 @@ impl Chain {
         }
     }
 
-    /// The next coefficient of w, by `w' = rate w g_0'`.
+    /// Computes the next coefficient of w by `w' = rate w g_0'`.
     #[inline(always)]
     fn weigh(&mut self, k: usize, rate: f64) {
         let depth = self.rows[k + 1][0];
@@ -262,14 +263,14 @@ impl Chain {
     }
 }
 
-/// Compiled for wider vectors too, the ones in use chosen when the program runs: no products are fused with sums, and
-/// each lane is a sum of its own, so that the bits are the same.
+/// Also compiled for wider vectors, chosen at run time. No products are fused with sums, and each lane is a separate
+/// sum, so that the bits are the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn run(chain: &mut Chain, acting: &Acting) {
     chain.coefficients(acting);
 }
 
-/// So many groups or fewer are few.
+/// Largest number of groups of lanes in a short row.
 const FEW: usize = 2;
 
 /// Adds a row, from its second entry on, times a factor.

@@ -1,11 +1,11 @@
-//! The series of a step, from what memory, surface and forces tell where the tip is.
+//! The Taylor series of a step, from memory, surface and forces at the position of the tip.
 
 use super::super::Integrator;
 use super::chain::Acting;
 use crate::memory::{ROOM, SteadyPast};
 
 impl Integrator<'_> {
-    /// The series from here on; false where there is none.
+    /// Computes the series from the present time on; false if there is none.
     pub(super) fn look_ahead(&mut self) -> bool {
         let order = self.taylor.order;
         let mut jet = [0.0; ROOM];
@@ -47,7 +47,7 @@ impl Integrator<'_> {
         true
     }
 
-    /// What is left of the steady past that the run began with, as far as it can be felt.
+    /// The undecayed part of the steady motion before the run; `None` without it, or where the surface ahead is flat.
     fn steady_past(&self) -> Option<SteadyPast> {
         if self.stretch.flat {
             return None;

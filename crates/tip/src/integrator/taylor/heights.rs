@@ -1,5 +1,5 @@
-//! The height under the tip in a series: how long it lets a step be, on which side of the corner the step is, and what
-//! visits weigh.
+//! The height under the tip in a step by series: limits on the length of the step, its side of the kink, and the
+//! weights w of visits.
 
 use super::super::corner::Corner;
 use super::super::{Integrator, Retry};
@@ -10,21 +10,22 @@ use crate::collocation::STAGES;
 use crate::elementary::exp;
 use crate::history::Heights;
 
-/// Heights as polynomials are wanted to the tolerance itself, of which an error of a series is allowed a small part.
+/// Weight of the error of heights between the nodes. It may reach the tolerance itself; the error of a series must stay
+/// below a small part of the tolerance.
 const SHARE_OF_DENSE: f64 = 0.05;
 
-/// What becomes of a step at the corner of |h|.
+/// Position of a step relative to the kink of |h|.
 pub(crate) enum AtCorner {
-    /// It keeps to its side.
+    /// The step stays on its side.
     Apart,
-    /// It is to end there, so long after its start.
+    /// The step must end at the kink, this time after its start.
     Ends(f64),
-    /// It began there, and went the other way.
+    /// The step began at the kink, and moved to the other side.
     OtherSide,
 }
 
 impl Integrator<'_> {
-    /// w now and σ/b, from the series as it starts.
+    /// w at the start of the series and σ/b; `None` without a depth limit.
     pub(super) fn weight_now(&mut self) -> Option<(f64, f64)> {
         let corner = self.corner.as_mut()?;
         let limit = self.model.wider().depth_limit?;
@@ -32,7 +33,7 @@ impl Integrator<'_> {
         Some((exp(-corner.side * corner.height / limit), corner.side / limit))
     }
 
-    /// How long a step may be for its heights to err by so little that it does not show in the displacement.
+    /// As [`length_by_heights`]; infinite without a depth limit.
     pub(super) fn length_by_heights(&self, error: f64) -> f64 {
         let Some((corner, limit)) = self.corner.as_ref().zip(self.model.wider().depth_limit) else {
             return f64::INFINITY;
@@ -41,13 +42,13 @@ impl Integrator<'_> {
         length_by_heights(corner, self.taylor.chain.height(), strength, error)
     }
 
-    /// How steep the heights over this length are, as an interpolant of them errs beside one of the displacement.
+    /// As [`steepness`], over a step of this length; 0 without a depth limit.
     pub(super) fn steepness_of_heights(&self, length: f64) -> f64 {
         let Some(corner) = &self.corner else { return 0.0 };
         steepness(corner, &self.taylor.chain.height().over(length))
     }
 
-    /// Heights at the nodes of a step of this length, where there is a depth limit.
+    /// Heights at the nodes of a step of this length; `None` without a depth limit.
     #[inline]
     pub(super) fn heights_over<'a>(
         &self,
@@ -60,7 +61,7 @@ impl Integrator<'_> {
         Some(Along { start: height.start(), nodes: table.sums(&height.over(length), room) })
     }
 
-    /// Times spent at the nodes of a step of this length, each times what it weighs under a depth limit.
+    /// Multiplies the times spent at the nodes of a step of this length by w.
     pub(super) fn weigh(&self, table: &Table, length: f64, spent: &mut [f64]) {
         if self.corner.is_none() {
             return;
@@ -71,7 +72,7 @@ impl Integrator<'_> {
         spent.iter_mut().zip(weights).for_each(|(spent, weight)| *spent *= *weight);
     }
 
-    /// The place of the corner |u| = 0 relative to a step whose pieces have these heights.
+    /// As [`at_corner`]; `Apart` without a depth limit.
     pub(super) fn at_corner(&self, heights: Option<Along>, total: f64) -> AtCorner {
         let Some((corner, heights)) = self.corner.as_ref().zip(heights) else {
             return AtCorner::Apart;
@@ -91,12 +92,12 @@ pub(crate) fn length_by_heights(
     length::length(height.coefficients(), error / felt)
 }
 
-/// Ratio of the interpolation error of the heights over a step to that of the displacement.
+/// Largest divided difference of the heights over a step, relative to the larger of 1 and the height.
 pub(crate) fn steepness(corner: &Corner, over_step: &Series) -> f64 {
     Outlook::of(over_step).steepest / depth(corner)
 }
 
-/// The place of the corner |u| = 0 relative to a step from t whose pieces have these heights.
+/// Position, relative to the kink, of a step of length `total` from t whose pieces have these heights.
 pub(crate) fn at_corner(corner: &Corner, heights: &Along, (t, total): (f64, f64)) -> AtCorner {
     if corner.keeps(heights.nodes) {
         return AtCorner::Apart;
@@ -114,7 +115,7 @@ pub(crate) fn at_corner(corner: &Corner, heights: &Along, (t, total): (f64, f64)
     AtCorner::Apart
 }
 
-/// As large as a height is, its error counts relative to it.
+/// The scale of errors of the height: its absolute value, but at least 1.
 fn depth(corner: &Corner) -> f64 {
     corner.height.abs().max(1.0)
 }
@@ -127,7 +128,7 @@ pub(crate) struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// Of pieces.
+    /// Number of pieces.
     fn count(&self) -> usize {
         self.nodes.len() / STAGES
     }

@@ -1,13 +1,13 @@
-//! How high an order is, how long a step: from the tolerance, and from the last coefficients.
+//! Order of a series from the tolerance, and length of a step from the last coefficients.
 //!
 //! A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods,
-//! Experimental Mathematics 14 (2005) 99: with coefficients that fall as ρ^{-k} a step of the length
-//! `ρ ε^{1/p}` errs by ε, whatever ρ is; the order is that of the least work per time.
+//! Experimental Mathematics 14 (2005) 99: for coefficients that fall as ρ^{-k}, a step of length `ρ ε^{1/p}` has the
+//! error ε for any ρ. The order is the one with the least work per time.
 
 use super::chain::INVERSE;
 use super::series::MOST_ORDER;
 
-/// The order for an error ε of a step, by how much higher it is to be for an e-th of the error.
+/// The order for an error ε of a step: `per_digit` ln(1/ε), rounded and limited.
 pub(crate) fn order(error: f64, per_digit: f64) -> usize {
     let digits = -libm::log(error);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -18,12 +18,12 @@ pub(crate) fn order(error: f64, per_digit: f64) -> usize {
 pub(crate) const ORDER_PER_DIGIT: f64 = 1.0;
 const LEAST_ORDER: usize = 10;
 
-/// So many of the last coefficients are looked at: of an even function every other one vanishes, and where poles come in
-/// pairs several in a row may be small.
+/// Number of last coefficients that are examined: in an even function every other one vanishes, and with pairs of poles
+/// several in a row may be small.
 pub(super) const LAST: usize = 4;
 
-/// The length for which the last coefficient amounts to `error`, judged by the last few as if each were worth half of the
-/// one before.
+/// The length for which the last term of the series amounts to `error`. Earlier coefficients count too, with a factor
+/// 1/2 for each order below the last.
 pub(crate) fn length(coefficients: &[f64], error: f64) -> f64 {
     let order = coefficients.len() - 1;
     let wanted = log2(error);
@@ -35,12 +35,12 @@ pub(crate) fn length(coefficients: &[f64], error: f64) -> f64 {
     exp2((0..LAST).map(of).fold(f64::INFINITY, f64::min))
 }
 
-/// The length of which the power k times a size is `most`.
+/// The length L for which `size` L^k = `most`.
 pub(crate) fn root(most: f64, size: f64, k: usize) -> f64 {
     exp2((log2(most) - log2(size.max(f64::MIN_POSITIVE))) * INVERSE[k])
 }
 
-/// The logarithm of a normal number above 0, to 0.01: of its mantissa a parabola.
+/// The binary logarithm of a normal number above 0, to 0.01, by a parabola in its mantissa.
 #[inline(always)]
 pub(super) fn log2(x: f64) -> f64 {
     let bits = x.to_bits();
@@ -50,7 +50,7 @@ pub(super) fn log2(x: f64) -> f64 {
     exponent + mantissa * (1.0 + BEND * (1.0 - mantissa))
 }
 
-/// 2^y, to half a per cent, for a y of a normal number.
+/// 2^y, to half a per cent; y is limited to ±1000.
 #[inline(always)]
 pub(super) fn exp2(y: f64) -> f64 {
     // What is above 0 rounded towards 0 is its floor.

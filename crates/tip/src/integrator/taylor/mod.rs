@@ -46,12 +46,12 @@ pub(super) struct Taylor {
     visits: Visits,
 }
 
-/// Allowed truncation error of a series, over the error allowed in a step of collocation: there are fewer steps, but
-/// no other measure of their errors.
+/// Allowed truncation error of a series, relative to the error allowed in a step of collocation: there are fewer steps,
+/// but no other measure of their errors.
 pub(crate) const SHARE_OF_SERIES: f64 = 0.1;
-/// Allowed error of the weights of nodes, in the same unit.
+/// Allowed error of the weights of nodes, relative to the error allowed in a step of collocation.
 pub(crate) const SHARE_OF_VISITS: f64 = 0.0005;
-/// Result of a plan.
+/// Result of an attempt to make a planned step.
 enum Made {
     Step,
     /// The step must be made on the other side of the kink of |h|.
@@ -77,7 +77,7 @@ impl Taylor {
         }
     }
 
-    /// Records a step of collocation with this stiffness over it.
+    /// Records a step of collocation; `stiffness` is that of the groove times the length of the step.
     pub(super) fn made(&mut self, stiffness: f64) {
         self.switch.made(stiffness, self.order);
     }
@@ -92,7 +92,7 @@ impl Taylor {
         self.switch.save(state);
     }
 
-    /// Of a tip that is at this time and so far behind its support.
+    /// Restores the data for a tip with the time and the extension of the spring in `place`.
     pub(super) fn restore(&mut self, state: &mut Reader, place: (f64, f64)) -> Result<(), Damaged> {
         self.pieces.restore(state, place)?;
         self.switch.restore(state)
@@ -114,7 +114,7 @@ impl Integrator<'_> {
         true
     }
 
-    /// Whether a new step by series was made.
+    /// Makes a new step by series if possible; returns whether it was made.
     #[inline(never)]
     fn is_expanded(&mut self, until: f64) -> bool {
         if self.control.is_fixed() || self.rests() || !self.taylor.switch.is_to_series() {
@@ -146,7 +146,7 @@ impl Integrator<'_> {
         false
     }
 
-    /// The pieces of a step, shortened to where its series, the stretch of u0 and the side of the kink are valid.
+    /// Makes the pieces of a step, shortened to where its series, the stretch of u0 and the side of the kink are valid.
     fn make(&mut self, plan: &Plan, end: f64) -> Made {
         let Plan { mut length, mut pieces, .. } = *plan;
         for _ in 0..MOST_SHORTENINGS {
@@ -175,7 +175,7 @@ impl Integrator<'_> {
         Made::Nothing
     }
 
-    /// A shorter length for a step that leaves the stretch, retreats too far, or overflows.
+    /// A shorter length for a step that leaves the stretch, retreats too far, or overflows; `None` for a valid step.
     fn broken(&self, parts: &[f64], positions: &[f64], total: f64) -> Option<f64> {
         let displacement = self.taylor.chain.displacement().coefficients();
         let value = |part: f64| pieces::value(displacement, part * total);

@@ -1,4 +1,4 @@
-//! A long polynomial as steps: each of them its interpolant of degree s on a piece.
+//! A long polynomial divided into steps: each is the interpolant of degree s (the number of stages) on a piece.
 
 use super::length;
 use super::values::{BLOCK, Block, Table};
@@ -7,20 +7,20 @@ use crate::history::{Heights, Step};
 use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
 
-/// Of one series at most.
+/// Largest number of pieces of a series.
 pub(crate) const MOST_PIECES: usize = 8;
-/// For values at the nodes of all of them.
+/// Room for values at the nodes of all pieces.
 pub(crate) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =
     [[0.0; BLOCK]; (MOST_PIECES * STAGES).div_ceil(BLOCK)];
 
-/// Steps made: those before `next` have been handed out, those up to `end` are yet to be.
+/// The steps of a series: those before `next` have been returned, those from there to `end` have not.
 #[derive(Debug, Clone)]
 pub(super) struct Pieces {
     /// The first is room for a part of the second.
     steps: [Step; MOST_PIECES + 1],
     next: usize,
     end: usize,
-    /// Whether the one before `next` has been handed out.
+    /// Whether the step before `next` has been returned.
     taken: bool,
 }
 
@@ -40,17 +40,17 @@ impl Pieces {
         self.end += 1;
     }
 
-    /// All that have not been handed out.
+    /// The steps that have not been returned.
     pub(super) fn left(&self) -> &[Step] {
         &self.steps[self.next..self.end]
     }
 
-    /// The one that was handed out last.
+    /// The step that was returned last.
     pub(super) fn taken(&self) -> Option<&Step> {
         self.taken.then_some(&self.steps[self.next - 1])
     }
 
-    /// The next one; as far as `until`, if that is within it.
+    /// Returns the next step, or its part up to `until` if that is within it.
     pub(super) fn take(&mut self, until: f64, support: f64) -> Option<&Step> {
         let step = self.left().first()?;
         if until > step.t && until < step.end() {
@@ -67,7 +67,7 @@ impl Pieces {
         state.steps(self.left().iter());
     }
 
-    /// Of a tip that is at this time and so far behind its support.
+    /// Restores the steps for a tip at this time, with this extension of its spring.
     pub(super) fn restore(
         &mut self,
         state: &mut Reader,
@@ -86,7 +86,7 @@ impl Pieces {
     }
 }
 
-/// The same polynomial as two steps.
+/// Divides a step at time `at` into two steps with the same polynomial.
 fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
     let h = at - step.t;
     let rest = step.end() - at;
@@ -112,18 +112,18 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
     (first, second)
 }
 
-/// The longest part of a step that may be a piece, for interpolation to err by at most `error`, where the step has a
-/// divided difference as steep as this.
+/// The longest fraction of a step that can be a piece with an interpolation error of at most `error`. The largest
+/// divided difference of the step is `steepest`.
 pub(crate) fn longest(steepest: f64, error: f64) -> f64 {
     length::root(error, bound(steepest), STAGES + 1)
 }
 
-/// What interpolation leaves out over a whole step.
+/// Bound on the interpolation error over a whole step.
 pub(crate) fn bound(steepest: f64) -> f64 {
     RADAU.interpolation_bound(steepest, 1.0)
 }
 
-/// The nodes of all pieces of a step, as parts of it.
+/// The nodes of all pieces of a step, as fractions of the step.
 #[derive(Debug)]
 pub(crate) struct Nodes {
     pub(crate) parts: Vec<f64>,
@@ -133,7 +133,7 @@ pub(crate) struct Nodes {
 static NODES_OF: LazyLock<[Nodes; MOST_PIECES]> =
     LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
 
-/// Of a step in this number of pieces.
+/// The nodes of a step in this number of pieces.
 pub(crate) fn nodes(pieces: usize) -> &'static Nodes {
     &NODES_OF[pieces - 1]
 }

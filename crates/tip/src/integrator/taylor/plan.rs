@@ -17,12 +17,13 @@ pub(super) struct Plan {
 
 /// Allowed interpolation error of a piece, in units of the tolerance; it does not propagate.
 pub(crate) const SHARE_OF_INTERPOLATION: f64 = 0.1;
-/// Largest displacement in a piece, over that in a step of collocation,
+/// Largest displacement in a piece, relative to that in a step of collocation.
 pub(crate) const REACH_OF_PIECE: f64 = 0.7;
-/// and largest displacement in a step, over that in a piece.
+/// Largest displacement in a step by series, relative to that in a piece.
 pub(crate) const FARTHEST: f64 = 3.0;
 
-/// The part of a step with displacements of at most `longest`, and the series over it.
+/// The length of a step, at most `over`, with a displacement of at most `longest`, and the properties of the series
+/// over it.
 pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
     let mut outlook = Outlook::of(&series.over(over));
     for _ in 0..MOST_SHORTENINGS {
@@ -36,7 +37,7 @@ pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outl
     (over, outlook)
 }
 
-/// As in collocation: the step ends at this distance, or leaves enough for another step.
+/// The length, adapted as in collocation: the step ends at `distance`, or leaves enough for another step.
 pub(crate) fn to_end(length: f64, distance: f64) -> f64 {
     if length >= distance * (1.0 - 1e-9) {
         distance

@@ -6,7 +6,7 @@ const LANES: usize = 4;
 /// Coefficients, with room to fill the lanes.
 const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
 
-/// k
+/// k at index k.
 const ORDERS: [f64; WIDTH] = {
     let mut orders = [0.0; WIDTH];
     let mut k = 0;
@@ -17,7 +17,7 @@ const ORDERS: [f64; WIDTH] = {
     orders
 };
 
-/// Coefficients of powers of time, or of the part of a step; 0 beyond the order.
+/// Coefficients of powers of time, or of the elapsed fraction of a step; 0 beyond the order.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Series {
     order: usize,
@@ -29,12 +29,12 @@ impl Series {
         Self { order, coefficients: [0.0; WIDTH] }
     }
 
-    /// From that of the power 0 on.
+    /// The coefficients, from that of the power 0 on.
     pub(crate) fn coefficients(&self) -> &[f64] {
         &self.coefficients[..=self.order]
     }
 
-    /// That of the power k.
+    /// The coefficient of the power k.
     #[inline(always)]
     pub(crate) fn at(&self, k: usize) -> f64 {
         self.coefficients[k]
@@ -45,7 +45,7 @@ impl Series {
         self.coefficients[k] = coefficient;
     }
 
-    /// Where time starts.
+    /// The value at 0.
     pub(crate) fn start(&self) -> f64 {
         self.coefficients[0]
     }
@@ -62,7 +62,7 @@ impl Series {
         (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
-    /// In parts of this length: coefficient k times its power k.
+    /// The series in units of this length: coefficient k is multiplied by the k-th power of the length.
     #[inline(always)]
     pub(crate) fn over(&self, length: f64) -> Self {
         let square = length * length;

@@ -1,35 +1,35 @@
-//! Which way the next step is made.
+//! Choice between series and collocation for the next step.
 //!
-//! A step by series costs a fraction of one by collocation, but where the groove is stiff it is no longer than a few
-//! times 1/K, K the stiffness, however smooth the motion is, while collocation is as long as the motion allows. What
-//! fades as e^{-Kt} has the coefficients (-K)^k/k!, so that a series gets the farther beyond 1/K the less there is of
-//! that: a long step over 1/K says that nothing moves so fast any more. Then collocation is tried, and its own lengths
-//! say whether it stays; where it does not, it is the longer until the next trial.
+//! A step by series costs a fraction of one by collocation. But in a groove of stiffness K its length is limited to a
+//! few times 1/K even if the motion is smooth, whereas a step of collocation is as long as the motion allows. A part of
+//! the motion that decays as e^{-Kt} has the coefficients (-K)^k/k!. The smaller this part is, the longer a series can
+//! be. So a step much longer than 1/K shows that the fast part has decayed. Then collocation is tried, and its step
+//! lengths decide whether it continues. After each failed trial the next one comes later.
 
 use crate::state::{Damaged, Reader, State};
 
-/// The way in use.
+/// The method in use.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Switch {
-    /// What a step of collocation costs, over one by series.
+    /// Cost of a step of collocation, relative to a step by series.
     cost: f64,
     collocation: bool,
-    /// Steps of the way in use that are to be made before the other is tried.
+    /// Number of steps by the method in use before the other one is tried.
     wait: u64,
-    /// Steps by series until the next trial, should the one under way fail.
+    /// Number of steps by series before the next trial, if the present one fails.
     patience: u64,
     /// Whether the last step was by series.
     in_series: bool,
 }
 
-/// What a step of collocation costs, over one by series; with inertia, where it takes more iterations.
+/// Cost of a step of collocation, relative to a step by series. With inertia there are more iterations.
 const COST: f64 = 4.0;
 const COST_WITH_INERTIA: f64 = 8.0;
-/// Reach of a series of order p where the groove is stiff, in units of p/K.
+/// Longest step by a series of order p in a groove of stiffness K, in units of p/K.
 const REACH: f64 = 0.25;
-/// Steps of collocation before it is judged: their lengths grow from one to the next.
+/// Number of steps of collocation in a trial: their lengths grow from step to step.
 const TRIAL: u64 = 8;
-/// Steps by series before the first trial, and at most between two.
+/// Number of steps by series before the first trial, and largest number between two trials.
 const PATIENCE: (u64, u64) = (8, 1 << 10);
 
 impl Switch {
@@ -48,8 +48,8 @@ impl Switch {
         !self.collocation
     }
 
-    /// Whether collocation is to take over from a series of this order, that is as long as accuracy allows and
-    /// of this stiffness over its length; `most` is that over the longest step that collocation could make.
+    /// Whether collocation takes over from a series of this order. `stiffness` is K times the length of the series,
+    /// which is limited by accuracy; `most` is K times the longest possible step of collocation.
     pub(crate) fn leaves(&mut self, stiffness: f64, most: f64, order: usize) -> bool {
         if stiffness < REACH * order as f64 || !self.is_ahead(most, order) {
             return false;
@@ -62,12 +62,12 @@ impl Switch {
         true
     }
 
-    /// A step by series has been made.
+    /// Records a step by series.
     pub(crate) fn made_series(&mut self) {
         self.in_series = true;
     }
 
-    /// A step of collocation has been made, of this stiffness over it, where a series is of this order.
+    /// Records a step of collocation; `stiffness` is K times its length, `order` that of the series.
     pub(crate) fn made(&mut self, stiffness: f64, order: usize) {
         if !self.collocation {
             return;
@@ -82,12 +82,13 @@ impl Switch {
         }
     }
 
-    /// Whether a step of collocation of this stiffness leads farther than the series that it costs.
+    /// Whether a step of collocation is longer than the series of the same total cost; `stiffness` is K times its
+    /// length.
     fn is_ahead(&self, stiffness: f64, order: usize) -> bool {
         stiffness > self.cost * REACH * order as f64
     }
 
-    /// Whether the way changes from series to collocation just now.
+    /// Whether the last step was by series. The next call returns false, unless a step by series is made in between.
     pub(crate) fn left_series(&mut self) -> bool {
         std::mem::take(&mut self.in_series)
     }

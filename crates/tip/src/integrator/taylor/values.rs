@@ -1,16 +1,16 @@
-//! A series at fixed parts of a step: a table of powers times its coefficients, side by side, where Horner's rule would
-//! wait for each product.
+//! Values of a series at fixed fractions of a step, by a table of powers. The sums run in SIMD lanes, whereas Horner's
+//! rule would wait for each product.
 
 use super::series::{MOST_ORDER, Series};
 use crate::collocation::STAGES;
 use multiversion::multiversion;
 use std::sync::LazyLock;
 
-/// Points that are summed side by side.
+/// Number of points in the SIMD lanes.
 pub(crate) const BLOCK: usize = 8;
 pub(crate) type Block = [f64; BLOCK];
 
-/// What each coefficient counts for in sums, `BLOCK` of them side by side.
+/// Factors of the coefficients of a series in several sums, `BLOCK` sums in the SIMD lanes.
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
     sums: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Sum n counts the k-th coefficient `of(n, k)` times.
+    /// A table in which the factor of the k-th coefficient in sum n is `of(n, k)`.
     pub(crate) fn new(sums: usize, of: impl Fn(usize, usize) -> f64) -> Self {
         let entry = |n: usize, k: usize| if n < sums { of(n, k) } else { 0.0 };
         let row = |b: usize, k: usize| std::array::from_fn(|i| entry(b * BLOCK + i, k));
@@ -26,19 +26,19 @@ impl Table {
         Self { sums, blocks: (0..sums.div_ceil(BLOCK)).map(block).collect() }
     }
 
-    /// Values of the polynomial at these parts of the step.
+    /// A table for the values of a series at these fractions of the step.
     pub(crate) fn of_parts(parts: &[f64]) -> Self {
         Self::new(parts.len(), |n, k| parts[n].powi(k as i32))
     }
 
-    /// The sums, in this room.
+    /// The sums for a series, stored in `room`.
     pub(crate) fn sums<'a>(&self, series: &Series, room: &'a mut [Block]) -> &'a mut [f64] {
         sums(&self.blocks, series, room);
         &mut room.as_flattened_mut()[..self.sums]
     }
 }
 
-/// Even and odd rows in sums of their own: in this order on every machine.
+/// Even and odd rows are summed separately, in the same order on every machine.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block]) {
     let (pairs, rest) = series.coefficients().as_chunks::<2>();
@@ -63,16 +63,16 @@ fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block])
 /// Properties of a series that decide the step made from it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Outlook {
-    /// Of x0, over the whole step.
+    /// Displacement over the whole step.
     pub(crate) moved: f64,
-    /// Displacement per step at its fastest: at the start, in the middle, or at the end.
+    /// Largest speed, in displacement per step: at the start, in the middle, or at the end.
     pub(crate) fastest: f64,
-    /// The largest divided difference of order s + 1, at four points: what interpolation leaves out.
+    /// The largest divided difference of order s + 1 at four points, s stages: it determines the interpolation error.
     pub(crate) steepest: f64,
 }
 
 impl Outlook {
-    /// That of a series in parts of this length.
+    /// The properties of a series over a step of this length.
     pub(crate) fn over(series: &Series, length: f64) -> Self {
         Self::of(&series.over(length))
     }
@@ -86,7 +86,7 @@ impl Outlook {
     }
 }
 
-/// What each coefficient counts for in an outlook: displacement, speeds at three places, divided differences at four.
+/// Factors of the coefficients in an [`Outlook`]: displacement, speeds at three points, divided differences at four.
 pub(super) fn outlook() -> &'static [Block; MOST_ORDER + 1] {
     &OUTLOOK.blocks[0]
 }
@@ -99,12 +99,12 @@ static OUTLOOK: LazyLock<Table> = LazyLock::new(|| {
     })
 });
 
-/// Of τ^k.
+/// The derivative of τ^k.
 fn slope(tau: f64, k: usize) -> f64 {
     if k == 0 { 0.0 } else { k as f64 * tau.powi(k as i32 - 1) }
 }
 
-/// The derivative of τ^k of order s + 1, over (s + 1)!.
+/// The derivative of τ^k of order s + 1, divided by (s + 1)!.
 fn difference(tau: f64, k: usize) -> f64 {
     let n = STAGES + 1;
     let binomial = |k: usize| (1..=n).fold(1.0, |b, i| b * (k - n + i) as f64 / i as f64);

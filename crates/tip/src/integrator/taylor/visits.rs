@@ -1,4 +1,4 @@
-//! The content of a long step for a memory: where the tip was, and for how long.
+//! The visits of a long step for a memory: positions of the tip, and times spent there.
 
 use super::values::{BLOCK, Block, Table};
 use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
@@ -6,29 +6,29 @@ use crate::roots::zero_between;
 use multiversion::multiversion;
 use std::sync::{LazyLock, OnceLock};
 
-/// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, its last node the end.
+/// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, with its last node at the end.
 #[derive(Debug)]
 pub(crate) struct Rule {
     pub(crate) nodes: Vec<f64>,
     pub(crate) weights: Vec<f64>,
-    /// Of the nodes.
+    /// The table for values at the nodes.
     pub(crate) table: Table,
 }
 
 /// Numbers of nodes.
 const COUNTS: [usize; 9] = [6, 8, 10, 12, 14, 16, 18, 20, 24];
 pub(crate) const MOST_NODES: usize = 24;
-/// For values at the nodes of any of them.
+/// Room for values at the nodes of any rule.
 pub(crate) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
     [[0.0; BLOCK]; MOST_NODES.div_ceil(BLOCK)];
 
-/// That of [`COUNTS`] at this index: made when it is first used, as no run uses them all.
+/// The rule with the number of nodes at this index of [`COUNTS`], made at its first use, because no run uses all rules.
 fn rule(index: usize) -> &'static Rule {
     static RULES: [OnceLock<Rule>; COUNTS.len()] = [const { OnceLock::new() }; COUNTS.len()];
     RULES[index].get_or_init(|| Rule::new(COUNTS[index]))
 }
 
-/// Of what the error of each rule is divided by: 2 (2n-1)!³/(n (n-1)!⁴).
+/// Logarithms of 2 (2n-1)!³/(n (n-1)!⁴), by which the error of the rule of n nodes is divided.
 static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
     COUNTS.map(|n| {
         let factorials = 3.0 * log_factorial(2 * n - 1) - 4.0 * log_factorial(n - 1);
@@ -36,25 +36,25 @@ static LOGARITHMS: LazyLock<[f64; COUNTS.len()]> = LazyLock::new(|| {
     })
 });
 
-/// Which rule is accurate enough for a step, by how far it leads and how much of its groove heals meanwhile.
+/// Choice of a sufficiently accurate rule for a step, from its displacement and the healing meanwhile.
 #[derive(Debug, Clone)]
 pub(crate) struct Visits {
-    /// Each of them is so up to this displacement.
+    /// Largest displacement for which each rule is accurate.
     farthest: [f64; COUNTS.len()],
-    /// The wave number that they are chosen for.
+    /// The wave number for which the rules are chosen.
     wave: f64,
 }
 
-/// Largest length of a step in healing times, over the largest phase for which a rule is accurate.
+/// Largest length of a step in healing times, relative to the largest phase for which a rule is accurate.
 const MOST_HEALING: f64 = 0.5;
 
 impl Visits {
-    /// For a footprint of this band, to an error of this part of what it integrates.
+    /// The choice for a footprint of this bandwidth and this relative error of the integrals.
     ///
-    /// The rule of n nodes errs on e^{iφτ} by at most n (n-1)!⁴/(2 (2n-1)!³) φ^{2n-1}. Waves of f that are shorter than
-    /// those to φ = qd, d the displacement, are weaker than the error: at the band they are so by round-off, and they
-    /// fall as those of a Gaussian. What heals fades by e^{-β(1-τ)}, with β healing times in a step: the derivatives of
-    /// the product are those of e^{iφτ} with |iφ + β| for φ.
+    /// For e^{iφτ} the rule of n nodes has an error of at most n (n-1)!⁴/(2 (2n-1)!³) φ^{2n-1}. A wave of f with the
+    /// wave number q has the phase φ = qd over the displacement d. Waves above the chosen q are weaker than the error:
+    /// they fall as those of a Gaussian, to round-off at the band limit. With β healing times in a step, healing is a
+    /// factor e^{-β(1-τ)}. The derivatives of the product are those of e^{iφτ} with |iφ + β| instead of φ.
     pub(crate) fn new(band: f64, error: f64) -> Self {
         let digits = (-ln(error)).max(1.0);
         let wave = band * (digits / -ln(f64::EPSILON)).min(1.0).sqrt();
@@ -85,12 +85,12 @@ impl Visits {
     }
 }
 
-/// The rule of most nodes.
+/// The rule with the most nodes.
 pub(crate) fn last() -> &'static Rule {
     rule(COUNTS.len() - 1)
 }
 
-/// The undecayed part of these weights at the end of a step of this number of healing times.
+/// Reduces the weights to their undecayed parts at the end of a step of this number of healing times.
 pub(crate) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
     if times <= LARGEST {
         fade_side_by_side(nodes, times, weights);

@@ -1,33 +1,33 @@
-//! The Taylor series of several motions, as [`chain`](super::super::chain) has that of one, under the basic law and without
-//! forces: `g_n' = α f⁽ⁿ⁾(0) + v g_{n+1}`, x0' = v = `g_1` + R - x0.
+//! The Taylor series of several motions in the basic model without external force: `g_n' = α f⁽ⁿ⁾(0) + v g_{n+1}`, x0'
+//! = v = `g_1` + R - x0. For one motion, and the notation, see [`chain`](super::super::chain).
 
 use super::super::chain::INVERSE;
 use super::super::series::MOST_ORDER;
 use super::lanes::Lanes;
 
-/// Entries of a row that are summed side by side. With more, compilers make vectors of entries instead of lanes, whose numbers
-/// they gather one by one: with eight, motions side by side took four times as long by AVX-512.
+/// Number of entries of a row that are summed together. With eight, compilers make vectors of entries instead of lanes
+/// and gather their numbers one by one, which takes four times as long with AVX-512.
 const BLOCK: usize = 6;
-/// Of a row. Odd, so that rows do not compete for the same lines of the cache.
+/// Length of a row, odd so that rows do not compete for the same lines of the cache.
 const WIDTH: usize = MOST_ORDER + BLOCK + 1;
 type Row = [Lanes; WIDTH];
 
-/// Coefficients of powers of time, up to an order.
+/// The Taylor coefficients of a step of each motion, up to an order.
 pub(super) struct Expansion {
     order: usize,
     /// Row k: coefficients of t^k of `g_1`, `g_2`, …
     rows: Box<[Row; MOST_ORDER]>,
     velocity: [Lanes; MOST_ORDER],
-    /// Of x0 less its value at the start.
+    /// Coefficients of x0 minus its value at the start.
     displacement: [Lanes; MOST_ORDER + 1],
 }
 
-/// What acts on the tips while they move.
+/// The terms of the equations of motion during a step.
 pub(super) struct Acting {
     pub(super) alpha: Lanes,
     /// R', velocity of the support.
     pub(super) support: Lanes,
-    /// R - x0
+    /// R - x0 at the start.
     pub(super) extension: Lanes,
 }
 
@@ -43,18 +43,18 @@ impl Expansion {
         &self.rows[0][1]
     }
 
-    /// Where the derivatives `g_n` at the start, from `g_1` on, are to be put.
+    /// The place of the derivatives `g_n` at the start, from `g_1` on.
     #[inline(always)]
     pub(super) fn start(&mut self) -> &mut [Lanes] {
         &mut self.rows[0][..self.order]
     }
 
-    /// Displacements from where the tips are.
+    /// Coefficients of x0 minus its value at the start.
     pub(super) fn displacement(&self) -> &[Lanes] {
         &self.displacement[..=self.order]
     }
 
-    /// The series. `of_tip` are the derivatives of f at 0, from the first on.
+    /// Computes the series. `of_tip` are the derivatives of f at 0, from the first on.
     #[inline(always)]
     pub(super) fn run(&mut self, acting: &Acting, of_tip: &[f64]) {
         for k in 0..self.order {
@@ -80,7 +80,7 @@ impl Expansion {
         }
     }
 
-    /// The next coefficients of velocity and displacement.
+    /// Computes the next coefficients of velocity and displacement.
     #[inline(always)]
     fn advance(&mut self, k: usize, acting: &Acting) {
         let extension = match k {
@@ -92,7 +92,8 @@ impl Expansion {
         self.displacement[k + 1] = self.velocity[k] * INVERSE[k + 1];
     }
 
-    /// So many entries of row k + 1 from the n-th on, `Σ_i v_i g_{n+1, k-i}` over k + 1: those that are needed. Others stay 0.
+    /// Computes `COUNT` entries of row k + 1 from the n-th on, `Σ_i v_i g_{n+1, k-i}` divided by k + 1. Entries from
+    /// `needed` on stay 0.
     #[inline(always)]
     fn entries<const COUNT: usize>(&mut self, k: usize, (n, needed): (usize, usize)) {
         let (rows, after) = self.rows.split_at_mut(k + 1);

@@ -1,8 +1,8 @@
-//! Numbers of several motions side by side: one lane each.
+//! Numbers of several motions, one in each SIMD lane.
 
 use std::ops::{Add, AddAssign, Mul, MulAssign, Sub};
 
-/// Motions that go side by side.
+/// Number of lanes.
 pub(super) const LANES: usize = 8;
 
 /// One number of each motion. Products and sums are taken lane by lane and never fused, so that a lane has the same bits
@@ -14,7 +14,7 @@ pub(super) struct Lanes(pub(super) [f64; LANES]);
 impl Lanes {
     pub(super) const ZERO: Self = Self([0.0; LANES]);
 
-    /// A function of each.
+    /// Applies a function to each number.
     #[inline(always)]
     pub(super) fn map(mut self, of: impl Fn(f64) -> f64) -> Self {
         // Not that of arrays, which is no loop over lanes unless it happens to be inlined.
@@ -24,7 +24,7 @@ impl Lanes {
         self
     }
 
-    /// The larger, or the smaller, one.
+    /// The larger number in each lane.
     #[inline(always)]
     pub(super) fn larger(mut self, other: Self) -> Self {
         for i in 0..LANES {
@@ -41,7 +41,7 @@ impl Lanes {
         self
     }
 
-    /// The same in all of them.
+    /// The same number in all lanes.
     #[inline(always)]
     pub(super) fn all(value: f64) -> Self {
         Self([value; LANES])

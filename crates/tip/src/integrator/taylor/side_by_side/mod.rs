@@ -1,11 +1,11 @@
-//! Several motions in the lanes of the machine, each with its own step, length and end.
+//! Several motions in SIMD lanes, each with its own step lengths and end.
 //!
-//! A step by series asks for the same sums whatever the motion is: its derivatives, its coefficients, what its visits leave.
-//! Here each of them is taken for several motions at a time, under the basic law, without forces, noise or profiles, of one
-//! footprint and one sum of exponentials. When a motion ends, the next one takes its lane. What a lane holds depends on
-//! nothing but its own motion, so that the company does not matter.
+//! A step by series takes the same sums for every motion: derivatives, coefficients, contributions of visits. Here they
+//! are computed for several motions together, in the basic model without forces, noise or profiles, for one footprint
+//! and one sum of exponentials. When a motion ends, the next one takes its lane. The numbers of a lane depend on its
+//! own motion only, so that the other motions do not matter.
 //!
-//! Motions that get too stiff for series, or come back too far behind where they have been, leave: [`Ended::Elsewhere`].
+//! Motions that become too stiff for series, or retreat too far, end as [`Ended::Elsewhere`].
 
 mod expansion;
 mod lanes;
@@ -33,10 +33,10 @@ use num_complex::Complex;
 use past::{Exponentials, MOST_STRETCHES, Past, Visits};
 use plan::Plan;
 
-/// A motion that is to be made.
+/// A motion to be integrated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Begin {
-    /// Of those who ask for it.
+    /// The caller's number for this motion.
     pub(crate) number: usize,
     pub(crate) alpha: f64,
     pub(crate) r: f64,
@@ -44,46 +44,46 @@ pub(crate) struct Begin {
     /// R - x0 at the start.
     pub(crate) extension: f64,
     pub(crate) until: f64,
-    /// Where there has been steady motion before: how far ahead of the tip it came.
+    /// Distance ahead of the tip at which steady motion before the run ended; `None` without steady motion.
     pub(crate) steady: Option<f64>,
 }
 
-/// What became of a motion.
+/// Result of a motion.
 pub(crate) enum Ended<C> {
-    /// It came to its end; its steps were passed to this collector.
+    /// The motion is complete; its steps were passed to this collector.
     Whole(C, Work),
-    /// It is to be made otherwise, from its start.
+    /// The motion must be integrated by other means, from its start.
     Elsewhere,
 }
 
-/// Motions of one footprint, to one tolerance.
+/// An integrator of several motions with one footprint and one tolerance.
 pub(crate) struct SideBySide {
     limits: Limits,
     exponentials: Exponentials,
     numbers: Numbers,
 }
 
-/// What bounds a step of any of them.
+/// Limits on the steps of all motions.
 struct Limits {
-    /// What a series may leave out.
+    /// Allowed truncation error of a series.
     error: f64,
-    /// What a piece may err by as an interpolant.
+    /// Allowed interpolation error of a piece.
     of_piece: f64,
-    /// How far a piece may lead, and a step.
+    /// Largest displacement in a piece, and in a step.
     limited: f64,
     longest: f64,
-    /// Distance from its middle up to which polynomials represent all exponentials.
+    /// Largest distance from the middle of a stretch at which polynomials represent all exponentials.
     expanded: f64,
-    /// How far behind its farthest point a tip may look, and where a step may begin.
+    /// Largest distance of a tip behind its farthest position, within a step and between steps.
     retreat: f64,
     between_steps: f64,
-    /// So many steps may be kept of a motion.
+    /// Largest number of steps of a motion.
     most_steps: u64,
     rules: Rules,
     order: usize,
 }
 
-/// What is dealt with side by side.
+/// The numbers of all lanes.
 struct Numbers {
     acting: Acting,
     past: Past,
@@ -91,31 +91,31 @@ struct Numbers {
     plan: Plan,
     /// Lengths of the steps.
     length: Lanes,
-    /// Displacements, in parts of them.
+    /// Coefficients of the displacements in powers of the elapsed fraction of a step.
     displacement: Vec<Lanes>,
-    /// Of how many pieces they are to be, and where those have their nodes.
+    /// Numbers of pieces of the steps, and displacements at the nodes of the pieces.
     pieces: Lanes,
     nodes: [Lanes; MOST_PIECES * STAGES],
     visits: Visits,
 }
 
-/// A motion under way.
+/// A motion in progress.
 struct Member<C> {
     begin: Begin,
     t: f64,
     extension: f64,
-    /// Of the places it has been to, the farthest, as a displacement from where it is.
+    /// The farthest position reached so far, relative to the present one.
     farthest: f64,
     switch: Switch,
     collector: C,
     work: Work,
 }
 
-/// What a step of collocation costs, over a series beside seven others.
+/// Cost of a step of collocation, relative to that of a series in one of eight lanes.
 const COST_OF_COLLOCATION: f64 = 16.0;
 
 impl SideBySide {
-    /// Of this footprint, with this sum for it.
+    /// The integrator for this footprint and the exponentials that represent it.
     pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: u64) -> Self {
         let target = Control::new(tolerance).target();
         let error = SHARE_OF_SERIES * target;
@@ -151,8 +151,8 @@ impl SideBySide {
         Self { limits, exponentials, numbers }
     }
 
-    /// Integrates all of these motions, and passes the steps of each to its collector. Reports each motion, by number and
-    /// result, when it has ended. After a request to stop the others are left out.
+    /// Integrates all of these motions, and passes the steps of each to its collector. Reports each motion, by number
+    /// and result, when it has ended. After a request to stop, the remaining motions are not reported.
     pub(crate) fn run<C: Extend<Step>>(
         &mut self,
         mut begins: impl Iterator<Item = (Begin, C)>,
@@ -170,7 +170,7 @@ impl SideBySide {
         }
     }
 
-    /// A motion takes a lane.
+    /// Starts a motion in a lane.
     fn enter<C>(&mut self, lane: usize, (begin, collector): (Begin, C)) -> Member<C> {
         let Begin { alpha, r, t, extension, steady, .. } = begin;
         let Numbers { acting, past, .. } = &mut self.numbers;
@@ -184,7 +184,7 @@ impl SideBySide {
         Member { begin, t, extension, farthest, switch, collector, work: Work::default() }
     }
 
-    /// One step of each.
+    /// Makes one step of each motion.
     fn step<C: Extend<Step>>(
         &mut self,
         members: &mut [Option<Member<C>>; LANES],
@@ -219,7 +219,7 @@ impl SideBySide {
 }
 
 impl<C: Extend<Step>> Member<C> {
-    /// How long its step is to be, of how many pieces; `None` where it is to be made elsewhere.
+    /// Length of the next step and number of its pieces; `None` if the motion must be integrated elsewhere.
     fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<(f64, usize)> {
         let Plan { over, piece, fastest } = &numbers.plan;
         let (over, fastest) = (over.0[lane], fastest.0[lane]);
@@ -235,7 +235,7 @@ impl<C: Extend<Step>> Member<C> {
         Some((length, count(length, piece)))
     }
 
-    /// Makes its step: the rule for its visits. `None` where it is to be made elsewhere.
+    /// Makes the step, and returns the rule for its visits; `None` if the motion must be integrated elsewhere.
     fn advance(
         &mut self,
         limits: &Limits,
@@ -261,7 +261,7 @@ impl<C: Extend<Step>> Member<C> {
         Some(rule.unwrap_or_else(visits::last))
     }
 
-    /// Follows the tip through these places; `None` if it comes too far back.
+    /// Checks the positions of a step; `None` if the tip retreats too far or the number of steps exceeds its limit.
     fn passes(&mut self, limits: &Limits, positions: &[f64], moves_on: bool) -> Option<()> {
         let end = *positions.last()?;
         let mut farthest = self.farthest.max(end);
@@ -281,7 +281,7 @@ impl<C: Extend<Step>> Member<C> {
         (self.farthest <= limits.between_steps && has_room).then_some(())
     }
 
-    /// The pieces of a step, by their nodes.
+    /// Passes the pieces of a step, with these positions at the nodes, to the collector.
     fn take(&mut self, positions: &[f64], total: f64) {
         let (pieces, _) = positions.as_chunks::<STAGES>();
         let (start, count, r, mut before) = (self.t, pieces.len(), self.begin.r, 0.0);
@@ -304,7 +304,7 @@ impl<C: Extend<Step>> Member<C> {
     }
 }
 
-/// Compiled for wider vectors too: lanes do not know of each other.
+/// Computes the series, and from them the lengths of the steps. Also compiled for wider vectors: lanes are independent.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
     let Numbers { acting, past, expansion, plan, .. } = numbers;
@@ -313,7 +313,7 @@ fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
     *plan = Plan::of(limits, expansion.displacement());
 }
 
-/// Where the tips are at the nodes of the pieces, as many as any of them has.
+/// Computes the displacements at the nodes of the pieces, up to the largest number of pieces of any lane.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn follow(numbers: &mut Numbers) {
     let Numbers { expansion, length, displacement, pieces, nodes, .. } = numbers;
@@ -343,7 +343,7 @@ fn follow(numbers: &mut Numbers) {
     }
 }
 
-/// Likewise.
+/// Adds the steps to the pasts.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn remember(numbers: &mut Numbers, exponentials: &Exponentials) {
     let Numbers { past, displacement, visits, length, .. } = numbers;

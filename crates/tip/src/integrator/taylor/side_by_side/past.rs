@@ -7,20 +7,22 @@ use crate::elementary::{complex_exp, inverse_factorials};
 use crate::memory::{Fit, HIGHEST_DEGREE, LOWEST_DEGREE, Term, expansion_lengths};
 use num_complex::Complex;
 
-/// What follows from the exponentials alone.
+/// Quantities that follow from the exponentials alone.
 pub(super) struct Exponentials {
     terms: Vec<Term>,
-    /// `Re w_j s_j^{n-1}` and `-Im w_j s_j^{n-1}`, n = 1, 2, …: what Re z and Im z count for in the n-th derivative.
+    /// `Re w_j s_j^{n-1}` and `-Im w_j s_j^{n-1}`, n = 1, 2, …: the factors of `Re z_j` and `Im z_j` in the n-th
+    /// derivative.
     derivatives: Vec<[[f64; ROOM]; 2]>,
     /// `s_j^m`
     powers: Vec<[[f64; 2]; HIGHEST_DEGREE + 1]>,
-    /// How far a polynomial of each degree follows all of them.
+    /// Largest distance at which a polynomial of each degree represents all exponentials.
     lengths: Vec<f64>,
     /// Derivatives of f at 0 on the side of the past, from the first on.
     pub(super) of_tip: [f64; MOST_ORDER],
 }
 
-/// Derivatives that are summed at a time, few as in a block of an expansion, and room for whole blocks of them.
+/// Number of derivatives that are summed together, and room for whole blocks of them. It is as small as the block of an
+/// expansion for the same reason.
 const AT_ONCE: usize = 6;
 const ROOM: usize = MOST_ORDER.next_multiple_of(AT_ONCE);
 
@@ -44,19 +46,19 @@ impl Exponentials {
         }
     }
 
-    /// States after a steady motion of this velocity, as far as this ahead of the tip.
+    /// States after a steady motion of this velocity that ended at the distance `ahead` in front of the tip.
     pub(super) fn steady(&self, velocity: f64, ahead: f64) -> impl Iterator<Item = Complex<f64>> {
         self.terms.iter().map(move |Term { exponent, .. }| {
             -complex_exp(-exponent * ahead) / (velocity * exponent)
         })
     }
 
-    /// How far the ends of a step may be from its middle.
+    /// Largest distance of the ends of a stretch from its middle.
     pub(super) fn longest(&self) -> f64 {
         self.lengths.last().copied().unwrap_or(0.0)
     }
 
-    /// The degree that follows all exponentials so far.
+    /// The degree of polynomials that represent all exponentials within `radius`.
     fn degree(&self, radius: f64) -> usize {
         let at = self.lengths.partition_point(|length| *length < radius);
         (at + LOWEST_DEGREE).min(HIGHEST_DEGREE)
@@ -77,11 +79,11 @@ fn powers_of<const N: usize>(s: Complex<f64>, factor: Complex<f64>) -> [[f64; 2]
 pub(super) struct Past {
     /// Real and imaginary part of each.
     states: Vec<[Lanes; 2]>,
-    /// Room for what they are carried by.
+    /// Room for the moments of the visits.
     moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,
 }
 
-/// Visits of a step of length 1, of each motion its own rule: those that a rule has not have no weight.
+/// Visits of a step of length 1, with a rule for each motion. Nodes beyond those of the rule have weight 0.
 pub(super) struct Visits {
     rules: [Option<&'static Rule>; LANES],
     count: usize,
@@ -89,7 +91,7 @@ pub(super) struct Visits {
     weights: Nodes,
 }
 
-/// Nodes that are dealt with at a time.
+/// Number of nodes that are summed together.
 const BLOCK: usize = 4;
 type Nodes = [Lanes; MOST_NODES];
 
@@ -99,7 +101,7 @@ impl Visits {
         Self { rules: [None; LANES], count: 0, parts: nothing, weights: nothing }
     }
 
-    /// Gives a lane the visits of a rule; in most steps it has them already.
+    /// Sets the visits of a lane to those of a rule; in most steps they are set already.
     pub(super) fn set(&mut self, lane: usize, rule: &'static Rule) {
         if self.rules[lane].replace(rule).is_some_and(|before| std::ptr::eq(before, rule)) {
             return;
@@ -145,8 +147,8 @@ impl Past {
         }
     }
 
-    /// Carries the states over steps of these lengths and displacements, series in the part of the step: as far at a time
-    /// as the exponentials can be expanded.
+    /// Advances the states by steps of these lengths. The displacements are series in the elapsed fraction of the step.
+    /// Each step is divided into stretches on which the exponentials can be expanded.
     #[inline(always)]
     pub(super) fn remember(
         &mut self,
@@ -173,7 +175,7 @@ impl Past {
         }
     }
 
-    /// Carries each state over a stretch.
+    /// Advances the states of each motion by a stretch.
     #[inline(always)]
     fn carry(
         &mut self,

@@ -9,8 +9,8 @@ pub const ROOM: usize = 32;
 /// [`Policy::derivatives`](crate::memory::Policy::derivatives).
 #[derive(Debug, Clone)]
 pub struct Derivatives {
-    /// Derivatives of f at 0, on the side of the past: the contribution to `past` of a unit of time just spent at the
-    /// tip.
+    /// Derivatives of f at 0, on the side of the past: the contribution to `past` of a unit of time spent at the
+    /// present position.
     pub of_tip: [f64; ROOM],
     /// ∫ f⁽ⁿ⁾(tip - x0(t'))dt' over the past.
     pub past: [f64; ROOM],
@@ -25,7 +25,7 @@ pub struct Derivatives {
 /// The infinite past of a tip in steady motion up to a given point.
 #[derive(Debug, Clone, Copy)]
 pub struct SteadyPast {
-    /// Distance that the tip has moved since then.
+    /// Distance that the tip has moved since the end of the steady motion.
     pub distance: f64,
     /// Velocity of the steady motion.
     pub velocity: f64,
@@ -36,8 +36,8 @@ pub struct SteadyPast {
 }
 
 impl SteadyPast {
-    /// Its groove with slope and curvature at a displacement from the tip: φ/v of the profile of steady motion φ, by
-    /// φ' = sφ - f with s = 1/(vT).
+    /// Height, slope and curvature of the groove at a displacement from the tip: those of (w0/v) φ, where the profile φ
+    /// of steady motion obeys φ' = sφ - f with s = 1/(vT).
     pub(crate) fn groove(&self, tip: &TipFunction, displacement: f64) -> [f64; 3] {
         let (x, s) = (displacement + self.distance, self.healing / self.velocity);
         if tip.reach().is_some_and(|reach| x >= reach) {

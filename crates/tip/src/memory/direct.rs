@@ -42,7 +42,7 @@ pub(super) fn add(
     }
 }
 
-/// Adds the slope and curvature of these nodes at the first points x, as many as there is room for.
+/// Adds the slope and curvature of these nodes at the first points x, as many as `slope` holds.
 ///
 /// Also compiled for wider vectors: lanes are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]

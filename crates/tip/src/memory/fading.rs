@@ -1,8 +1,8 @@
 //! The undecayed part of the past, if the surface heals.
 //!
-//! The history integral is linear in its weights, so that a common decay need not be applied to it: later nodes get
-//! correspondingly larger weights, and results are multiplied by the factor. Only when the factor leaves the range of
-//! floating point are the sums themselves multiplied.
+//! The history integral is linear in its weights, so that a common decay can be kept as a separate factor. Later nodes
+//! get correspondingly larger weights, and results are multiplied by the factor. The sums themselves are multiplied
+//! only when the factor would leave the range of floating point.
 
 use crate::state::{Damaged, Reader, State};
 

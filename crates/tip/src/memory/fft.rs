@@ -45,7 +45,7 @@ struct Heights {
 pub(crate) enum Lattice {
     /// No change.
     Same,
-    /// Its origin moved by this much.
+    /// The origin moved by this distance.
     Moved(f64),
     /// The lattice no longer spans all positions, for a footprint without reach, and must be built anew.
     Outgrown,
@@ -60,7 +60,7 @@ const CELLS_PER_ORIGIN: i64 = 512;
 const CELLS_KEPT: usize = 1 << 16;
 /// Least number of windows kept.
 const WINDOWS_KEPT: usize = 4;
-/// Bounds on the numbers of cells.
+/// The range of cells while none has been dropped.
 const EVERYWHERE: Range<i64> = -(1 << 60)..1 << 60;
 
 /// Number of cells for which a transform takes about as long as a direct sum over one step.
@@ -156,8 +156,8 @@ impl Fft {
         copy
     }
 
-    /// Changes the densities of lattices for the same nodes with different weights: `change` gets for each cell the
-    /// densities of all of them.
+    /// Changes the densities of lattices for the same nodes with different weights: `change` gets the densities of all
+    /// lattices, cell by cell.
     pub(crate) fn mix(all: &mut [Self], change: impl FnOnce(&mut [f64])) {
         all.iter_mut().for_each(|fft| {
             fft.fold();

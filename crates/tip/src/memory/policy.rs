@@ -1,4 +1,4 @@
-//! Choice between `direct`, `fft` and `modes`, in this file only.
+//! The choice between `direct`, `fft` and `modes`, which is made in this file only.
 
 mod retreats;
 mod saved;
@@ -203,7 +203,7 @@ impl Policy {
         }
     }
 
-    /// All sums times a factor.
+    /// Multiplies all sums by a factor.
     #[cold]
     fn scale(&mut self, factor: f64) {
         self.record.iter_mut().for_each(|record| record.scale(factor));
@@ -261,12 +261,12 @@ impl Policy {
     }
 }
 
-/// Whether a direct sum costs more than the others.
+/// Whether a direct sum costs more than the other memories.
 fn is_long(record: &Record) -> bool {
     record.nodes_within_reach() > CROSSOVER_NODES || record.steps() > CROSSOVER_STEPS
 }
 
-/// The modes, or what serves instead of them if the tip has retreated already.
+/// The modes with their buffer; a lattice replaces them if the tip has already retreated too far.
 fn with_modes(
     tip: &TipFunction,
     fit: Arc<Fit>,
@@ -295,7 +295,8 @@ fn with_fft(
     (Some(record), Now::Fft(fft, instead_of_modes))
 }
 
-/// The record of a lattice has its origin, and what a longer lattice is made from.
+/// Updates buffer and lattice after a change of the lattice: the buffer has the same origin, and a longer lattice is
+/// built from it.
 fn follow(lattice: Lattice, tip: &TipFunction, record: &mut Record, fft: &mut Fft) {
     match lattice {
         Lattice::Same => {}

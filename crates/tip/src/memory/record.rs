@@ -17,7 +17,7 @@ use std::ops::Range;
 /// Number of nodes kept unchanged in a buffer of bounded size: for a tip that moves on, twice as many as lie within
 /// the distance kept, so that most are dropped without compression.
 const MOST_NODES: usize = 1 << 15;
-/// Distance by which the origin of an unbounded buffer moves.
+/// Distance by which the origin of an unbounded buffer moves, in σ.
 const ORIGIN_STEP: f64 = 64.0;
 
 /// Positions with the times spent there.
@@ -88,7 +88,7 @@ impl Record {
         self
     }
 
-    /// A time spent at a displacement from the tip.
+    /// Adds a time spent at a displacement from the tip.
     fn add(&mut self, position: f64, weight: f64) {
         self.make_room(1);
         self.nodes.push((self.position + position, weight));
@@ -225,7 +225,7 @@ impl Record {
         self.places_near(low, high).map(|places| &self.nodes[places])
     }
 
-    /// The same as places in [`nodes`](Self::nodes).
+    /// The blocks of [`blocks_near`](Self::blocks_near) as ranges of indices in [`nodes`](Self::nodes).
     pub(crate) fn places_near(
         &self,
         low: f64,

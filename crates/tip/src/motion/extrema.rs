@@ -56,7 +56,7 @@ impl Extrema {
         }
     }
 
-    /// The earliest extremum, if the largest number of them is kept.
+    /// The earliest extremum kept; `None` while fewer than the largest number are kept.
     pub fn earliest_needed(&self) -> Option<&Turn> {
         if self.latest.len() == MOST { self.latest.front() } else { None }
     }

@@ -42,8 +42,7 @@ impl Oscillation {
         })
     }
 
-    /// The last interval between maxima that contains a period of `slips` maxima, whether or not the motion is
-    /// periodic.
+    /// The last interval of `slips` maxima as if it were a period, whether or not the motion is periodic.
     pub fn with_slips(
         trajectory: &Trajectory,
         latest_first: &[Extremum],

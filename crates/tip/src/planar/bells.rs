@@ -4,19 +4,19 @@
 //!     h(y) = Σ_k a_k e^{-(y/v - δ_k)²/2}        h(y - y') = Σ_m Φ_m(η) φ_m(η'),        Φ_m(η) = Σ_k a_k φ_m(η - δ_k)
 //! ```
 //!
-//! with the [layers](super::layers) φ. Visits have the layers of a single Gaussian, whatever h is; only what is read of
-//! them depends on h. By the Cauchy-Schwarz inequality the error of M layers is at most Σ|`a_k`| times that of a single
-//! Gaussian for visits within a radius and a tip anywhere. The Φ are on the same ladder as the φ.
+//! with the [layers](super::layers) φ. Visits have the layers of a single Gaussian for any h; only the layers that are
+//! read depend on h. By the Cauchy-Schwarz inequality the error of M layers is at most Σ|`a_k`| times that of a single
+//! Gaussian for visits within a radius and a tip anywhere. The Φ obey the same recurrences as the φ.
 
 use super::layers::{Lanes, slopes, values};
 use crate::elementary::exp;
 
-/// h.
+/// A function h across the scan.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bells {
-    /// v
+    /// Width v, in σ.
     width: f64,
-    /// `a_k` and `δ_k`.
+    /// Amplitudes `a_k` and centers `δ_k` in widths.
     terms: Vec<[f64; 2]>,
 }
 
@@ -36,7 +36,7 @@ impl Bells {
         Self { width, terms: terms.flat_map(pair).collect() }
     }
 
-    /// v
+    /// Width v, in σ.
     pub(super) fn width(&self) -> f64 {
         self.width
     }
@@ -72,7 +72,7 @@ impl Bells {
         jet
     }
 
-    /// Φ and its derivative at η.
+    /// Sets `phi` to Φ and `psi` to its derivative at η.
     pub(super) fn read(
         &self,
         eta: f64,

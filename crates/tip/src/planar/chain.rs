@@ -1,7 +1,7 @@
 //! Taylor series of the motion in two coordinates, from the derivatives of the groove under the tip, layer by layer.
 //!
-//! `A_mn = α ∫ w φ_m(η') g⁽ⁿ⁾(x0 - x') dt'`, the layers `φ_m` where the tip is and their derivatives `ψ_m = dφ_m/dη` follow
-//! each other,
+//! `A_mn = α ∫ w φ_m(η') g⁽ⁿ⁾(x0 - x') dt'`, the [layers](super::layers) `φ_m` under the tip and their derivatives `ψ_m
+//! = dφ_m/dη` obey
 //!
 //! ```text
 //!     A_mn' = α φ_m g⁽ⁿ⁾(0) + x0' A_{m,n+1} - A_mn/T          φ_m' = ψ_m y0'/v         ψ_m = √m φ_{m-1} - √(m+1) φ_{m+1}
@@ -9,9 +9,9 @@
 //! ```
 //!
 //! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: M p³/6 products, with the layers in
-//! SIMD lanes. For a footprint of several products each has a groove with layers of its own, and their forces add up. If
-//! the function across is a sum of Gaussians, the layers that are read differ from those that visits contribute to: the
-//! former are [`Bells`] and follow the same ladder, whose end is some orders beyond the layers in use.
+//! SIMD lanes. If the footprint is a sum of products g(x) h(y), each product has a groove with layers of its own, and
+//! their forces add up. If h is a sum of Gaussians, the layers that are read differ from those that visits contribute
+//! to. The former are those of [`Bells`]; they obey the same recurrences, and a few more of them are needed.
 
 use super::bells::Bells;
 use super::ground::Ground;
@@ -22,31 +22,31 @@ use super::weighing::Weighing;
 use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 use multiversion::multiversion;
 
-/// Forces on the tip during the motion.
+/// The terms of the equations of motion during a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Acting {
-    /// κ_y
+    /// Stiffness κ_y of the spring across the scan.
     pub(super) stiffness: f64,
     /// Velocity R' of the support.
     pub(super) support: f64,
     /// 1/T; 0 without healing.
     pub(super) healing: f64,
-    /// M and the velocity of the tip along the scan, if there is inertia.
+    /// M and the velocity of the tip along the scan at the start, with inertia.
     pub(super) inertia: Option<(f64, f64)>,
-    /// Extension R - x0 of the spring.
+    /// Extension R - x0 of the spring at the start.
     pub(super) extension: f64,
-    /// y0
+    /// y0 at the start.
     pub(super) y: f64,
-    /// w now and σ/b, with a depth limit.
+    /// w at the start and ±1/b for the side of the kink, with a depth limit.
     pub(super) depth: Option<(f64, f64)>,
-    /// Height and derivatives of the initial surface, undecayed part, unless it is flat.
+    /// Undecayed part of the height and the derivatives of the initial surface; `None` if it is flat.
     pub(super) relief: Option<Partials>,
 }
 
 /// Second derivatives of the surface under the tip: along, mixed, across.
 pub(super) type Curvatures = [f64; 3];
 
-/// Coefficients of powers of time, up to a given order.
+/// The Taylor coefficients of a step, up to a given order.
 #[derive(Debug, Clone)]
 pub(super) struct Chain {
     order: usize,
@@ -78,7 +78,7 @@ struct Groove {
     /// 1/v, and η at the start.
     per_width: f64,
     eta: f64,
-    /// Row k: coefficients of t^k of A, n after n, each of all layers.
+    /// Row k: coefficients of t^k of `A_mn` for n = 0, 1, …, and for each n of all layers m.
     rows: Vec<Lanes>,
     /// Layers of visits.
     visits: Ladder,
@@ -88,8 +88,8 @@ struct Groove {
     sources: [f64; MOST_ORDER + 1],
 }
 
-/// Layers under the tip as series: of each order ψ, then φ; the highest order first, so that each product of two series is
-/// a sum along both.
+/// Taylor coefficients of the layers under the tip: for each order ψ, then φ. The highest order is first, so that a
+/// product of two series is a sum in the order of both arrays.
 #[derive(Debug, Clone)]
 struct Ladder {
     order: usize,
@@ -114,13 +114,14 @@ impl Ladder {
         bells.read(eta, phi, psi, room);
     }
 
-    /// Orders from k down.
+    /// The coefficients of the orders from k down to 0.
     #[inline(always)]
     fn down_from(&self, groups: usize, k: usize) -> &[Lanes] {
         &self.layers[(self.order - 1 - k) * 2 * groups..]
     }
 
-    /// φ of order k + 1 by `φ' = ψ y0'/v`, and ψ of its neighbours. ψ of the last layer lacks the neighbour above.
+    /// Computes order k + 1 of φ by `φ' = ψ y0'/v`, and from it that of ψ. ψ of the last layer lacks the contribution
+    /// of the layer above.
     #[inline(always)]
     fn advance(&mut self, groups: usize, k: usize, motion: &Motion, per_width: f64) {
         let both = 2 * groups;
@@ -145,7 +146,7 @@ impl Ladder {
         psi[highest] = ROOTS[highest] * phi[highest - 1];
     }
 
-    /// The neighbour above the last layer of a single Gaussian: `ψ = √m φ_{m-1} - η φ_m`, after [`advance`](Self::advance).
+    /// Completes ψ of the last layer after [`advance`](Self::advance), for a single Gaussian: `ψ = √m φ_{m-1} - η φ_m`.
     #[inline(always)]
     fn close(&mut self, groups: usize, k: usize, y: &Series, (eta, per_width): (f64, f64)) {
         let both = 2 * groups;
@@ -246,7 +247,8 @@ impl Chain {
         sum
     }
 
-    /// The coefficients. If the compiler knows the number of groups of a single groove, it unrolls the loops over them.
+    /// Computes the coefficients. If the compiler knows the number of groups of a single groove, it unrolls the loops
+    /// over them.
     #[inline(always)]
     fn coefficients(&mut self, known: Option<usize>, acting: &Acting) {
         if let Some((_, velocity)) = acting.inertia {
@@ -273,7 +275,8 @@ impl Chain {
         }
     }
 
-    /// The next coefficients of the initial surface under the tip, and with a depth limit of height and weight.
+    /// Computes the next coefficients of the initial surface under the tip and, with a depth limit, of height and
+    /// weight.
     #[inline(always)]
     fn next_height(&mut self, known: Option<usize>, k: usize, acting: &Acting) {
         let mut relief = 0.0;
@@ -288,7 +291,7 @@ impl Chain {
         }
     }
 
-    /// The next coefficients of velocities and displacements, from those of the forces of the grooves.
+    /// Computes the next coefficients of velocities and displacements from those of the forces of the grooves.
     #[inline(always)]
     fn advance(&mut self, k: usize, groove: [f64; 2], acting: &Acting) {
         let next = INVERSE[k + 1];
@@ -407,7 +410,7 @@ impl Groove {
         total(&sum)
     }
 
-    /// The next coefficients of layers and of A.
+    /// Computes the next coefficients of layers and of `A_mn`.
     #[inline(always)]
     fn next(
         &mut self,
@@ -425,7 +428,7 @@ impl Groove {
         self.next_row(groups, k, (&motion.along, weighing), acting);
     }
 
-    /// Row k + 1 of A, by `Σ_i x0'_i A_{n+1,k-i}`.
+    /// Computes row k + 1 of `A_mn` by `Σ_i x0'_i A_{n+1,k-i}`.
     #[inline(always)]
     fn next_row(
         &mut self,
@@ -466,10 +469,10 @@ impl Groove {
     }
 }
 
-/// Number of entries of a row that are summed in SIMD lanes.
+/// Number of entries of a row that are summed together.
 const BLOCK: usize = 4;
 
-/// Rows one after the other, with factors of them and one of their sum.
+/// The sum of rows, `stride` entries apart, times their `factors`, multiplied by `scale`.
 struct Sums<'a> {
     rows: &'a [Lanes],
     stride: usize,
@@ -478,7 +481,7 @@ struct Sums<'a> {
 }
 
 impl Sums<'_> {
-    /// Adds the sum of the rows times their factors, from a given entry on; in this order on every machine.
+    /// Adds the sum for the entries of a row from `from` on, in the same order on every machine.
     #[inline(always)]
     fn add<const N: usize>(&self, from: usize, to: &mut [Lanes; N]) {
         let mut sums = [[0.0; LANES]; N];

@@ -7,8 +7,8 @@
 //!     e^{-(y-y')²/2v²} = (v b/(√(2π) s q)) Σ_j e^{-(y-y_j)²/2q²} e^{-(y_j-y')²/2s²}        q² = v² - s²
 //! ```
 //!
-//! Therefore a surface that was carved with f(x,y) = Σ_l g_l(x) h_l(y) consists of rows, each a function of x, at
-//! whatever y the tip was. Unlike layers about a center, rows need no change of the center and no bound on positions.
+//! Therefore a surface carved with f(x,y) = Σ_l g_l(x) h_l(y) is represented by rows, functions of x at the `y_j`, for
+//! any path of the tip. Unlike layers about a center, rows need no change of the center and no bound on positions.
 
 use super::jet::Jet;
 use crate::elementary::exp;

@@ -58,7 +58,7 @@ impl Fft {
     }
 }
 
-/// A separation that a saved state may have: one that a run of some length comes to.
+/// The separation of a saved state, if a run can have reached it.
 fn within(separation: f64, tip: &TipFunction) -> Result<f64, Damaged> {
     let allowed = tip.reach().is_none() && (1.0..=1e6).contains(&separation);
     if allowed { Ok(separation) } else { Err(Damaged::OutOfRange) }

@@ -4,7 +4,7 @@ use crate::Model;
 use crate::elementary::{log10, pow};
 
 /// Allowed error of x0 due to the fit, in units of the tolerance of the run. Motions near onset amplify it a
-/// hundredfold, as they do the error of a step, which is allowed as much.
+/// hundredfold, as they amplify the error of a step.
 const SHARE: f64 = 0.025;
 /// Factor of this share for a tip with M > 1/2: it turns where its groove does not hold it, and carves another
 /// groove.
@@ -33,10 +33,11 @@ const FINEST_OF_SWINGING: f64 = 5e-14;
 /// stiffness 1. For a tip that sticks for a time T the change is α ε T, but the groove made meanwhile has the
 /// stiffness α T |f''(0)|: the displacement is ε/|f''(0)| for any T.
 ///
-/// Under a depth limit b an error of the height, α times that of f times the time spent within reach, changes the
-/// indentation rate in proportion to its ratio to b. If α is above b, this effect is the larger one.
+/// With a depth limit b, an error of f changes the height by α times this error and the time spent within reach. The
+/// ratio of this change to b is the relative error of the indentation rate. If α is above b, this effect is the larger
+/// one.
 ///
-/// Rounded to quarter decades, so that similar runs share a fit.
+/// The result is rounded down to quarter decades, so that similar runs share a fit.
 pub fn accuracy_needed(model: &Model, tolerance: f64) -> f64 {
     let limit = model.wider().depth_limit.unwrap_or(f64::INFINITY);
     let of_height = (limit / (HEIGHTS * model.alpha().abs())).min(1.0);

@@ -11,17 +11,17 @@ use crate::exponential::of_lanes as exp;
 use powers::Powers;
 use std::sync::Arc;
 
-/// The terms in real arithmetic, in groups that fill the machine's vectors.
+/// The terms in real arithmetic, in groups that fill the SIMD vectors.
 #[derive(Debug, Clone)]
 pub(super) struct Bank {
     groups: Vec<Group>,
     tables: Arc<Tables>,
 }
 
-/// What of it follows from the terms alone.
+/// The part of a bank that follows from the terms alone.
 #[derive(Debug, Clone)]
 pub(crate) struct Tables {
-    /// Nothing remembered.
+    /// The groups of a bank without a past.
     groups: Vec<Group>,
     powers: Vec<Powers>,
     /// `lengths[k]` is the distance up to which degree k + `LOWEST_DEGREE` expands every term.
@@ -41,7 +41,7 @@ struct Group {
 }
 
 pub(crate) const LOWEST_DEGREE: usize = 3;
-/// Expansions err by at most this fraction of the fit.
+/// Allowed error of an expansion, relative to that of the fit.
 const SHARE_OF_EXPANSION: f64 = 0.01;
 
 impl Tables {
@@ -67,14 +67,14 @@ impl Tables {
         self.groups.iter().zip(&self.powers).map(|(group, powers)| (&group.exponent, &powers[..]))
     }
 
-    /// The degree that expands every `e^{s_j y}` for |y| ≤ radius.
+    /// The degree that expands every `e^{s_j y}` for |y| ≤ radius; `None` if no degree suffices.
     pub(crate) fn degree(&self, radius: f64) -> Option<usize> {
         let k = self.lengths.partition_point(|length| *length < radius);
         (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
     }
 
-    /// Passes visits of a tip that moves from `start` to the last of them to `each`: all at once, or in parts where no
-    /// expansion reaches so far. Each visit has `count` weights.
+    /// Passes the visits of a tip that moves from `start` to the last visit to `each`: in one part if an expansion is
+    /// valid for all of them, otherwise in several. Each visit has `count` weights.
     pub(crate) fn each_part<'a, W>(
         &self,
         start: f64,
@@ -95,13 +95,14 @@ impl Tables {
     }
 }
 
-/// Visits of a tip that moves by twice `half`, about the middle of its way.
+/// Visits of a tip that moves by twice `half`, expanded about the middle of this displacement.
 pub(crate) struct ExpandedPart<'a, W> {
     pub(crate) position: &'a [f64],
     pub(crate) weights: &'a [W],
     pub(crate) middle: f64,
     pub(crate) half: f64,
-    /// The degree that expands every exponential about the middle; `None` for one visit that none reaches.
+    /// The degree that expands every exponential about the middle; `None` for a single visit too far from the middle
+    /// for any degree.
     pub(crate) degree: Option<usize>,
 }
 
@@ -110,8 +111,7 @@ impl Bank {
         Self { groups: tables.groups.clone(), tables: Arc::clone(tables) }
     }
 
-    /// z of each term times a factor, real and imaginary parts in turn; where the last group is not full, some more that
-    /// are 0.
+    /// Sets `states` to z of each term times a factor, real and imaginary parts in turn. Zeros fill up the last group.
     pub(super) fn all_states(&self, factor: f64, states: &mut Vec<f64>) {
         states.resize(2 * LANES * self.groups.len(), 0.0);
         let (rooms, _) = states.as_chunks_mut::<{ 2 * LANES }>();
@@ -123,14 +123,14 @@ impl Bank {
         }
     }
 
-    /// Nothing remembered any more.
+    /// Clears the past.
     pub(super) fn clear(&mut self) {
         for group in &mut self.groups {
             group.state = ([0.0; LANES], [0.0; LANES]);
         }
     }
 
-    /// All that is remembered times a factor.
+    /// Multiplies all states by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         for group in &mut self.groups {
             for i in 0..LANES {
@@ -187,8 +187,8 @@ impl Bank {
         height.iter().sum()
     }
 
-    /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there; with its
-    /// height at the center if that is wanted.
+    /// The groove within `radius` of a displacement from the tip, if a polynomial is accurate there; with its height at
+    /// the center on request.
     pub(super) fn expand(
         &self,
         center: f64,
@@ -240,8 +240,8 @@ fn displace(groups: &mut [Group], moved: f64) {
     }
 }
 
-/// How far each degree K expands all terms: `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share of the accuracy of
-/// the fit, and `|w| e^{|s|ρ}`, the size of what cancels, below what round-off may amount to.
+/// Largest distances ρ up to which each degree K expands all terms. There `|w| (|s|ρ)^{K+1}/(K+1)!` stays below a share
+/// of the accuracy of the fit. The round-off of cancelling terms of size `|w| e^{|s|ρ}` stays below its allowed value.
 pub(crate) fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
     let share = SHARE_OF_EXPANSION * error / terms.len() as f64;
     let sizes = terms.iter().map(|t| (norm(t.exponent), norm(t.weight).max(f64::MIN_POSITIVE)));

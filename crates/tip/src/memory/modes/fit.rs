@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from slightly behind 0 on, with its certified error.
+/// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -(allowed retreat), with its certified error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     terms: Vec<Term>,
@@ -26,7 +26,7 @@ pub struct Fit {
 /// Reasons why f' has no fit.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum FitError {
-    /// J0 decays like 1/√ξ, which no few exponentials approximate.
+    /// J0 decays like 1/√ξ, which no sum of few exponentials approximates.
     #[error(
         "the memory modes needs a footprint that decays; this one does not (J0 falls like 1/√x): use the memory fft"
     )]
@@ -49,26 +49,29 @@ pub enum FitError {
     },
 }
 
-/// Samples of the pencil over reach and retreat: they resolve three smooth lobes. Beyond the reach they hold down what would
-/// go on there, up to a thousand times the error within: by a tenth of the way it is worth a pair or two, by a fifth weights
-/// are twice as large.
-/// Below [`CHEAP`] exponents feel the round-off of samples: more of them feel it less.
+/// Number of samples of the pencil, and their extent relative to reach plus retreat. The second pair of numbers is for
+/// accuracies below [`CHEAP`], where more samples reduce the effect of their round-off. The samples resolve three
+/// smooth lobes. Those beyond the reach suppress the sum there, which could be a thousand times the error within. An
+/// extent of 1.1 saves a pair or two of exponentials; 1.2 would double the weights.
 const SAMPLES: [(usize, f64); 2] = [(127, 1.1), (159, 1.1)];
-/// And where no lattice is fine enough: more of them, extended into what is zero, or the slowest term is left
-/// free to end there.
+/// The same if no lattice is fine enough: the samples extend farther into the range where f' is 0, because they would
+/// not determine the decay of the slowest term otherwise.
 const MORE_SAMPLES: (usize, f64) = (191, 1.4);
-/// Below this accuracy the pencil's terms cancel so much that a lattice does better, sooner found too.
+/// Below this accuracy the terms of the pencil cancel so much that a lattice is better; it is also found sooner.
 const FINEST_OF_PENCIL: f64 = 2e-12;
-/// Below this slips make the error of a fit that of a run: one pair more, for a fifth of it, is looked at.
+/// Below this accuracy, slips amplify the error of a fit to that of a run. Therefore one pair more is tried, which
+/// reduces the error to about a fifth.
 const CHEAP: f64 = 1e-10;
 const SPARE: f64 = 0.3;
-/// Lattices of exponents, where the pencil does not suffice: the period over reach and retreat.
+/// Periods of the lattices of exponents, relative to reach plus retreat. Lattices are used if the pencil does not
+/// suffice.
 const PERIODS: [f64; 4] = [1.3, 1.6, 2.0, 2.4];
-/// Allowed error due to the images of f' and the omitted waves, over the required accuracy.
+/// Allowed error due to the images of f' and the omitted waves, relative to the required accuracy.
 const SHARE_OF_LATTICE: f64 = 0.1;
 /// Largest number of pairs: a lattice with more exponents would cost more than `fft`.
 const MOST_PAIRS: usize = 64;
-/// Allowed error due to cancellation between terms, over the required accuracy; otherwise expansions would be short.
+/// Allowed error due to cancellation between terms, relative to the required accuracy; otherwise expansions would be
+/// short.
 const SHARE_OF_ROUND_OFF: f64 = 0.1;
 const LEAST_ROUND_OFF: f64 = 2e-15;
 /// Number of samples for least squares, as a multiple of those of the pencil.
@@ -229,7 +232,7 @@ impl Fit {
         self.retreat
     }
 
-    /// Distance behind the farthest point at which a step may begin, so that all its evaluations are valid.
+    /// Largest distance behind the farthest point at which a step may begin, so that all its evaluations are valid.
     pub fn retreat_between_steps(&self) -> f64 {
         self.between_steps
     }
@@ -247,7 +250,7 @@ impl Fit {
         })
     }
 
-    /// Whether the error of f' is at most the required one, and changes sign: its area over two widths is no larger.
+    /// Whether the error of f' and its integral are small enough, and the terms do not cancel too much.
     fn meets(&self, window: &Window) -> bool {
         let wanted = self.wanted;
         let largest = self.terms.iter().fold(0.0, |m: f64, t| m.max(norm(t.weight)));
@@ -320,8 +323,9 @@ fn by_pencil(
     met
 }
 
-/// Exponents s = -a ± iκk on a lattice: more of them, but without a search. `f' e^{aξ}` is a Fourier series whose
-/// period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`. `largest` is max |f'|.
+/// A fit with exponents s = -a ± iκk on a lattice: more exponents than from a pencil, but without a search. `f' e^{aξ}`
+/// is a Fourier series whose period P exceeds the reach; its images, P further on, are damped by `e^{-aP}`. `largest`
+/// is max |f'|.
 fn damped_fourier(
     tip: &TipFunction,
     (window, largest): (&Window, f64),

@@ -2,7 +2,7 @@
 
 use crate::collocation::{STAGES, Stages};
 
-/// Of expansions.
+/// Highest degree of expansions.
 pub(crate) const HIGHEST_DEGREE: usize = 40;
 
 /// The slope of the groove about a point near the tip: `Σ_k c_k (x - center)^k`.
@@ -17,13 +17,13 @@ pub(super) struct LocalGroove {
 }
 
 impl LocalGroove {
-    /// None yet.
+    /// A polynomial that is valid nowhere.
     pub(super) fn nowhere() -> Self {
         let coefficients = [0.0; HIGHEST_DEGREE + 1];
         Self { center: 0.0, radius: -1.0, degree: 0, coefficients, height: None }
     }
 
-    /// All coefficients 0, to be filled in.
+    /// Sets the range and the degree. Returns the coefficients, all 0, to be filled in.
     pub(super) fn about(&mut self, center: f64, radius: f64, degree: usize) -> &mut [f64] {
         (self.center, self.radius, self.degree, self.height) = (center, radius, degree, None);
         self.coefficients[..=degree].fill(0.0);
@@ -43,7 +43,7 @@ impl LocalGroove {
         at.iter().all(|at| (at - self.center).abs() <= self.radius)
     }
 
-    /// Slope and curvature, at as many points at a time as a step has.
+    /// Slope and curvature at these points, computed for as many at a time as a step has stages.
     pub(super) fn read(&self, at: &[f64], slope: &mut [f64], curvature: &mut [f64]) {
         let (whole, rest) = at.as_chunks();
         let (slopes, slope_rest) = slope.as_chunks_mut();
@@ -73,7 +73,7 @@ impl LocalGroove {
         }
     }
 
-    /// The height, `h + Σ_k c_k/(k+1) (x - center)^{k+1}` with h that at the center.
+    /// The height at these points, `h + Σ_k c_k/(k+1) (x - center)^{k+1}` with the height h at the center.
     pub(super) fn read_height(
         &mut self,
         at: &[f64],

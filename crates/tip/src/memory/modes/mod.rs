@@ -31,9 +31,9 @@ use local::LocalGroove;
 use num_complex::Complex;
 use std::sync::Arc;
 
-/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` from minus the retreat on, the groove at `at` from the tip is
-/// `Σ_j Re(w_j z_j e^{s_j at})`. The state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` contains the whole past. It decays as the tip moves
-/// on, and the cost of a step is constant.
+/// With f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -(allowed retreat), the slope of the groove at a displacement ξ from
+/// the tip is `Σ_j Re(w_j z_j e^{s_j ξ})`. The state `z_j = ∫ e^{s_j (x_tip - x0(t'))}dt'` contains the whole past. It
+/// decays as the tip moves on, and the cost of a step is constant.
 ///
 /// The error is that of the [`Fit`], as long as the groove is evaluated no farther back than the retreat behind the
 /// farthest point of the tip.
@@ -46,8 +46,8 @@ pub(super) struct Modes {
     farthest: f64,
 }
 
-/// Factor of the radius of an expansion over that of the requested stages, because the next iteration of Newton's
-/// method requests points close to them.
+/// Radius of an expansion, relative to that of the requested points: the next iteration of Newton's method requests
+/// points close to them.
 const BEYOND_THE_STAGES: f64 = 1.05;
 
 impl Modes {

@@ -9,11 +9,11 @@ use nalgebra::{DMatrix, Schur, SymmetricEigen};
 use num_complex::Complex;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The signal space of evenly spaced samples `y_n`, an odd number of them: the singular vectors of the Hankel matrix
-/// `H_ij = y_{i+j}`, which is symmetric, so that they are its eigenvectors, for half the work.
+/// The signal space of an odd number of evenly spaced samples `y_n`: the singular vectors of the Hankel matrix `H_ij =
+/// y_{i+j}`. The matrix is symmetric, so that its eigenvectors serve, for half the work.
 ///
-/// For `y_n = Σ_j c_j λ_j^n` with p terms, the first p of them span the same space as the vectors
-/// `(1, λ_j, λ_j², …)`; one row further down, that space is multiplied by a matrix of eigenvalues `λ_j`.
+/// For `y_n = Σ_j c_j λ_j^n` with p terms, the first p singular vectors span the same space as the vectors `(1, λ_j,
+/// λ_j², …)`. A shift by one row multiplies this space by a matrix with the eigenvalues `λ_j`.
 pub(super) struct Pencil {
     spacing: f64,
     vectors: DMatrix<f64>,
@@ -22,11 +22,11 @@ pub(super) struct Pencil {
 
 const MOST_SWEEPS: usize = 1000;
 
-/// So many are remembered: a run and its judgement ask for sums to several accuracies from the same samples.
+/// Number of pencils kept: a run and its classification need fits of several accuracies from the same samples.
 const MOST_KEPT: usize = 4;
 
 impl Pencil {
-    /// As [`new`](Self::new), or as made before from the same samples.
+    /// As [`new`](Self::new), or an earlier pencil of the same samples.
     pub(super) fn cached(samples: &[f64], spacing: f64) -> Option<Arc<Self>> {
         type Known = (Vec<f64>, f64, Option<Arc<Pencil>>);
         static CACHE: Mutex<Vec<Known>> = Mutex::new(vec![]);
@@ -50,7 +50,7 @@ impl Pencil {
         })
     }
 
-    /// Of samples that are `spacing` apart, the last of an even number of them left out.
+    /// The pencil of samples that are `spacing` apart; the last one is omitted if their number is even.
     fn new(samples: &[f64], spacing: f64) -> Option<Self> {
         let rows = samples.len().div_ceil(2);
         let hankel = DMatrix::from_fn(rows, rows, |i, j| samples[i + j]);
@@ -73,7 +73,7 @@ impl Pencil {
         self.singular.partition_point(|s| *s > floor).min(self.vectors.nrows() - 2)
     }
 
-    /// Exponents s of p terms `e^{sξ}`, one of each conjugate pair; `None` if one of them grows.
+    /// Exponents s of p terms `e^{sξ}`, one of each conjugate pair; `None` if one of them grows or is not resolved.
     pub(super) fn exponents(&self, p: usize) -> Option<Vec<Complex<f64>>> {
         // Of no terms there are no eigenvalues, which nalgebra looks for all the same.
         if p == 0 {

@@ -7,16 +7,16 @@ use super::term::Term;
 use crate::memory::derivatives::{Derivatives, ROOM};
 use multiversion::multiversion;
 
-/// Lanes that are summed side by side.
+/// Number of SIMD lanes.
 const LANES: usize = 4;
 pub(crate) type Row = [f64; ROOM];
 
 /// `w_j s_j^{n-1}`, n = 0, 1, …
 #[derive(Debug, Clone)]
 pub(crate) struct Powers {
-    /// Of each term a row for the real part of its state and one for the imaginary part.
+    /// For each term, a row for the real part of its state and one for the imaginary part.
     rows: Vec<Row>,
-    /// The derivatives of f at 0, as the sum has them.
+    /// The derivatives at 0 of the sum of exponentials for f.
     of_tip: Row,
 }
 
@@ -37,25 +37,25 @@ impl Powers {
         Self { rows, of_tip }
     }
 
-    /// `Re(w_j s_j^{n-1})` of each term, and -Im of it.
+    /// For each term, a row of `Re(w_j s_j^{n-1})` and one of `-Im(w_j s_j^{n-1})`, n = 0, 1, …
     pub(crate) fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// The derivatives of f at 0, as the sum has them.
+    /// The derivatives at 0 of the sum of exponentials for f.
     pub(crate) fn of_tip(&self) -> &Row {
         &self.of_tip
     }
 
-    /// The first `count` derivatives, and as many more as fill the lanes, of these states: real and imaginary parts in
-    /// turn.
+    /// Computes the first `count` derivatives, and further ones that fill the lanes. `states` contains real and
+    /// imaginary parts in turn.
     pub(super) fn derivatives(&self, states: &[f64], count: usize, told: &mut Derivatives) {
         told.of_tip = self.of_tip;
         sums(&self.rows, states, count, &mut told.past);
     }
 }
 
-/// Compiled for wider vectors too: each lane is a sum of its own.
+/// Also compiled for wider vectors: each lane is a separate sum.
 #[multiversion(targets("x86_64+avx2"))]
 fn sums(rows: &[Row], states: &[f64], count: usize, past: &mut Row) {
     match count.div_ceil(LANES) {
@@ -68,7 +68,7 @@ fn sums(rows: &[Row], states: &[f64], count: usize, past: &mut Row) {
     }
 }
 
-/// Row times state, in the order of the terms: the same bits on every machine.
+/// Sums of rows times states, in the order of the terms: the same bits on every machine.
 #[inline(always)]
 fn groups<const GROUPS: usize>(rows: &[Row], states: &[f64], past: &mut Row) {
     let mut sums = [[0.0; LANES]; GROUPS];

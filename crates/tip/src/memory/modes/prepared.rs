@@ -1,4 +1,4 @@
-//! What follows from a fit alone: made once for each, and shared by the runs that use it.
+//! Tables that follow from a fit alone, made once for each fit and shared by the runs that use it.
 
 use super::bank::Tables;
 use super::fit::Fit;
@@ -12,11 +12,11 @@ pub(crate) struct Prepared {
     pub(crate) powers: Powers,
 }
 
-/// So many fits are remembered.
+/// Number of fits whose tables are kept.
 const MOST: usize = 32;
 
 impl Prepared {
-    /// For this fit, or as made before.
+    /// The tables for this fit, made at its first use.
     pub(crate) fn cached(fit: &Arc<Fit>) -> Arc<Self> {
         static CACHE: Mutex<Vec<(Arc<Fit>, Arc<Prepared>)>> = Mutex::new(vec![]);
         // A thread that panicked did not leave half an entry behind.

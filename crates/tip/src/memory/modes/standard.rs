@@ -1,6 +1,6 @@
-//! Exponentials of the footprints that commands take by default: found once, for they cost more than most runs.
+//! Exponentials for the default footprints of the commands, stored because fitting them takes longer than most runs.
 //!
-//! They are those that [`Fit::reaching_back`](super::Fit::reaching_back) finds, to the last bit.
+//! They equal the results of [`Fit::reaching_back`](super::Fit::reaching_back) to the last bit.
 
 use super::certificate::FitCertificate;
 use super::term::Term;
@@ -8,7 +8,7 @@ use crate::elementary::{log10, pow};
 use crate::tip_function::{Gaussian, TipFunction};
 use num_complex::Complex;
 
-/// Sums and their certificates; its first lines say what a line contains.
+/// Sums and their certificates; the first lines of the file explain its format.
 const TABLE: &str = include_str!("standard/table.txt");
 
 const fn gaussian(amplitude: f64, center: f64) -> Gaussian {
@@ -19,7 +19,7 @@ const TRIPLE_GAUSSIAN: [Gaussian; 3] =
     [gaussian(1.0, 0.0), gaussian(-0.5, -2.0), gaussian(-0.5, 2.0)];
 const GAUSSIAN: [Gaussian; 1] = [gaussian(1.0, 0.0)];
 
-/// The terms, if they are known: of these footprints, to a whole quarter of a decade.
+/// The stored terms; `None` for another footprint, or an accuracy that is not a quarter of a decade in the table.
 pub(super) fn known(tip: &TipFunction, wanted: f64) -> Option<(Vec<Term>, FitCertificate)> {
     let TipFunction::Gaussians(sum) = tip else { return None };
     let name = match sum.terms() {
@@ -50,7 +50,7 @@ fn numbers<const N: usize>(line: &str) -> Option<[f64; N]> {
     numbers.ok()?.try_into().ok()
 }
 
-/// 10^(-quarters/4), as [`accuracy_needed`](super::accuracy_needed) has it.
+/// 10^(-quarters/4), computed as in [`accuracy_needed`](super::accuracy_needed).
 fn accuracy(quarters: u32) -> f64 {
     pow(10.0, -f64::from(quarters) / 4.0)
 }

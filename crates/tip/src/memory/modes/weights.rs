@@ -4,7 +4,7 @@ use crate::elementary::complex_exp;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
-/// w that make `Σ_j Re(w_j e^{s_j ξ})` the nearest to the samples (ξ, f'(ξ)).
+/// The weights `w_j` for which `Σ_j Re(w_j e^{s_j ξ})` is nearest to the samples (ξ, f'(ξ)).
 ///
 /// A pair of exponents is two real columns, `Re e^{sξ}` and `-Im e^{sξ}`; in complex arithmetic the weights
 /// would lose the symmetry of the pair, and with it four digits.

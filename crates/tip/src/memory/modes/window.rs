@@ -7,13 +7,15 @@ use std::f64::consts::FRAC_PI_2;
 /// Expected retreat of a tip behind its farthest point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Retreat {
-    /// By δ at most: a tip held by friction alone moves back only if it is pushed.
+    /// At most δ, half the width of a Gaussian footprint: without inertia a tip moves back only if it is pushed.
     Small,
-    /// By 2δ: with inertia it overshoots, and swings back after each slip. The fit requires one or two terms more.
+    /// At most 2δ: with inertia the tip overshoots, and swings back after each slip. The fit requires one or two terms
+    /// more.
     Swing,
 }
 
-/// δ over the distance within which f falls about its apex, and what a tip that swings back is allowed over that.
+/// δ, relative to the distance over which f decreases at its apex, and allowed retreat of a resonant tip, relative to
+/// δ.
 const DELTA: f64 = 0.5;
 const SWING: f64 = 2.0;
 /// Share of δ that a step must leave free at its start for evaluations of the groove.
@@ -49,7 +51,7 @@ impl Window {
         Self { retreat, between_steps: LOOKS * retreat, ..self }
     }
 
-    /// Largest area that an error of this size may have: over two widths of a Gaussian.
+    /// Allowed integral of an error of at most this size: as if it extended over two widths of a Gaussian.
     pub(super) fn area(&self, error: f64) -> f64 {
         4.0 * self.delta * error
     }
@@ -63,7 +65,7 @@ fn delta(tip: &TipFunction, reach: f64) -> f64 {
     DELTA * apex.max(tip.widths(1.0))
 }
 
-/// Points (ξ, f'(ξ)) at n values from -(the retreat) to the end, denser near the former, where a fit is least
+/// Points (ξ, f'(ξ)) at n values from -(the retreat) to the end, denser near -(the retreat), where a fit is least
 /// constrained.
 pub(super) fn samples(tip: &TipFunction, (retreat, end): (f64, f64), n: usize) -> Vec<(f64, f64)> {
     let sample = |i: usize| {

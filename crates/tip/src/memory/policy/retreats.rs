@@ -10,7 +10,7 @@ use crate::TipFunction;
 pub(super) struct Retreats {
     pub(super) fft: Option<Box<Fft>>,
     pub(super) count: u64,
-    /// The lattice has what may be seen from so far behind the farthest point.
+    /// Distance behind the farthest point up to which the lattice contains all visits within reach.
     pub(super) farthest_back: f64,
 }
 
@@ -18,7 +18,7 @@ pub(super) struct Retreats {
 const NEAR: f64 = 4.0;
 
 impl Retreats {
-    /// The tip is so far behind its farthest point.
+    /// Begins a retreat of a tip that is at the distance `back` behind its farthest point.
     pub(super) fn begin(&mut self, tip: &TipFunction, record: &Record, back: f64) {
         let near = NEAR * tip.reach().unwrap_or(f64::INFINITY);
         self.fft = Some(Box::new(Fft::new(tip, record.near(-near, back))));
@@ -26,7 +26,7 @@ impl Retreats {
         self.count += 1;
     }
 
-    /// Likewise, later on.
+    /// Continues the retreat; builds a longer lattice if the tip is too far back for the first one.
     pub(super) fn goes_on(&mut self, tip: &TipFunction, record: &Record, back: f64) {
         if back > self.farthest_back {
             self.fft = Some(Box::new(Fft::new(tip, record.all())));

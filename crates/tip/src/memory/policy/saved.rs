@@ -1,4 +1,4 @@
-//! The memory, written down and taken up again.
+//! Saving and restoring the memory.
 
 use super::{Fft, Now, Policy, Record, Retreats};
 use crate::memory::MemoryChoice;
@@ -28,7 +28,7 @@ impl Saved for Policy {
         }
     }
 
-    /// On a memory made by the same choices.
+    /// Restores a memory that was made with the same arguments.
     fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         self.fading.restore(state)?;
         if self.choice == MemoryChoice::Auto {

@@ -25,7 +25,7 @@ pub(super) struct Bins {
     pub(super) first: i64,
     /// Whether bins have been dropped behind `first`,
     pub(super) dropped: bool,
-    /// and whether they have been looked for since.
+    /// and whether the memory has been evaluated there since.
     pub(super) missed: bool,
 }
 
@@ -40,7 +40,7 @@ impl Bins {
         BINS_PER_ORIGIN as f64 * self.length
     }
 
-    /// By whole bins.
+    /// Moves the origin by a whole number of bins.
     pub(super) fn move_origin(&mut self, shift: f64) {
         if self.moments.is_empty() && !self.dropped {
             return;
@@ -66,7 +66,7 @@ impl Bins {
         MOST_BINS as f64 * self.length
     }
 
-    /// Removes those of these nodes, and of the bins, that are farther behind than the distance kept.
+    /// Removes nodes and bins that are farther behind than the distance kept.
     pub(super) fn forget(&mut self, visits: &mut Vec<(f64, f64)>) {
         let farthest = visits.iter().map(|visit| visit.0).fold(f64::NEG_INFINITY, f64::max);
         let end = if self.moments.is_empty() { i64::MIN } else { self.end() };

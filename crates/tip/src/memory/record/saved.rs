@@ -1,4 +1,4 @@
-//! The record, written down and taken up again.
+//! Saving and restoring the history buffer.
 
 use super::bins::{MOMENTS, MOST_BINS};
 use super::{Kept, MOST_NODES, ORIGIN_STEP, Record};
@@ -7,7 +7,7 @@ use crate::collocation::STAGES;
 use crate::state::{Damaged, Reader, State};
 
 impl Record {
-    /// Blocks one by one, or nodes and bins. What is kept on a lattice is written with the lattice.
+    /// Writes the blocks, or the nodes and bins. The buffer of a lattice is written with the lattice.
     pub(crate) fn save(&self, state: &mut State) {
         state.number(self.position);
         match &self.kept {
@@ -78,7 +78,7 @@ impl Record {
         Ok(())
     }
 
-    /// What a lattice brings along: visits about its origin.
+    /// The buffer of a restored lattice, with nodes about the origin of the lattice.
     pub(in crate::memory) fn restored_on_lattice(
         tip: &TipFunction,
         position: f64,
@@ -98,7 +98,7 @@ impl Record {
     }
 }
 
-/// Positions, then weights; a short block is filled up with its last position, where no time was spent.
+/// Writes positions, then weights. A short block is filled up with its last position and weight 0.
 fn save_block(nodes: &[(f64, f64)], state: &mut State) {
     let last = nodes.last().map_or(0.0, |node| node.0);
     let padding = || std::iter::repeat_n((last, 0.0), STAGES - nodes.len());

@@ -79,7 +79,7 @@ fn powers_of<const N: usize>(s: Complex<f64>, factor: Complex<f64>) -> [[f64; 2]
 pub(super) struct Past {
     /// Real and imaginary part of each.
     states: Vec<[Lanes; 2]>,
-    /// Room for the moments of the visits.
+    /// Room for the results of [`moments_about`].
     moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,
 }
 
@@ -218,7 +218,7 @@ impl Past {
     }
 }
 
-/// A part of a step: from where to where the tip moves on it, and which of the visits are there.
+/// A part of a step: displacements of the tip at its start and end, and the range of the visits in it.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     start: f64,
@@ -226,11 +226,11 @@ struct Stretch {
     nodes: (usize, usize),
 }
 
-/// Largest length of a step, in stretches.
+/// Largest number of stretches of a step.
 pub(super) const MOST_STRETCHES: usize = 8;
 
 impl Stretch {
-    /// The one after this: to the end, or as far as all of it is so near to its middle.
+    /// The next stretch: up to the end of the step, or of length 2 `longest`.
     #[inline(always)]
     fn next(
         self,
@@ -251,7 +251,8 @@ impl Stretch {
     }
 }
 
-/// The places of the first visits, by Horner's rule. Three at a time: of four, compilers make vectors across them.
+/// The positions of the first `count` visits, by Horner's rule for three at a time: with four, compilers make vectors
+/// of visits instead of lanes.
 #[inline(always)]
 fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, count: usize) {
     const CHAINS: usize = 3;
@@ -267,7 +268,8 @@ fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, count: usize)
     }
 }
 
-/// `half^m/m!` and `Σ_k weight_k off_k^m/m!`: coefficients of e^{s half}, and of what the visits leave.
+/// `half^m/m!` and `Σ_k weight_k off_k^m/m!`: coefficients of the powers of s in e^{s half} and in the contribution of
+/// the visits.
 #[inline(always)]
 fn moments_about(
     half: Lanes,
@@ -293,7 +295,7 @@ fn moments_about(
     }
 }
 
-/// With E = e^{s half} and N what the visits leave, z becomes E (E z + N).
+/// With E = e^{s half} and the contribution N of the visits, z becomes E (E z + N).
 #[inline(always)]
 fn carry(state: &mut [Lanes; 2], powers: &[[f64; 2]], moments: &[[Lanes; 2]]) {
     let zero = [Lanes::ZERO; 2];

@@ -1,4 +1,4 @@
-//! How long the next steps are to be: as [`plan`](super::super::plan) has it for one motion, under the basic law.
+//! Lengths of the next steps of several motions in the basic model. For one motion see [`plan`](super::super::plan).
 
 use super::super::length::{LAST, exp2, log2};
 use super::super::pieces;
@@ -8,13 +8,13 @@ use super::Limits;
 use super::lanes::Lanes;
 use crate::collocation::STAGES;
 
-/// Steps before they are made.
+/// Planned steps.
 pub(super) struct Plan {
-    /// As long as series, exponentials and rules are good.
+    /// Lengths up to which series, exponentials and quadrature rules are accurate.
     pub(super) over: Lanes,
-    /// The longest piece, as a part of that.
+    /// The longest piece, as a fraction of `over`.
     pub(super) piece: Lanes,
-    /// Displacement per time at its fastest.
+    /// Largest speed in the step, approximately.
     pub(super) fastest: Lanes,
 }
 
@@ -22,7 +22,7 @@ impl Plan {
     pub(super) const NONE: Self =
         Self { over: Lanes::ZERO, piece: Lanes::ZERO, fastest: Lanes::ZERO };
 
-    /// From series of displacements.
+    /// The plan for these series of displacements.
     #[inline(always)]
     pub(super) fn of(limits: &Limits, series: &[Lanes]) -> Self {
         let mut over = length(series, limits.error);
@@ -62,13 +62,13 @@ fn length(series: &[Lanes], error: f64) -> Lanes {
     shortest.map(exp2)
 }
 
-/// Values of series.
+/// Values of the series at these times.
 #[inline(always)]
 fn value(series: &[Lanes], at: Lanes) -> Lanes {
     series.iter().rev().fold(Lanes::ZERO, |value, coefficient| value * at + *coefficient)
 }
 
-/// Requirements on the series over lengths.
+/// As [`Outlook`](super::super::values::Outlook), for each motion.
 struct Outlook {
     moved: Lanes,
     fastest: Lanes,

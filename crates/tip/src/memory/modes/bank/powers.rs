@@ -1,4 +1,4 @@
-//! Real polynomials of the exponents, of which a state carried on is made: `Σ_m c_m s_j^m` is a table times a vector.
+//! Real polynomials in the exponents, which advance the states by a step: `Σ_m c_m s_j^m` is a table times a vector.
 
 use super::super::local::HIGHEST_DEGREE;
 use super::{Group, LANES, Lane, product, sum};
@@ -13,7 +13,7 @@ type Coefficients = [f64; ROOM];
 
 const INVERSE_FACTORIALS: Coefficients = inverse_factorials();
 
-/// Of a group's exponents.
+/// The powers of the exponents of a group.
 pub(super) fn powers(exponent: (Lane, Lane)) -> Powers {
     let mut powers = [([1.0; LANES], [0.0; LANES]); HIGHEST_DEGREE + 1];
     for m in 0..HIGHEST_DEGREE {
@@ -22,7 +22,8 @@ pub(super) fn powers(exponent: (Lane, Lane)) -> Powers {
     powers
 }
 
-/// `Σ_k weight_k (from - position_k)^m/m!`: those of `Σ_k weight_k e^{s (from - position_k)}`, four powers side by side.
+/// `Σ_k weight_k (from - position_k)^m/m!`: the coefficients of `Σ_k weight_k e^{s (from - position_k)}` in powers of
+/// s, four in the SIMD lanes.
 #[inline(always)]
 fn moments<const GROUPS: usize>(position: &[f64], weight: &[f64], from: f64) -> Coefficients {
     let mut sums = [[0.0; LANES]; GROUPS];
@@ -49,9 +50,9 @@ fn moments<const GROUPS: usize>(position: &[f64], weight: &[f64], from: f64) -> 
     moments
 }
 
-/// The state after visits: with E = e^{s half} it is `E (E z + Σ_k weight_k e^{s (middle - position_k)})`.
+/// Advances each state z by visits, to `E (E z + Σ_k weight_k e^{s (middle - position_k)})` with E = e^{s half}.
 ///
-/// Compiled for wider vectors too: lanes and the order of sums are the same.
+/// Also compiled for wider vectors: lanes and the order of sums are the same.
 #[multiversion(targets("x86_64+avx2"))]
 pub(super) fn carry(
     groups: &mut [Group],

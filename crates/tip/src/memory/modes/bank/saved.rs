@@ -1,10 +1,10 @@
-//! The state of the sum, written down and taken up again.
+//! Saving and restoring the state of the sum.
 
 use super::Bank;
 use crate::state::{Damaged, Reader, State};
 
 impl Bank {
-    /// The state `z_j`, and the exponents that it belongs to.
+    /// Writes the states `z_j` and their exponents.
     pub(in crate::memory::modes) fn save(&self, state: &mut State) {
         for part in [0, 1] {
             state.numbers(self.exponents(part).into_iter());
@@ -33,7 +33,7 @@ impl Bank {
         Ok(())
     }
 
-    /// Real (0) or imaginary (1) parts.
+    /// Real (`part` 0) or imaginary (`part` 1) parts of the exponents.
     fn exponents(&self, part: usize) -> Vec<f64> {
         let lanes = |group: &super::Group| [group.exponent.0, group.exponent.1][part];
         self.groups.iter().flat_map(lanes).collect()

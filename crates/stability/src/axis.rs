@@ -14,7 +14,7 @@ use stickslip_tip::{TipFunction, stop};
 const SAMPLES_PER_PERIOD: f64 = 8.0;
 /// Largest number of samples of a scan.
 const MOST_SAMPLES: f64 = 2e5;
-/// Values of c of a table below this fraction of the largest one are round-off.
+/// For a footprint given as a table, values of c below this fraction of the largest one are round-off.
 const ROUNDOFF: f64 = 1e-12;
 /// Number of successive samples of round-off after which the scan of a table ends.
 const FADED_SPAN: usize = 64;
@@ -126,8 +126,7 @@ impl Axis {
         zeros
     }
 
-    /// If g has the same sign at both ends and an extremum between them, it has a pair of zeros if the sign at the
-    /// extremum is different.
+    /// The pair of zeros of g between two samples of equal sign, if g has the other sign at the extremum between them.
     fn hidden_pair(
         &self,
         g: &impl Fn(&AxisPoint) -> (f64, f64),

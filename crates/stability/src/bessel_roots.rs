@@ -68,7 +68,7 @@ impl Branch {
     }
 
     /// p on the upper (`side` 1) or lower (-1) lip of the cut, at Λ = i - t², and its derivative with
-    /// respect to t, in which nothing is singular.
+    /// respect to t, which has no singularity.
     fn beside_cut(&self, t: f64, side: f64) -> Scaled {
         let lambda = I - t * t;
         let far = (lambda + I).sqrt();

@@ -1,5 +1,5 @@
-//! Regions without zeros of N: the transforms are bounded and decrease with |p|, while Mv²Λ² + vΛ + κ grows (or for
-//! creep stays κ).
+//! Regions without zeros of N (see [`Law`]): the transforms at p = Λ + s are bounded and decrease with |p|, while
+//! Mv²Λ² + vΛ + κ grows with |Λ| (for creep it is κ).
 
 use super::kept::Kept;
 use super::law::Law;
@@ -13,13 +13,15 @@ use stickslip_tip::{Gaussian, TipFunction};
 const SAMPLES: u32 = 1000;
 /// Safety factor between these sums and the bounds.
 const MARGIN: f64 = 1.1;
-/// Factor between successive distances in the search for a bound, and the largest distance.
+/// Factor between successive distances in the search for a bound.
 const STEP: f64 = 1.1;
+/// Largest distance in the search for a bound.
 const FARTHEST: f64 = 1e12;
-/// For |p| ≥ 2 the transforms of J0 (Re p ≥ 0) and cos x are below 4/3 of 1/|p|.
+/// For |p| ≥ 2 the transforms of J0 (Re p ≥ 0) and cos x are below this number divided by |p|.
 const WAVES: f64 = 4.0 / 3.0;
 
-/// |φ|, |φ1|, |G| ≤ `area` and ≤ `decay`/|p| for Re p ≥ 0, in this order, of f(x) and of f(-x).
+/// Bounds of the transforms φ, φ1, G, in this order, of both f(x) and f(-x): for Re p ≥ 0 the modulus of each is at most
+/// `area` and at most `decay`/|p|.
 #[derive(Debug, Clone)]
 pub(super) struct Bounds {
     area: [f64; 3],
@@ -28,8 +30,8 @@ pub(super) struct Bounds {
     powers: [i32; 3],
     /// |p| above which these bounds hold.
     from: f64,
-    /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 the exponential term, φ without -φ(-p), decreases as
-    /// e^{w²(Re²-Im²)/2}.
+    /// (a w √(2π), |c|, w) of each Gaussian: for Re p < 0 the exponential term E(p) = φ(p) + φ(-p) decreases as
+    /// e^{w²((Re p)²-(Im p)²)/2}.
     terms: Vec<(f64, f64, f64)>,
 }
 
@@ -74,8 +76,8 @@ impl Bounds {
         [0, 1, 2].map(|i: usize| self.area[i].min(self.decay[i] / distance))
     }
 
-    /// Bounds for Re p ≥ `left`, |Im p| ≥ `top`: φ = E(p) - φ(-p), φ1 = pE + φ1(-p), G = p²E - G(-p) for Re p < 0, where those
-    /// at -p are of f(-x).
+    /// Bounds of φ, φ1, G for Re p ≥ `left`, |Im p| ≥ `top`: for Re p < 0 φ = E(p) - φ(-p), φ1 = pE + φ1(-p) and
+    /// G = p²E - G(-p), where the transforms at -p are those of f(-x).
     fn left(&self, left: f64, top: f64) -> [f64; 3] {
         let mut bounds = self.right(top);
         if left >= 0.0 {
@@ -103,14 +105,14 @@ impl Bounds {
         if self.area[2].is_finite() { self.area[2] } else { 1.0 }
     }
 
-    /// R beyond which N has no zero with Re Λ ≥ 0.
+    /// |Λ| beyond which N has no zero with Re Λ ≥ 0.
     pub(super) fn right_bound(&self, law: &Law) -> f64 {
         let far =
             |distance: f64| outweighs(law, bare_on_the_right(law, distance), self.right(distance));
         first(far, self.from.max(1e-9 / self.unit_length(law)))
     }
 
-    /// T above which N has no zero with Re Λ ≥ `left`.
+    /// |Im Λ| above which N has no zero with Re Λ ≥ `left`; at least `least`.
     pub(super) fn top_bound(&self, law: &Law, left: f64, least: f64) -> f64 {
         let past = left + law.fading;
         let zeros = bare_zeros(law);
@@ -134,8 +136,8 @@ fn bare_on_the_right(law: &Law, distance: f64) -> f64 {
     inertial.max(law.drag * distance)
 }
 
-/// Lower bound of the same for Re Λ ≥ `left`, |Im Λ| ≥ `top`: |vΛ + κ| ≥ v|Im Λ|; with inertia |Im| = v|Im Λ| |1 + 2Mv
-/// Re Λ|, and the product of the distances from its two zeros.
+/// Lower bound of |Mv²Λ² + vΛ + κ| for Re Λ ≥ `left`, |Im Λ| ≥ `top`: the larger of its imaginary part,
+/// v|Im Λ| |1 + 2Mv Re Λ|, and, with inertia, Mv² times the distances from its two zeros.
 fn bare_above(law: &Law, zeros: &[Complex64], left: f64, top: f64) -> f64 {
     if law.drag <= 0.0 {
         return law.spring;
@@ -178,7 +180,7 @@ fn first(holds: impl Fn(f64) -> bool, least: f64) -> f64 {
     at
 }
 
-/// ∫|f|, ∫|f'|, ∫|f''| over x > 0, and f, f', f'' at 0 with their variation there.
+/// ∫|f|, ∫|f'|, ∫|f''| over x > 0, and |f|, |f'|, |f''| at 0, each plus its total variation over x > 0.
 fn extent(tip: &TipFunction, reach: f64, step: f64) -> ([f64; 3], [f64; 3]) {
     let at = |x: f64| {
         let (slope, curvature) = tip.slope_and_curvature(x);

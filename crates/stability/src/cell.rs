@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// Rectangles smaller than this, in units of 1/`length`, contain one multiple zero.
 const SMALLEST: f64 = 1e-6;
-/// The same for rectangles smaller than this fraction of their distance from the origin.
+/// Rectangles smaller than this fraction of their distance from the origin also contain one multiple zero.
 const SMALLEST_PART: f64 = 1e-12;
 /// Two zeros in a rectangle smaller than this, in units of 1/`length`, are sought as a pair: lines between them would
 /// pass too close to them.
@@ -20,9 +20,9 @@ const ARRIVED: f64 = 1e-11;
 /// A rectangle of the Λ plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// Length over which the function may vary: a width of the tip.
+    /// A width of the tip: the function may vary over the inverse of this length.
     pub(super) length: f64,
-    /// s, as in [`resolved`].
+    /// s = p - Λ, as in [`resolved`].
     pub(super) fading: f64,
     pub(super) lower_left: Complex64,
     pub(super) upper_right: Complex64,
@@ -112,13 +112,13 @@ impl Cell {
     }
 }
 
-/// The limit of Newton's method, or `center` if it lies elsewhere.
+/// The limit of Newton's method, or `center` if this limit is farther away than `radius`.
 fn near(h: &impl Fn(Complex64) -> Scaled, center: Complex64, radius: f64) -> Complex64 {
     let zero = polish(h, center);
     if (zero - center).norm() <= radius { zero } else { center }
 }
 
-/// Whether Newton's method has no finite step at z.
+/// Whether the step of Newton's method at z is negligible.
 fn is_zero(h: &impl Fn(Complex64) -> Scaled, z: Complex64) -> bool {
     let at = h(z);
     (at.value / at.derivative).norm() <= ARRIVED * z.norm()

@@ -4,9 +4,9 @@ use super::cell::Cell;
 use super::characteristic::Characteristic;
 use num_complex::Complex64;
 
-/// A residual above this, relative to the terms of h, is no root.
+/// A listed value whose residual, relative to the terms of h, is above this is not a root.
 const LARGEST_RESIDUAL: f64 = 1e-9;
-/// Relative error of h for the error bars of its roots: that of the error function at large.
+/// Relative error of h from which the errors of its roots are estimated.
 pub(super) const ROUNDOFF: f64 = 3e-14;
 /// Entries closer than this, in units of 1/width, are counted together.
 const CLUSTER: f64 = 1e-5;
@@ -37,7 +37,7 @@ pub struct Certificate {
     pub counted: usize,
     /// Roots in the list that lie in the region and solve (30), each counted once.
     pub found: usize,
-    /// Largest |h| among them, relative to the sizes of the terms of h.
+    /// Largest |h| at the listed roots in the region, relative to the sizes of the terms of h.
     pub largest_residual: f64,
     /// Largest estimate of the error of a listed λ: its displacement by round-off in h.
     pub largest_error: f64,
@@ -75,7 +75,7 @@ impl Region {
     }
 }
 
-/// Entries that are roots, each once: those that lie together count as often as h vanishes there.
+/// Number of entries that are roots, each counted once: entries close together count as often as h vanishes there.
 fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
     let radius = CLUSTER / h.length();
     let near = |z: Complex64| move |k: &&Complex64| (*k - z).norm() < radius;

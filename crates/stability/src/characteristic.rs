@@ -15,7 +15,7 @@ const WIDENINGS: f64 = 60.0;
 /// Exponent of the amplification at which round-off of 1e-16 in f, or 1e-11 in f'' of a dense table, is no longer
 /// small.
 const ROUNDOFF_EXPONENT: f64 = 24.0;
-/// Distance right of the branch points of J0 from which leading roots are counted, in units of s.
+/// Distance right of the branch points of J0 from which leading roots are counted, in units of s = 1/(rT).
 const BESIDE_BRANCH_POINTS: f64 = 0.02;
 
 /// N for small deviations from steady motion, or for creep.
@@ -45,7 +45,7 @@ impl Characteristic {
         Self { law, bounds, length }
     }
 
-    /// D(λ) and D'(λ) for a force e^{λt}.
+    /// D(λ) and D'(λ): a force e^{λt} divided by D(λ) is the displacement.
     pub(super) fn response(&self, lambda: Complex64) -> (Complex64, Complex64) {
         self.law.response(lambda / self.law.speed)
     }
@@ -71,7 +71,7 @@ impl Characteristic {
         self.length
     }
 
-    /// The number of zeros, if they are those of a polynomial.
+    /// The number of zeros for cos x, where N times the unit of the transforms is a polynomial; else `None`.
     pub(super) fn degree(&self) -> Option<usize> {
         let cosine = *self.law.footprint.tip() == TipFunction::Cosine;
         cosine.then_some(if self.law.inertia > 0.0 { 4 } else { 3 })
@@ -122,8 +122,8 @@ impl Characteristic {
         1.05 * self.bounds.top_bound(&self.law, left, least)
     }
 
-    /// Points close to zeros, on or above the real axis: the zeros of Mv²Λ² + vΛ + κ - A G(s), and of its product with
-    /// p plus A f''(0), as G(p) = f''(0)/p + O(p^{-3}).
+    /// Points close to zeros, on or above the real axis: the zeros of q = Mv²Λ² + vΛ + κ - A G(s) and of pq + A f''(0),
+    /// because G(p) = f''(0)/p + O(p^{-3}).
     pub(super) fn likely_roots(&self) -> Vec<Complex64> {
         let Law { density, drag, inertia, fading, .. } = self.law;
         let constant = self.law.spring - density * self.law.steady.curvature;
@@ -169,7 +169,7 @@ impl Characteristic {
         error.min((2.0 * unknown * step / change.norm()).sqrt())
     }
 
-    /// Σ|terms| of N: what round-off in N is relative to.
+    /// Σ|terms| of N, the scale of its round-off.
     fn size_of_terms(&self, lambda: Complex64) -> f64 {
         self.law.size(lambda).max(f64::MIN_POSITIVE)
     }

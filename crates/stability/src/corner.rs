@@ -3,7 +3,7 @@
 //! w - 1 = -|h|/b is of first order in a small deviation, but not linear. The equation of small deviations is
 //! nevertheless homogeneous: any positive multiple of a solution is a solution. So there is one α, for any (small)
 //! amplitude, at which an oscillation neither grows nor decays; it contains the harmonics of |h|. With p_n = inΩ + s,
-//! the deviation ξ = Σξ_n e^{inθ} and W = -|h|/b,
+//! the deviation ξ = Σξ_n e^{inθ}, W = -|h|/b and bare(Λ) = Mr²Λ² + rΛ + 1,
 //!
 //! ```text
 //!     (bare(inΩ) + A(G(p_n) - G(s))) ξ_n = A φ1(p_n) W_n,    h_n = -A(φ1(s) - φ1(p_n)) ξ_n - A φ(p_n) W_n
@@ -19,8 +19,8 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 use stickslip_tip::roots::zero_between;
 
-/// Number of harmonics. Those of |h| decrease like n^{-2} and those of h like n^{-3}, and so does the truncation error
-/// (measured: a factor of 8.0 from 192 to 384). It is estimated with twice this number.
+/// Number of harmonics. Those of |h| decrease like n^{-2}, those of h and with them the truncation error like n^{-3}
+/// (measured: a factor of 8.0 from 192 to 384). A second solution with twice this number removes most of this error.
 const HARMONICS: usize = 128;
 /// Points on a period, between which h changes its sign at most once.
 const POINTS: u32 = 512;

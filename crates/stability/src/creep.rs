@@ -22,7 +22,7 @@ use stickslip_tip::{Model, TipFunction};
 pub struct Creep {
     /// All p with a positive real part, in 1/σ, by falling real part, both of each conjugate pair.
     pub roots: Vec<Complex64>,
-    /// dQ/dp at each of them.
+    /// dQ/dp at each root, where Q(p) = -G(p).
     pub slopes: Vec<Complex64>,
     /// Certificate that no root is missing.
     pub certificate: Certificate,
@@ -63,7 +63,7 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
     Ok(Creep { roots, slopes, certificate })
 }
 
-/// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp; squared,
+/// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp. Squared, this is
 /// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
 fn bessel(kappa: f64) -> Spectrum {
     let transform = CurvatureTransform::new(&TipFunction::Bessel);

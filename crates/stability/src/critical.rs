@@ -64,7 +64,7 @@ impl Critical {
 
 /// rc(α): the largest r at which a root of (30) reaches the imaginary axis, in the basic model.
 ///
-/// As r decreases from large values, where steady motion is stable, it becomes unstable here.
+/// Steady motion is stable at larger r.
 ///
 /// # Errors
 /// `alpha` is not a positive finite number, there is no crossing at any r, or the model is not the basic one.

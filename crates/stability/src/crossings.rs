@@ -18,18 +18,19 @@ use stickslip_tip::{TipFunction, Wider, stop};
 const SAMPLES_PER_PERIOD: f64 = 12.0;
 /// Reach assumed for J0 and cos x, which have none.
 const WAVES: f64 = 30.0;
-/// Number of samples per decade outside the band, and number of decades.
+/// Number of samples per decade outside the band.
 const PER_DECADE: u32 = 40;
+/// Number of decades sampled below the band, and above it.
 const DECADES_BELOW: u32 = 6;
 const DECADES_ABOVE: u32 = 3;
 /// The largest |N| of a crossing, relative to its terms.
 const LARGEST_RESIDUAL: f64 = 1e-9;
-/// Round-off in G, of closed forms and of tables. A crossing is rejected if its A is so large that this round-off
-/// exceeds this fraction of Mv²Λ² + vΛ + κ.
+/// Relative round-off in G, of closed forms and of tables.
 const ROUNDOFF: (f64, f64) = (1e-15, 1e-11);
+/// A crossing is rejected if its A is so large that this round-off exceeds this fraction of Mv²Λ² + vΛ + κ.
 const LARGEST_NOISE: f64 = 1e-3;
 
-/// Samples of a resonance come as near as this part of its width 1/√M, relative to its Ω.
+/// Relative distance from the Ω of a resonance to the nearest samples, in units of 1/√M, its relative width.
 const PART_OF_RESONANCE: f64 = 0.1;
 
 /// A and Ω of a root on the imaginary axis.
@@ -142,14 +143,14 @@ pub(super) fn beside_resonance(law: &Law) -> Vec<f64> {
     beside((law.spring / law.inertia).sqrt(), PART_OF_RESONANCE * width)
 }
 
-/// Samples on both sides of Ω, from half of it down to this fraction of it.
+/// Samples on both sides of Ω, at relative distances from 1/2 down to `nearest`.
 fn beside(wave_number: f64, nearest: f64) -> Vec<f64> {
     let part = |n: u32| 0.5 / 10_f64.powf(f64::from(n) / f64::from(PER_DECADE));
     let parts = (0..).map(part).take_while(|part| *part > nearest);
     parts.flat_map(|part| [wave_number * (1.0 - part), wave_number * (1.0 + part)]).collect()
 }
 
-/// Of the real and the imaginary part of c0 + c1 A + c2 A²; over c2 where that vanishes.
+/// Resultant of the real and the imaginary part of c0 + c1 A + c2 A², or of c0 + c1 A if c2 is 0.
 fn resultant([c0, c1, c2]: [Complex64; 3]) -> f64 {
     let cross = |a: Complex64, b: Complex64| a.re * b.im - a.im * b.re;
     if c2.norm() <= 0.0 {
@@ -158,7 +159,7 @@ fn resultant([c0, c1, c2]: [Complex64; 3]) -> f64 {
     cross(c0, c2).powi(2) - cross(c1, c2) * cross(c0, c1)
 }
 
-/// The A at which both parts vanish, if there is a common one.
+/// Candidates for the A at which the real and the imaginary part of c0 + c1 A + c2 A² both vanish.
 fn common([c0, c1, c2]: [Complex64; 3]) -> Vec<f64> {
     if c2.norm() <= 0.0 {
         return vec![-(c0 * c1.conj()).re / c1.norm_sqr()];
@@ -201,7 +202,7 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
         .then_some(Crossing { density, wave_number: q })
 }
 
-/// Whether the terms in balance there exceed round-off.
+/// Whether the terms of N that balance at this Λ exceed round-off.
 fn is_told(law: &Law, lambda: Complex64) -> bool {
     let t = law.footprint.at(lambda + law.fading);
     let curvature = (t.curvature.0 / t.unit.0).norm() + law.steady.curvature.abs();

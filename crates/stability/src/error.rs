@@ -8,10 +8,10 @@ pub enum StabilityError {
     /// r must be finite and > 0.
     #[error("r is {0:?}: the dimensionless support velocity (12) must be a finite number > 0")]
     R(f64),
-    /// α must be finite and > 0 here.
+    /// The requested quantity requires a finite α > 0.
     #[error("alpha is {0:?}: the dimensionless indentation rate (13) must be a finite number > 0")]
     Alpha(f64),
-    /// κ_y must be finite and > 0, and not so small a fraction of r that round-off hides it.
+    /// κ_y must be finite and > 0, and at least 1e-9 of r: round-off hides a smaller one.
     #[error(
         "the stiffness across is {0:?}: it must be a finite number above 0, in units of that along, and no less than 1e-9 of r"
     )]
@@ -75,7 +75,7 @@ pub enum StabilityError {
     Pulse {
         /// Number of the pulse, from 1.
         index: usize,
-        /// Its width.
+        /// Width of this pulse.
         width: f64,
     },
     /// The pitch is not a positive finite number, or so small that the scan lines within reach are too many to sum.
@@ -83,7 +83,7 @@ pub enum StabilityError {
         "the pitch is {0:?}: the distance of scan lines must be a finite number above 0, and no less than 1e-5 of the reach of the tip across them"
     )]
     Pitch(f64),
-    /// The search of [`crate::Raster::critical`] needs too many cells of wave numbers and phases.
+    /// The search for a threshold needs too many cells of wave numbers and phases.
     #[error(
         "the threshold of the raster is not certain: {cells} cells of wave numbers and phases did not suffice to rule out a lower one"
     )]
@@ -115,7 +115,7 @@ pub enum StabilityError {
     /// A tip with a spring does not walk.
     #[error("a tip on a spring does not walk: its steady motion is that of the support")]
     Dragged,
-    /// Steady motion lies on the kink of |h|.
+    /// In steady motion the height h under the tip is 0, where |h| of the depth limit has a kink.
     #[error(
         "in steady motion the height under this tip is 0, where |h| of the depth limit (61) has a corner: small deviations obey no linear law there, and there are no growth exponents"
     )]
@@ -133,7 +133,7 @@ pub enum StabilityError {
         "for J0 in this model roots can be counted only to the right of its branch points, Re λ ≥ {least:?}, not from {bound:?}"
     )]
     BranchPoints {
-        /// The smallest admissible bound: -1/T, or 0.
+        /// The smallest admissible bound: -1/T with the healing time T, or 0 without healing.
         least: f64,
         /// The requested bound.
         bound: f64,
@@ -147,7 +147,7 @@ pub enum StabilityError {
     /// The quantity is available for even footprints only.
     #[error("{0} is available only for a footprint with two equal sides: give one side of it")]
     EvenOnly(&'static str),
-    /// The requested limit does not exist.
+    /// The requested limit does not exist, for the reason in the text.
     #[error("{0}")]
     NoLimit(&'static str),
 }

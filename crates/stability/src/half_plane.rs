@@ -18,18 +18,19 @@ const FARTHEST: f64 = 1e9;
 const BESIDE: f64 = 1e-10;
 /// Largest number of Newton steps from a start close to a zero.
 const SOON: usize = 10;
-/// Λ²w² of the second complex zero less that of the first, and of one far up less that of the one before: about those of
-/// the Gaussian and of the triple with β = 1, whose length w is.
+/// Difference of Λ²w² between the second and the first complex zero, w being the length of [`Characteristic`]; about that
+/// of the Gaussian and of the triple Gaussian with β = 1.
 const FIRST_INTERVAL: Complex64 = Complex64::new(-5.5, -9.5);
+/// Difference of Λ²w² between successive zeros far from the real axis, for the same footprints.
 const FAR_INTERVAL: Complex64 = Complex64::new(-2.0, -12.5);
-/// Λw of the first complex zero of these, from large α to small.
+/// Λw of the first complex zero of these footprints, from large α to small.
 const FIRST: [Complex64; 3] =
     [Complex64::new(-1.1, 3.7), Complex64::new(-2.2, 2.5), Complex64::new(-3.2, 1.8)];
-/// Re p w right of which a zero is none of a chain.
+/// Zeros with a larger Re p w do not belong to the chain.
 const AHEAD_OF_CHAIN: f64 = 3.0;
-/// Distances to the left of where a zero is expected, times w.
+/// Distances of starts to the left of an expected zero, times w.
 const LEFT_OF_NEXT: [f64; 2] = [0.1, 0.35];
-/// Largest number of shifts of a left edge that passes through a root.
+/// Largest number of shifts of a left edge that a root lies on.
 const MOST_SHIFTS: u32 = 8;
 
 /// Re Λ ≥ `left`; all zeros in it lie in the rectangle up to `right` and `top`.
@@ -42,7 +43,7 @@ pub(super) struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Counts the zeros; shifts the edge if it passes through one.
+    /// Counts the zeros; shifts the left edge if a zero lies on it.
     pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         // Right of the bound there is no zero.
         let left = left.min(2.0 * h.right_bound());
@@ -122,7 +123,8 @@ impl HalfPlane {
         zero.re >= self.left && zero.re <= self.right && zero.im <= self.top
     }
 
-    /// Adds the zero to which a start leads in at most `most` steps, and one too close to it; whether it is new.
+    /// Adds the zero to which Newton's method leads from `start` in at most `most` steps, and a second one if it is too
+    /// close to the first; returns whether one is new.
     fn add_from(
         &self,
         h: &Characteristic,
@@ -142,8 +144,8 @@ impl HalfPlane {
         !zeros.is_empty()
     }
 
-    /// Adds zeros until there are `count` of them or the next is not where it is expected: those of α = 0 and of large α,
-    /// then the chain above them.
+    /// Adds zeros near those of α = 0 and of large α, then the chain above them, until there are `count` of them or the
+    /// next is not found where it is expected.
     fn add_first(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length()));
         for start in first.chain(h.likely_roots()) {
@@ -154,7 +156,7 @@ impl HalfPlane {
         self.add_chain(h, upper, count);
     }
 
-    /// Adds zeros upwards, each where those below it let it be expected.
+    /// Adds zeros of the chain upwards, each close to a position extrapolated from those below it.
     fn add_chain(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         while h.has_chain() && total(&*upper) < count && !stop::is_asked() {
             let starts = next_in_chain(upper, h.length(), h.fading());
@@ -226,8 +228,8 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
 }
 
 /// The first of the lines 1/width apart, from `left` on, with at least `count` zeros right of it; the leftmost if there
-/// is none. The zeros of a surface that heals within less than a width begin at -s, as many lines away as there are
-/// widths to 1/s: so steps grow after the first few, and the last one is divided.
+/// is none. If the surface heals within less than a width, the zeros begin at Re Λ = -s, many lines away. Therefore steps
+/// grow after the first few, and the last one is bisected.
 fn first_with(h: &Characteristic, count: usize, left: f64) -> Result<HalfPlane, StabilityError> {
     let has_enough = |edge: f64, found: &HalfPlane| found.count >= count || edge <= h.leftmost();
     let (mut left, mut found) = (left, HalfPlane::counted(h, left)?);
@@ -255,8 +257,8 @@ fn first_zeros(h: &Characteristic, count: usize) -> Vec<Complex64> {
     known
 }
 
-/// About where the next zero above those known lies. The zeros are those of e^{p²w²/2} = R(p), p = Λ + s, R being nearly
-/// rational: far up, p²w² of one is that of the one below less 4πi.
+/// Estimates of the next zero above the known ones. The zeros solve e^{p²w²/2} = R(p), p = Λ + s, with a nearly rational
+/// R: far from the real axis, p²w² decreases by 4πi from one zero to the next.
 fn next_in_chain(upper: &[Complex64], length: f64, fading: f64) -> Vec<Complex64> {
     let shifted = upper.iter().filter(|z| z.im > 0.0).map(|z| (z + fading) * length);
     let mut below: Vec<_> = shifted.filter(|p| p.re < AHEAD_OF_CHAIN).collect();

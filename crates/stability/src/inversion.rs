@@ -4,17 +4,18 @@
 //! so that the integral
 //!
 //! ```text
-//!     l(t) - l0 = -1/(2π) ∫ F̃ext(σ + iω) e^{(σ + iω)t} / D(σ + iω) dω,    D(λ) = λ + 1 - K̃(λ),
+//!     l(t) - l0 = -1/(2π) ∫ F̃ext(σ + iω) e^{(σ + iω)t} / D(σ + iω) dω
 //! ```
 //!
-//! on a line right of all roots has a short range, and the trapezoidal rule converges exponentially. With a step of
-//! 2π/P it adds the response at t + nP times e^{-σnP}, n ≥ 1; the truncation of the range is negligible.
+//! on a line right of all roots has a short range, and the trapezoidal rule converges exponentially. In the basic model
+//! D(λ) = h(λ/r) of (30). With a step of 2π/P the error of the rule is the response at t + nP times e^{-σnP}, summed
+//! over n ≥ 1; the truncation of the range is negligible.
 
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use stickslip_tip::Pulse;
 
-/// Nodes on the line, with the integrand there except for e^{λt}.
+/// The response during weak pulses, as an integral over a line of λ: nodes, and the integrand without its factor e^{λt}.
 #[derive(Debug, Clone)]
 pub struct Inversion {
     nodes: Vec<(Complex64, Complex64)>,
@@ -22,18 +23,18 @@ pub struct Inversion {
 
 /// e^{-8.5²/2} = 2e-16: number of inverse widths beyond which the transform of a pulse is negligible.
 const INVERSE_WIDTHS: f64 = 8.5;
-/// The response a period P later is added with the factor e^{-26} = 5e-12,
+/// σP: the response a period P later is added with the factor e^{-26} = 5e-12.
 const DECAYED: f64 = 26.0;
-/// and rounding errors are amplified by e^{13} at the end of a window of P/2.
+/// P in units of the window of times, at whose end rounding errors are amplified by e^{σP/2} = e^{13}.
 const PERIODS: f64 = 2.0;
-/// Number of widths after its center at which a pulse is over.
+/// Number of widths before its center at which a pulse begins.
 const WIDTHS_OF_PULSE: f64 = 8.5;
 /// Largest number of nodes.
 const MOST_NODES: f64 = 100_000.0;
 
 impl Inversion {
     /// The inversion for times up to `until`, for this D and these pulses, if D has no zero right of `rightmost`.
-    /// `None` if the pulses are too short compared with `until`, or if there are none.
+    /// `None` if there are no pulses, or if they are too short compared with `until`.
     pub(super) fn new(
         characteristic: impl Fn(Complex64) -> Complex64,
         pulses: &[Pulse],

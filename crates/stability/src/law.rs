@@ -80,7 +80,7 @@ impl Law {
         Self::on(wider, &Arc::new(OneSided::new(tip)), speed, density)
     }
 
-    /// The same, with given transforms of the footprint.
+    /// As [`Law::with_density`], with given transforms of the footprint.
     pub(super) fn on(wider: &Wider, footprint: &Arc<OneSided>, speed: f64, density: f64) -> Self {
         let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (speed * time));
         let steady = footprint.steady(fading);
@@ -99,7 +99,7 @@ impl Law {
         }
     }
 
-    /// The same with another A of the same sign.
+    /// Replaces A by another value of the same sign.
     pub(super) fn set_density(&mut self, density: f64) {
         self.density = density;
     }
@@ -120,13 +120,13 @@ impl Law {
         (lambda * inner + self.spring, inner + lambda * self.inertia)
     }
 
-    /// The transforms at p; without indentation they are 0, for any p to the left.
+    /// The transforms at p; without indentation, A = 0, they count as 0, even where they would overflow.
     fn transforms(&self, lambda: Complex64) -> Transforms {
         let nothing = self.density.abs() <= 0.0;
         if nothing { Transforms::NONE } else { self.footprint.at(lambda + self.fading) }
     }
 
-    /// N times the unit of the transforms, and its derivative.
+    /// The transforms at p, and N times their unit with its derivative.
     pub(super) fn at(&self, lambda: Complex64) -> (Transforms, Jet) {
         let t = self.transforms(lambda);
         let (a, b) = (self.density, self.limit());
@@ -154,7 +154,7 @@ impl Law {
         base * (t.unit.0.norm() + b * height) + a * curvature + shifted * slope
     }
 
-    /// D and dD/dλ: what a force e^{λt} is divided by to give the displacement.
+    /// D and dD/dλ: a force e^{λt} divided by D is the displacement.
     pub(super) fn response(&self, lambda: Complex64) -> Jet {
         let (t, (value, derivative)) = self.at(lambda);
         let below = t.unit.0 + t.height.0 * self.limit();
@@ -168,7 +168,7 @@ impl Law {
         self.expanded(lambda, &self.footprint.at(lambda + self.fading))
     }
 
-    /// The same, with given transforms.
+    /// As [`Law::by_density`], with given transforms.
     pub(super) fn expanded(&self, lambda: Complex64, t: &Transforms) -> [Complex64; 3] {
         let bare = self.bare(lambda).0;
         let Steady { height, curvature, .. } = self.steady;
@@ -177,7 +177,7 @@ impl Law {
         [bare * t.unit.0, first, second * self.inverse_limit]
     }
 
-    /// α of this A: w0 = e^{-A|φ(s)|/b}.
+    /// α = vA/w0 with w0 = e^{-A|φ(s)|/b}.
     pub(super) fn alpha(&self) -> f64 {
         let depth = self.density * self.steady.height * self.inverse_limit;
         self.speed * self.density * depth.abs().exp()

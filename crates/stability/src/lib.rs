@@ -1,22 +1,22 @@
 //! Linear stability of steady motion (section IV of the paper), and what follows from it.
 //!
-//! A small deviation l - l0 ∝ e^{λt} grows or decays with a root λ = rΛ of
+//! A small deviation l - l0 ∝ e^{λt} of the reduced lag l from its steady value l0 grows or decays with a root λ = rΛ of
 //!
 //! ```text
 //!     h(Λ) = rΛ + 1 + (α/r) G(Λ) = 0,    G(Λ) = ∫_0^∞ f''(y) e^{-Λy}dy      (30)
 //! ```
 //!
 //! [`critical`] and [`Boundary`] find where the first root reaches the imaginary axis. [`roots`] and [`leading_roots`]
-//! list all roots right of a line, with a [`Certificate`] that none is missing. [`response`] sums them after a weak
-//! pulse, and [`onset`] gives the oscillation that bifurcates at the boundary. [`trapping_alpha`] is the threshold of
-//! motion that never returns to stick-slip, and [`creep`] lists all possible rates of this creep. All functions but
-//! these three ([`onset`], [`trapping_alpha`], [`creep`]) accept the extended model (a depth limit, healing, inertia)
-//! as well. A tip that is flexible across the scan may [snake](Snaking), and its scan lines may bunch
+//! list all roots right of a line, with a [`Certificate`] that none is missing. [`response`] is the motion after weak
+//! pulses, a sum over these roots, and [`onset`] gives the oscillation that bifurcates at the boundary.
+//! [`trapping_alpha`] is the threshold above which a tip may creep permanently without slipping, and [`creep`] lists
+//! the possible creep rates. [`critical_r`], [`onset`], [`trapping_alpha`], [`creep`] and the curves of
+//! [`Boundary::branches`] require the basic model; the other functions also accept the extended one (a depth limit,
+//! healing, inertia). A tip that is flexible across the scan may [snake](Snaking), and its scan lines may bunch
 //! ([`Raster::with_stiffness_across`]). [`least_depth_limit`] and [`memory_length`] give limits within which steady
-//! motion is always stable; [`walking_speeds`] and [`walk`] treat a tip without a spring, [`orbits`]
-//! a walker in the plane. `docs/explanation/linear-theory.md` derives
-//! all of it. Nothing here integrates (18) in time, so that linear theory and integration are independent tests of
-//! each other.
+//! motion is always stable. [`walking_speeds`] and [`walk`] treat a tip without a spring, and [`orbits`] treats a
+//! walker in the plane. `docs/explanation/linear-theory.md` derives the theory. Nothing here integrates (18) in time,
+//! so that linear theory and integration are independent tests of each other.
 
 mod axis;
 mod bessel_roots;

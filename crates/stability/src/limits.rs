@@ -1,4 +1,4 @@
-//! Limits of the depth limit and of the memory length below which steady motion is always stable.
+//! The depth limit, and the memory length, below which steady motion is always stable.
 
 use super::StabilityError;
 use super::crossings::{Scan, beside_resonance, least, wave_numbers};
@@ -9,28 +9,29 @@ use stickslip_tip::roots::halved_between;
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{TipFunction, Wider};
 
-/// Values of s = 1/(rT) in the search for the memory length: they begin at this number of bands and fall by this
-/// factor,
+/// First value of s = 1/(rT) in the search for the memory length, in units of the bandwidth of f.
 const BANDS: f64 = 10.0;
+/// Factor between successive values of s in this search.
 const FACTOR: f64 = 1.05;
-/// down to this fraction of the first.
+/// Last value of s in this search, as a fraction of the first.
 const LEAST: f64 = 1e-6;
 
 /// b_c(r): the depth limit b below which no α makes steady motion unstable, with the healing and the inertia of
 /// `wider`.
 ///
-/// On the axis Λ = iΩ, N = 0 is linear in 1/b, so that each Ω gives the A at which 1/b is real, and 1/b. b_c is
-/// the inverse of the largest 1/b > 0 with A > 0. It is reached as A → ∞ or, should b turn there, at a finite A. As
-/// A → 0 and b → 0 with B = ±A/b fixed, N → q(1 + Bφ), so that 1/b has no bound if 1 + Bφ = 0 on the axis for some B.
+/// On the axis Λ = iΩ the characteristic equation is linear in 1/b. Each Ω therefore determines the A = αw0/r at which
+/// 1/b is real, and this 1/b. b_c is the inverse of the largest 1/b > 0 with A > 0, reached as A → ∞ or at a finite A.
+/// As A → 0 and b → 0 with B = ±A/b fixed, the equation becomes 1 + Bφ = 0, φ = ∫_0^∞ f e^{-(iΩ+s)y}dy, s = 1/(rT): if it
+/// has a solution for some B, 1/b is not bounded.
 ///
 /// # Errors
 /// As [`super::critical`]; [`StabilityError::Corner`]; [`StabilityError::NoCrossing`] if steady motion is stable at
-/// every b; [`StabilityError::NoLimit`] if it is unstable at some α for every b.
+/// every b; [`StabilityError::NoLimit`] if it is unstable at some α for every b, and for cos x.
 pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
     least_on(&Scan::new(wider, tip), wider, r)
 }
 
-/// b_c(r) on a given imaginary axis.
+/// b_c(r) from a given scan of the imaginary axis.
 pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, StabilityError> {
     let tip = scan.tip();
     if !(r.is_finite() && r > 0.0) {
@@ -94,13 +95,14 @@ fn unstable_at_any_limit(scan: &Scan, law: &Law) -> bool {
 
 /// The largest 1/b with A > 0 at which iΩ is a root; -∞ where there is none. `law` has 1/b = ±1.
 ///
-/// With X = q + A(G(p) - G(s)) and Y = qφ(p) + A(sφ(s)φ1(p) - G(s)φ(p)), N = X ± (A/b)Y: A makes X/Y real.
+/// With q = Mv²Λ² + vΛ + κ, X = q + A(G(p) - G(s)) and Y = qφ(p) + A(sφ(s)φ1(p) - G(s)φ(p)), N = X ± (A/b)Y: A is
+/// such that X/Y is real.
 fn inverse_limit(law: &Law, wave_number: f64) -> f64 {
     let p = Complex64::new(law.fading, wave_number);
     inverse_limit_with(law, wave_number, &law.footprint.at(p))
 }
 
-/// The same with the transforms there at hand.
+/// As [`inverse_limit`], with the transforms `t` at s + iΩ.
 fn inverse_limit_with(law: &Law, wave_number: f64, t: &Transforms) -> f64 {
     let lambda = Complex64::new(0.0, wave_number);
     let unlimited = Law { inverse_limit: 0.0, ..law.clone() };
@@ -119,7 +121,7 @@ fn inverse_limit_with(law: &Law, wave_number: f64, t: &Transforms) -> f64 {
     positive.map(of).filter(|inverse| inverse.is_finite()).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Of az² + bz + c, without cancellation; of bz + c where a is 0.
+/// The real zeros of az² + bz + c, computed without cancellation; that of bz + c if a is 0.
 fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
     if a.abs() <= 0.0 {
         return vec![-c / b];
@@ -136,9 +138,9 @@ fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
 /// a depth limit.
 ///
 /// On the axis the imaginary part of N = 0 is rΩ + A Im G(s + iΩ) = 0, s = 1/(rT), so that there is no root
-/// if Im G(s + iΩ) ≥ 0 for all Ω. At the memory length this condition ceases to hold. If it does so at Ω → 0, where
-/// G'(s) and with it d l0/dr change their sign, the length is exact for each r separately. If it does so at some
-/// Ω > 0, the length is exact for some r only.
+/// if Im G(s + iΩ) ≥ 0 for all Ω. Beyond the memory length this condition no longer holds. If it first fails at Ω → 0,
+/// where G'(s) and with it d l0/dr change their sign, the length is exact for each r. If it first fails at some Ω > 0,
+/// the length is exact for some r only.
 ///
 /// # Errors
 /// [`StabilityError::NoLimit`] if the condition holds for all lengths.

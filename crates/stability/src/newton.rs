@@ -37,8 +37,8 @@ pub(super) fn polish(h: impl Fn(Complex64) -> Scaled, start: Complex64) -> Compl
 }
 
 /// Both zeros close to a double one, from the zero m of h': h ≈ h(m) + h''(m)(z-m)²/2, with h'' by differences over a
-/// small part of `length`⁻¹ = `scale`. h is real on the real axis: if m is real the zeros are real or conjugate.
-/// `None` if there is no such m close by.
+/// small part of `scale`, the distance over which h varies. h is real on the real axis: if m is real, the zeros are
+/// real or conjugate. `None` if h' has no zero close to `start`.
 pub(super) fn pair(
     h: impl Fn(Complex64) -> Scaled,
     start: Complex64,
@@ -74,8 +74,8 @@ pub(super) fn pair(
     Some(if distinct { zeros.map(|z| polish(&h, z)) } else { zeros })
 }
 
-/// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly), with a limited
-/// number of steps of at most `longest`. `None` if it does not converge.
+/// A zero other than the `known` ones and their conjugates: Newton's method on h/Π(z - z_k) (Maehly), with at most
+/// `most` steps, each no longer than `longest`. `None` if it does not converge.
 pub(super) fn another(
     h: impl Fn(Complex64) -> Scaled,
     start: Complex64,

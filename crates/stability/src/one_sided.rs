@@ -1,6 +1,6 @@
 //! One-sided transforms of a footprint in the characteristic equation: φ = ∫_0^∞ f e^{-py}dy, φ1 = ∫_0^∞ f' e^{-py}dy
-//! = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1. For deviations across the scan `f_yy(x,0)` replaces f'': the
-//! function is then `f_yy(x,0)`, and its own transform replaces G.
+//! = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1. For deviations across the scan, the stored function is `f_yy(x,0)`, and
+//! its own transform replaces G.
 
 use super::transform::{CurvatureTransform, Scaled, bessel_root};
 use num_complex::Complex64;
@@ -9,8 +9,8 @@ use stickslip_tip::TipFunction;
 /// A value and its derivative.
 pub(super) type Jet = (Complex64, Complex64);
 
-/// The transforms at one p, all of them times `unit`·e^{`log_scale`}: 1 for Gaussians, √(p²+1) for J0 and p²+1
-/// for cos x, whose transforms are infinite at ±i.
+/// The transforms at one p, each multiplied by `unit`: e^{-`log_scale`} for Gaussians; √(p²+1) for J0 and p²+1 for
+/// cos x, whose transforms are infinite at ±i.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Transforms {
     pub(super) unit: Jet,
@@ -70,7 +70,7 @@ impl OneSided {
         self.is_across
     }
 
-    /// f''(0), or `f_yy(0,0)`: G approaches this over p for large p.
+    /// f''(0), or `f_yy(0,0)`: for large p, G approaches this value divided by p.
     pub(super) fn peak(&self) -> f64 {
         if self.is_across { self.apex } else { self.tip.slope_and_curvature(0.0).1 }
     }
@@ -92,7 +92,7 @@ impl OneSided {
         if self.is_across { Transforms { curvature: at.height, ..at } } else { at }
     }
 
-    /// The transforms without `unit` and scale, for p at which they do not overflow.
+    /// The transforms divided by `unit`, for p at which they do not overflow.
     pub(super) fn plain(&self, p: Complex64) -> Values {
         let at = self.at(p);
         let (unit, change) = at.unit;
@@ -109,7 +109,7 @@ impl OneSided {
         Steady { height: real(at.height), slope: real(at.slope), curvature: real(at.curvature) }
     }
 
-    /// Σ|terms| of φ, φ1 and G, times `unit` and e^{-`log_scale`}, given the transforms there.
+    /// Σ|terms| of φ, φ1 and G, each times `unit`. `at` contains the transforms at p.
     pub(super) fn sizes(&self, p: Complex64, at: &Transforms) -> [f64; 3] {
         let [height, slope, curvature] = self.sizes_along(p, at);
         [height, slope, if self.is_across { height } else { curvature }]
@@ -129,7 +129,7 @@ impl OneSided {
         [(slope + apex) / distance, slope, curvature]
     }
 
-    /// φ1 = G/p and φ = (φ1 + f(0))/p, or near p = 0, where these cancel, from φ.
+    /// φ1 = G/p and φ = (φ1 + f(0))/p; near p = 0, where these terms cancel, φ1 and G follow from φ.
     fn gaussians(&self, p: Complex64) -> Transforms {
         if let Some(height) = self.curvature.height_near_origin(p) {
             let slope = (p * height.0 - self.apex, height.0 + p * height.1);

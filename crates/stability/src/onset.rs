@@ -1,9 +1,8 @@
 //! The oscillation that bifurcates at the stability boundary: the Hopf bifurcation to leading order.
 //!
-//! With l = l0 + A e^{iωt} + c.c. + …, (18) expanded to third order in the differences
-//! l(t-τ) - l(t) and the amplitude equation read off at frequency ω (Lindstedt's method, which on the
-//! center manifold is its reduction): D_λ A' = -D_α (α - αc) A + N |A|²A, where D(λ) = λ + 1 - K̃(λ).
-//! `docs/explanation/linear-theory.md` derives N.
+//! Put l = l0 + A e^{iωt} + c.c. + … into (18), expanded to third order in the differences l(t-τ) - l(t). The terms
+//! of frequency ω give the amplitude equation (Lindstedt's method) D_λ A' = -D_α (α - αc) A + N |A|²A. Here
+//! D(λ) = h(λ/r) of (30), and subscripts are derivatives. `docs/explanation/linear-theory.md` derives N.
 
 use super::critical::Critical;
 use super::transform::CurvatureTransform;
@@ -34,7 +33,7 @@ pub struct Onset {
     pub growth_slope: f64,
     /// d(a²)/dα, where a is half the peak-to-peak value of l (or x0). Negative if subcritical.
     pub amplitude_squared_slope: f64,
-    /// dT/dα along the branch.
+    /// dT/dα of the period T along the branch.
     pub period_slope: f64,
     /// dω/dα along the branch.
     pub omega_slope: f64,
@@ -87,7 +86,7 @@ struct Coefficients {
 }
 
 impl Coefficients {
-    /// Φ_n(Λ) = ∫_0^∞ F^{(n)}(rτ) e^{-Λrτ}dτ, from G by parts: Φ1 = -κG, Φ2 = -κ(ΛG - f''(0)),
+    /// Φ_n(Λ) = ∫_0^∞ F^{(n)}(rτ) e^{-Λrτ}dτ, F = -αf', from G by parts: Φ1 = -κG, Φ2 = -κ(ΛG - f''(0)),
     /// Φ3 = -κ(Λ(ΛG - f''(0)) - f'''(0)), with κ = α/r.
     fn new(tip: &TipFunction, critical: &Critical) -> Self {
         let transform = CurvatureTransform::new(tip);

@@ -1,8 +1,8 @@
 //! Circular orbits of walkers: radii, frequencies and growth exponents.
 //!
-//! On a circle of radius ρ with angular frequency ω the distance to where the particle was a time τ ago is 2ρ |sin ωτ/2|,
-//! and J0(2ρ sin ωτ/2) = Σ `J_m`(ρ)² cos mωτ (Neumann's addition theorem, m over all integers). Therefore the balance of
-//! forces along the orbit and towards its center is
+//! On a circle of radius ρ with angular frequency ω, the position a time τ earlier is at the distance 2ρ |sin ωτ/2|, and
+//! J0(2ρ sin ωτ/2) = Σ `J_m`(ρ)² cos mωτ (Neumann's addition theorem, m over all integers). With the healing time T, the
+//! inertia M, the rotation Ω and the trap K, the forces along the orbit and towards its center balance if
 //!
 //! ```text
 //!     ρ² = -2αT² Σ_{m≥1} m² J_m(ρ)²/(1 + (mωT)²)
@@ -27,7 +27,7 @@ use stickslip_tip::walker::{WalkerScenario, directions};
 pub struct Orbit {
     /// ρ
     pub radius: f64,
-    /// ω, above 0 for an orbit against the clock.
+    /// ω, above 0 if the orbit is counterclockwise.
     pub frequency: f64,
     /// Growth exponents of small deviations, by falling real part; `None` if the memory is too long for them. 0 belongs to
     /// a shift along the orbit, and without a trap ±iω to a shift of its center.
@@ -38,7 +38,7 @@ pub struct Orbit {
 const SPACING: f64 = 0.02;
 /// Largest number of angular modes for which exponents are computed.
 const MOST_MODES: usize = 160;
-/// Error of the modes.
+/// Error at which the angular modes are truncated.
 const ERROR_OF_MODES: f64 = 1e-12;
 /// Largest real part of a neutral exponent, in units of 1/T.
 const NEUTRAL: f64 = 1e-7;
@@ -49,15 +49,15 @@ impl Orbit {
         (self.radius * self.frequency).abs()
     }
 
-    /// Number of exponents right of the imaginary axis.
+    /// Number of exponents right of the imaginary axis; `None` without [`exponents`](Self::exponents).
     pub fn unstable_count(&self, scenario: &WalkerScenario) -> Option<usize> {
         let grows = |z: &&Complex64| z.re * scenario.healing_time > NEUTRAL;
         Some(self.exponents.as_ref()?.iter().filter(grows).count())
     }
 }
 
-/// All circular orbits up to a radius, against the rotation and with it, by rising radius. Two orbits of the same sense
-/// whose radii differ by less than 0.02 may both be missed.
+/// All circular orbits with radii up to `largest`, by rising radius: in both senses, or without rotation, where both are
+/// alike, the counterclockwise ones. Two orbits of the same sense whose radii differ by less than 0.02 may both be missed.
 ///
 /// # Errors
 /// [`StabilityError::Alpha`] if a free particle does not walk, -αT² ≤ 2.
@@ -102,7 +102,7 @@ fn frequency(scenario: &WalkerScenario, radius: f64) -> f64 {
     stickslip_tip::roots::zero_between(excess, 0.0, largest).max(0.0).sqrt() / time
 }
 
-/// The forces on the particle away from the center, less those towards it.
+/// The sum of the forces on the particle, positive if away from the center.
 fn inward(scenario: &WalkerScenario, radius: f64, frequency: f64) -> f64 {
     let orders = bessel_orders(radius);
     let at = |m: usize| orders.get(m).copied().unwrap_or(0.0);
@@ -121,8 +121,8 @@ fn inward(scenario: &WalkerScenario, radius: f64, frequency: f64) -> f64 {
         - scenario.trap * radius
 }
 
-/// The walker in a frame that turns with its orbit. With positions and velocities as complex numbers, the numbers of the
-/// field of `tip::walker` by their angular modes, z(ψ) = Σ `a_m` e^{imψ}, obey
+/// The walker in a frame that turns with its orbit. The position X and the velocity V are complex numbers, and the field
+/// z(ψ) of `tip::walker` is expanded in angular modes, z = Σ `a_m` e^{imψ}:
 ///
 /// ```text
 ///     a_m' = δ_m0 - a_m/T + (i/2) (V* a_{m-1} + V a_{m+1}) + iωm a_m,   a_{-m} = (-1)^m a_m*

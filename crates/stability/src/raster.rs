@@ -1,9 +1,9 @@
 //! Linear stability of a raster: parallel scan lines, each affected by the grooves of earlier lines.
 //!
 //! Line n, at y = n d, moves over the grooves of the earlier lines. It deviates by A_n e^{iωt} from steady motion, ω =
-//! qr, and its weight is w0(1 + B_n e^{iωt}). Let f(x,y) = Σ_l g_l(x) h_l(y), a = αw0, s = 1/(rT) and p = s + iq. A
-//! groove decays by the factor c = e^{-X/(rT)} per line; φ, φ1, G are the one-sided transforms of f, f', f'', and
-//! ĝ_l(p) = ∫ g_l e^{-px}dx over all x. Small deviations obey
+//! qr, and its weight is w0(1 + B_n e^{iωt}). Let f(x,y) = Σ_l g_l(x) h_l(y), a = αw0, s = 1/(rT) and p = s + iq. With
+//! lines of length X a groove decays by the factor c = e^{-X/(rT)} per line; φ, φ1, G are the one-sided transforms of
+//! f, f', f'', and ĝ_l(p) = ∫ g_l e^{-px}dx over all x. Small deviations obey
 //!
 //! ```text
 //!     P (A_n, B_n) = (a/r) u Σ_j Σ_l c^j h_l(jd) ĝ_l(p) v·(A_{n-j}, B_{n-j}),    u = (p, β),   v = (-p, 1)
@@ -104,8 +104,8 @@ const LARGEST_EXPONENT: f64 = 700.0;
 const LEVEL: f64 = 1e-9;
 
 impl Raster {
-    /// Lines with the pitch d at the velocity r. After each line the grooves decay by the factor `left`: e^{-X/(rT)},
-    /// or 1 without healing.
+    /// Lines with the pitch d at the velocity r. After each line the grooves decay by the factor `left`: e^{-X/(rT)}
+    /// for lines of length X and the healing time T, or 1 without healing.
     ///
     /// # Errors
     /// r or the pitch is not a positive finite number, or the pitch is so small that the lines within reach cannot be
@@ -169,14 +169,15 @@ impl Raster {
         Ok(self)
     }
 
-    /// Threshold of ripples: the smallest α at which, for some q, a wave that decays at all smaller α has |z| = 1.
+    /// The threshold: the smallest α at which, for some q, a wave neither grows nor decays from line to line.
     ///
-    /// The search covers the phases of all z on the circle, on a zigzag too. It does not depend on samples: all wave
-    /// numbers and phases are bounded, and the threshold itself is a root to round-off. See [`RasterCertificate`].
+    /// The search covers all wave numbers, and all phases from one line to the next. It does not rely on samples: bounds
+    /// hold between them, and the threshold itself is a root to round-off. See [`RasterCertificate`].
     ///
     /// # Errors
-    /// [`StabilityError::NoCrossing`] if no ripple grows at any α; [`StabilityError::HealingZigzag`];
-    /// [`StabilityError::NoRipples`] for J0 and cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
+    /// [`StabilityError::NoCrossing`] if no wave grows at any α; [`StabilityError::HealingZigzag`];
+    /// [`StabilityError::EvenOnly`] for a zigzag under a depth limit; [`StabilityError::NoRipples`] for J0 and cos x;
+    /// [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
     pub fn critical(&self, path: RasterPath) -> Result<RasterCritical, StabilityError> {
         let lines = self.lines(path)?;
         let none = StabilityError::NoCrossing { r: self.r };
@@ -206,11 +207,10 @@ impl Raster {
         Ok(critical)
     }
 
-    /// The lowest threshold of each kind of wave, by increasing α. The first is [`Raster::critical`], the only
-    /// certified one.
+    /// The lowest threshold of each kind of wave, by increasing α. The first is [`Raster::critical`].
     ///
-    /// If the tip is flexible across the lines, each of several kinds of waves has its own band, with a local maximum
-    /// of T = r/α. A kind without such a band is left out. Only the first threshold is certified to be the smallest α
+    /// If the tip is flexible across the lines, each of several kinds of waves has its own band of q, with a local
+    /// minimum of α. A kind without such a band is left out. Only the first threshold is certified to be the smallest α
     /// of its kind. For the others `tolerance` is 1 and `cells` is 0, but growing waves are counted at the q of each.
     ///
     /// # Errors
@@ -313,12 +313,12 @@ impl Raster {
         self.heights.iter().flatten().flatten().all(|h| h.abs() < ALONE)
     }
 
-    /// α of a.
+    /// α for a given a = αw0.
     fn alpha(&self, a: f64) -> f64 {
         self.law.depth_limit.map_or(a, |limit| a * (a * self.depth.abs() / limit).exp())
     }
 
-    /// a of α.
+    /// a = αw0 for a given α.
     fn density(&self, alpha: f64) -> f64 {
         if self.law.depth_limit.is_none() {
             return alpha;

@@ -11,9 +11,9 @@ use stickslip_tip::{Model, Pulse};
 /// One term of (A.9) for one pulse: `residue` e^{λt} once the pulse is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResponseMode {
-    /// λ
+    /// The growth exponent λ, in k/Γ.
     pub lambda: Complex64,
-    /// The residue F̃ext(λ)/(K̃'(λ) - 1), summed over the pulses.
+    /// The residue -F̃ext(λ)/D'(λ), summed over the pulses, where D(λ) = h(λ/r) of (30) in the basic model.
     pub residue: Complex64,
 }
 
@@ -22,18 +22,18 @@ pub struct ResponseMode {
 pub struct Response {
     /// The modes, by falling Re λ.
     pub modes: Vec<ResponseMode>,
-    /// The modes, with the certificate that no mode right of the last is missing.
+    /// The exponents of the modes, with the certificate that no root right of the last one is missing.
     pub spectrum: Spectrum,
     pulses: Vec<Pulse>,
-    /// 1/(K̃'(λ) - 1) of each mode.
+    /// -1/D'(λ) of each mode.
     weights: Vec<Complex64>,
 }
 
 /// The response of steady motion to `pulses`, from at least `count` leading roots.
 ///
 /// Faster modes are left out: the error decays like e^{Re λ t} of the first of them, so that the sum is accurate from
-/// shortly after a pulse. The residues assume simple roots; the exceptions are curves in the (r, α) plane. For J0 the
-/// branch points ±ir add a term that decays like t^{-3/2}; it is not a mode and is left out.
+/// shortly after a pulse. The residues assume simple roots; double roots occur on curves in the (r, α) plane only. For
+/// J0 the branch points ±ir add a term that decays like t^{-3/2}; it is not a mode and is left out.
 ///
 /// # Errors
 /// A pulse has a value that is not finite or a width ≤ 0; otherwise as [`super::roots`].

@@ -10,20 +10,21 @@ use stickslip_tip::{Model, TipFunction};
 
 /// All roots λ of (29) with Re λ ≥ `bound`.
 ///
-/// The number of roots comes from the argument principle on a rectangle beyond whose other three
-/// sides h of (30) cannot vanish, which the bounds in `docs/explanation/linear-theory.md` show; so it holds for the
-/// whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if it
-/// finds fewer than were counted, from bisection of the rectangle. Each is polished to round-off; two that
+/// The number of roots comes from the argument principle on a rectangle whose left side is Re λ = `bound`. By the
+/// bounds in `docs/explanation/linear-theory.md`, h of (30) cannot vanish beyond the other three sides, so that the
+/// number holds for the whole half-plane. Roots come from Newton's method with deflation on a grid of starts, and, if
+/// it finds fewer than were counted, from bisection of the rectangle. Each is polished to round-off; two that
 /// are close to a double root are computed together from the zero of h'. If a root lies on Re λ = `bound`,
-/// the edge is moved slightly to the left: see the region of the certificate.
+/// the left side is moved slightly to the left: see the region of the certificate.
 ///
 /// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
 /// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
 /// and on it this makes no difference. In the extended model only roots right of these branch points are available.
 ///
 /// # Errors
-/// [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`]; [`StabilityError::NoSupport`] and
-/// [`StabilityError::Corner`] where there is no linear theory, [`StabilityError::BranchPoints`].
+/// [`StabilityError::Bound`], [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`];
+/// [`StabilityError::NoSupport`] and [`StabilityError::Corner`] where there is no linear theory,
+/// [`StabilityError::BranchPoints`].
 pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
     if !bound.is_finite() {
         return Err(StabilityError::Bound(bound));
@@ -35,10 +36,10 @@ pub fn roots(model: &Model, bound: f64) -> Result<Spectrum, StabilityError> {
     counted(&h, bound / model.r())?.spectrum(&h).map_err(|error| h.explain(error))
 }
 
-/// At least `count` leading roots: all those right of a line, which is chosen accordingly.
+/// At least `count` leading roots: all roots right of a line that is chosen far enough to the left.
 ///
 /// The list is shorter if no more roots exist (α = 0: only the root -1; J0), or if the others lie left of
-/// Re Λ ≈ -60/width, for a table left of Re Λ = -24/reach: there round-off of its entries, amplified by
+/// Re Λ ≈ -60/width. For a table this limit is Re Λ = -24/reach: left of it, round-off of the entries, amplified by
 /// e^{-Λy}, would cause spurious roots.
 ///
 /// # Errors
@@ -51,10 +52,11 @@ pub fn leading_roots(model: &Model, count: usize) -> Result<Spectrum, StabilityE
     leading(&h, count).map_err(|error| h.explain(error))
 }
 
-/// Number of roots right of the imaginary axis: 0 if steady motion is stable.
+/// Number of roots right of the imaginary axis: 0 if steady motion is stable. If a root lies on the axis, roots are
+/// counted right of a line slightly to its left.
 ///
 /// # Errors
-/// As [`roots`]; on the boundary itself, roots are counted right of a line slightly to the left.
+/// As [`roots`].
 pub fn unstable_count(model: &Model) -> Result<usize, StabilityError> {
     if has_closed_form(model) {
         return Ok(bessel_roots::spectrum(model, Some(0.0))?.certificate.counted);

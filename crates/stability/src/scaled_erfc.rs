@@ -9,12 +9,12 @@ const SERIES_FROM: f64 = 40.0;
 
 /// erfcx(z) = e^{z²} erfc(z) and R(z) = √π z erfcx(z) - 1, for Re z ≥ 0.
 ///
-/// R falls like -1/(2z²), so that forming it from erfcx would lose as many digits as 2|z|² has; for
-/// |z|² > 40 it is summed from its asymptotic series Σ_{n≥1} (-1)^n (2n-1)!!/(2z²)^n (Abramowitz &
-/// Stegun 7.1.23) and erfcx follows from it.
+/// R falls like -1/(2z²), so that computing it from erfcx would lose about log10(2|z|²) digits. For
+/// |z|² > 40 it is therefore summed from its asymptotic series Σ_{n≥1} (-1)^n (2n-1)!!/(2z²)^n (Abramowitz &
+/// Stegun 7.1.23), and erfcx follows from it.
 ///
-/// Nothing overflows for Re z ≥ 0. Left of it erfcx(z) = 2e^{z²} - erfcx(-z) and
-/// R(z) = 2√π z e^{z²} + R(-z): the caller keeps the exponential apart.
+/// Nothing overflows for Re z ≥ 0. For Re z < 0 erfcx(z) = 2e^{z²} - erfcx(-z) and
+/// R(z) = 2√π z e^{z²} + R(-z); the caller treats the exponential separately.
 pub(super) fn scaled_erfc(z: Complex64) -> (Complex64, Complex64) {
     if z.norm_sqr() > SERIES_FROM {
         let remainder = asymptotic_remainder(z);

@@ -1,7 +1,8 @@
 //! Snaking: instability of a single line with a tip that is flexible across the scan.
 //!
 //! A spring κ_y holds the tip on its line y = 0. A small deviation y ∝ e^{λt} from the steady motion x0 = rt is driven
-//! by the groove that the tip made at other y. With a = αw0, s = 1/(rT),
+//! by the groove that the tip made at other y. With the indentation rate a = αw0 in steady motion, the healing time T
+//! and s = 1/(rT),
 //!
 //! ```text
 //!     y'(t) = a ∫_0^∞ f_yy(rτ,0) e^{-τ/T} [y(t) - y(t-τ)] dτ - κ_y y(t)
@@ -39,7 +40,7 @@ const MARGIN: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub struct Snaking {
     footprint: Footprint,
-    /// `f_yy(x,0)`; `None` where it is 0.
+    /// `f_yy(x,0)`; `None` if it is 0 for all x.
     curvature: Option<Arc<OneSided>>,
     law: Wider,
     r: f64,
@@ -51,13 +52,13 @@ pub struct Snaking {
 pub struct SnakingCritical {
     /// α_y, the smallest α with an undamped deviation across the scan.
     pub alpha: f64,
-    /// r
+    /// The support velocity r.
     pub r: f64,
     /// κ_y, in units of the spring along the scan.
     pub stiffness: f64,
-    /// ω = rΩ
+    /// Frequency ω = rΩ in time.
     pub omega: f64,
-    /// 2πr/ω
+    /// Wavelength 2πr/ω along the scan.
     pub wavelength: f64,
     /// Evidence that this is the threshold.
     pub certificate: SnakingCertificate,
@@ -70,7 +71,7 @@ pub struct SnakingCritical {
 /// arithmetic with bounds, not on interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SnakingCertificate {
-    /// Largest relative distance by which a lower threshold could lie below this one.
+    /// No other threshold is lower than this one by more than this fraction.
     pub tolerance: f64,
     /// Number of intervals of Ω examined.
     pub cells: usize,
@@ -84,8 +85,8 @@ pub struct SnakingCertificate {
 
 impl Snaking {
     /// # Errors
-    /// r or κ_y is not a positive finite number, a parameter of the model is out of range, or there is no spring along
-    /// the scan.
+    /// r or κ_y is not a positive finite number, κ_y is below 1e-9 r, a parameter of the model is out of range, there is
+    /// no spring along the scan, or the footprint is not even.
     pub fn new(
         footprint: &Footprint,
         law: Wider,
@@ -109,8 +110,8 @@ impl Snaking {
 
     /// The smallest α at which the line snakes; `None` if it never does.
     ///
-    /// J0 never snakes. With the width v of its h(y), λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with
-    /// Re λ ≥ 0, because Im φ < 0 for φ(p) = 1/√(p²+1) if both parts of p are positive, and φ decreases with a real p.
+    /// J0 never snakes. If its width across is v, λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with
+    /// Re λ ≥ 0: φ(p) = 1/√(p²+1) decreases along the real axis, and Im φ < 0 if Re p and Im p are positive.
     ///
     /// # Errors
     /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`],
@@ -200,7 +201,7 @@ impl Snaking {
         self.law.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
     }
 
-    /// α of A = αw0/r: w0 = e^{-A|φ(s)|/b}.
+    /// α for a given A = αw0/r, where w0 = e^{-A|φ(s)|/b}.
     fn alpha(&self, density: f64) -> f64 {
         let depth = density * self.footprint.path().fading_tail(0.0, self.fading()).abs();
         self.r * density * self.law.depth_limit.map_or(1.0, |limit| (depth / limit).exp())

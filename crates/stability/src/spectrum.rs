@@ -7,7 +7,7 @@ use stickslip_tip::sorting::sort_by_number;
 /// Roots of (29) with their certificate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
-    /// λ by falling real part, both of each conjugate pair (the one above the real axis first).
+    /// λ by falling real part, including both members of each conjugate pair (the one above the real axis first).
     pub roots: Vec<Complex64>,
     /// Certificate that no root is missing.
     pub certificate: Certificate,
@@ -23,7 +23,7 @@ impl Spectrum {
     }
 }
 
-/// λ = rΛ of all roots, by falling real part, a conjugate after its twin.
+/// λ = rΛ of all roots, by falling real part, each followed by its conjugate.
 pub(super) fn with_conjugates(upper: &[Complex64], r: f64) -> Vec<Complex64> {
     let mut upper = upper.to_vec();
     sort_by_number(&mut upper, |z| z.im);

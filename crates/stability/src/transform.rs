@@ -9,16 +9,16 @@ use std::f64::consts::{PI, SQRT_2};
 use stickslip_tip::Gaussian;
 use stickslip_tip::TipFunction;
 
-/// Largest number of Gaussians in a closed form; sums of more, such as tables, are integrated by quadrature.
+/// Largest number of Gaussians in a closed form; longer sums, such as those of tables, are integrated by quadrature.
 const MOST_CLOSED_FORMS: usize = 16;
 /// Exponents above this are stored in [`Scaled::log_scale`].
 const LARGEST_EXPONENT: f64 = 300.0;
-/// |Λ| times the largest width below which Λ²f̃ and Λf(0) do not cancel.
+/// Value of |Λ| times the largest width below which Λ²f̃ and Λf(0) do not cancel.
 const NEAR_ORIGIN: f64 = 0.5;
-/// An exponent of 1 is rounded by so much of what else rounds e to it: 3 × 2.2e-16 of 3e-14.
+/// Round-off that each unit of an exponent adds to the exponential, 3 × 2.2e-16, relative to its other round-off, 3e-14.
 const ROUNDING_OF_EXPONENT: f64 = 0.02;
 
-/// A value and its derivative with respect to Λ, both times e^`log_scale`.
+/// A value and its derivative with respect to Λ, both to be multiplied by e^`log_scale`.
 ///
 /// G grows like e^{Λ²w²/2} to the left, beyond the range of floating point at |Λ| ≈ 40/w.
 #[derive(Debug, Clone, Copy)]
@@ -62,7 +62,7 @@ impl CurvatureTransform {
         Self { kind }
     }
 
-    /// Whether G has a closed form, so that its real part on the axis is most accurate from f̂.
+    /// Whether G has a closed form. For an even f its real part on the imaginary axis is then most accurate from f̂.
     pub(super) fn is_closed_form(&self) -> bool {
         !matches!(self.kind, Kind::Quadrature(..))
     }
@@ -79,7 +79,7 @@ impl CurvatureTransform {
         }
     }
 
-    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), for Λ so small that G(Λ) = Λ(Λφ - f(0)) does not determine it.
+    /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), for Λ so small that G(Λ) = Λ(Λφ - f(0)) does not determine φ; else `None`.
     pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
         match &self.kind {
             Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
@@ -92,8 +92,8 @@ impl CurvatureTransform {
 
     /// Σ|terms| of the sum for G(Λ), times e^{-`log_scale`}: the scale of round-off in G(Λ).
     ///
-    /// Side lobes of height β/2 balance the peak along Re Λ = -ln(2/β)/c, where each is e^{Re(Λ²)w²/2}
-    /// times what they leave.
+    /// Side lobes of height β/2 at ±c cancel the peak along Re Λ = -ln(2/β)/c, where each of these terms is
+    /// e^{Re(Λ²)w²/2} times as large as their sum.
     pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
         match &self.kind {
             Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
@@ -108,8 +108,8 @@ impl CurvatureTransform {
     }
 }
 
-/// Σ over Gaussians of Λ²f̃ - Λf(0) - f'(0). With z = (Λw² - c)/(w√2) and R of [`scaled_erfc`], one of
-/// them contributes, free of the cancellation between these three,
+/// Σ over Gaussians of Λ²f̃ - Λf(0) - f'(0), written so that these three terms do not cancel. With z = (Λw² - c)/(w√2)
+/// and R of [`scaled_erfc`], a Gaussian of amplitude a, center c and width w contributes
 ///
 /// ```text
 ///     a e^{-c²/2w²} [ (Λ + c/w²) R(z) + (c²/w³) √(π/2) erfcx(z) ]
@@ -141,8 +141,8 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
     Scaled { value, derivative, log_scale }
 }
 
-/// Where Λ is small against 1/width: Λ(Λf̃ - f(0)), whose terms do not cancel there. Those of the bracket
-/// above are of the size of f'(0) of each Gaussian, while G falls like Λ.
+/// G = Λ(Λf̃ - f(0)) for Λ small against 1/width, where these terms do not cancel. The terms of [`closed_forms`] do:
+/// they are of the size of f'(0) of each Gaussian, while G falls like Λ.
 #[derive(Debug, Clone, Copy)]
 struct Origin {
     radius: f64,
@@ -236,7 +236,7 @@ fn size_of_closed_forms(terms: &[Gaussian], lambda: Complex64, log_scale: f64) -
     terms.iter().map(size).sum()
 }
 
-/// The bracket above with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
+/// The bracket of [`closed_forms`] with its prefactor, and its derivative with respect to Λ: dz/dΛ = w/√2,
 /// erfcx' = 2R/√π, R' = √π erfcx + 2zR (the same in both half-planes).
 fn algebraic_part(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
     let (c, w) = (g.center, g.width);

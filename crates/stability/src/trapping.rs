@@ -12,8 +12,8 @@ use stickslip_tip::roots::bisected;
 /// Samples of ln p in the search for the largest Q.
 const SAMPLES: u32 = 400;
 
-/// Trapping threshold: the smallest α with a creep x0 ~ (1/p) ln t, r / max_p Q(p). For a footprint with several peaks
-/// the creep need not attract there: see [`super::Creep::attracting`].
+/// Trapping threshold r/max_p Q(p), Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds: the smallest α with a creep x0 ~ (1/p) ln t. For a
+/// footprint with several peaks this creep need not be attracting: see [`super::Creep::attracting`].
 ///
 /// # Errors
 /// `r` is not a positive finite number, or Q is nowhere positive.

@@ -12,10 +12,11 @@ use super::{Spectrum, StabilityError};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// Lower end of the search for speeds, as a fraction of the largest possible one, and samples per decade.
+/// Lower end of the search for speeds, as a fraction of the largest possible one.
 const SLOWEST: f64 = 1e-7;
+/// Samples per decade in this search.
 const PER_DECADE: u32 = 60;
-/// Largest round-off of the root 0, which belongs to a shift of the whole walk, where the certificate allows no larger one.
+/// Largest round-off, relative to 1 + v, of the root 0 of a shift of the walk, if the certificate has no larger error.
 const NEUTRAL: f64 = 1e-9;
 
 /// A steady walk with the roots of small deviations from it.
@@ -35,7 +36,7 @@ impl Walk {
         self.spectrum.roots.iter().filter(|z| z.re > 0.0).count()
     }
 
-    /// Whether every deviation decays, except a shift along the scan; `None` if an error of the roots could change it.
+    /// Whether every deviation decays, except a shift along the scan; `None` if the errors of the roots leave it open.
     pub fn is_stable(&self) -> Option<bool> {
         let error = self.spectrum.certificate.largest_error;
         let others = self.spectrum.roots.iter().filter(|z| z.norm() > 0.0);
@@ -94,7 +95,7 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
 }
 
 /// Threshold of walking, e^{|h|/b}/(T²f''(0)) with |h| = f(0)/(T|f''(0)|), a negative number: for α below it a tip at
-/// rest on a surface that heals within T begins to walk. Without healing there is none.
+/// rest on a surface that heals within T begins to walk. `None` without healing.
 ///
 /// At rest λ(Mλ + 1) = αw f''(0) λT/(λ + 1/T): at the threshold 0 is a double root for any M. A depth limit b changes
 /// only the weight w = e^{-|h|/b} of the height h = αwT f(0).
@@ -106,7 +107,7 @@ pub fn walking_alpha(tip: &TipFunction, wider: &Wider) -> Option<f64> {
     Some(exponent.exp() / (healing_time * healing_time * curvature))
 }
 
-/// The model of a dragged tip of the same speed: its groove is the same, except for the sign.
+/// N at this speed, with w0 of a dragged tip of the same speed, whose groove is the same except for the sign.
 fn law_at(model: &Model, speed: f64) -> Law {
     let dragged = Wider { spring: true, ..*model.wider() };
     let weight = Model::under(dragged, model.tip().clone(), model.alpha().abs(), speed)

@@ -14,12 +14,12 @@ const SHORTEST: f64 = 1e-13;
 /// Largest number of steps on one side of a contour.
 const MOST_STEPS: usize = 1_000_000;
 
-/// Change of arg h along the straight line from `from`, where it is `here`, to `to`, in radians, and h there.
+/// Change of arg h in radians along the straight line from `from`, where h is `here`, to `to`, and h at `to`.
 ///
-/// Steps are |h/h'| times 0.7. They are shortened until h' at the far end agrees, h itself turns and grows no more
-/// than that, and the change of h agrees with its slopes. A turn would be missed if h and h' were the same at both
-/// ends of a step but different between them: if h may vary over a certain length, the corners of the contour must be
-/// no further apart.
+/// A step is first 0.7 |h/h'| long. It is halved until it is no longer than about 0.7 |h/h'| at its far end, h changes by
+/// no more than about 0.8 |h|, and this change agrees with h' at both ends. A turn would be missed if h and h' were the
+/// same at both ends of a step but different between them: if h may vary over a certain length, the corners of the
+/// contour must be no further apart.
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`] if h vanishes on the line.
@@ -84,8 +84,8 @@ pub(super) fn argument_along(
     end.map(|(_, _, turned)| turned)
 }
 
-/// Corners added to a path, so that h varies little from one to the next:
-/// over the tip's width, and over |Λ| and |p|, p = Λ + `fading`, where those are larger and no exponential of p² is left.
+/// The path with further corners, so that h varies little from one to the next. They are 0.3/`length` apart, or 0.2 of
+/// the smaller of |Λ| and |p|, p = Λ + `fading`, if this is larger and the exponential of p² in h is negligible.
 pub(super) fn resolved(path: &[Complex64], length: f64, fading: f64) -> Vec<Complex64> {
     let spacing = |z: Complex64| {
         let p = z + fading;

@@ -1,4 +1,4 @@
-//! Bands of waves: every place at which T is largest among its neighbours, so that waves of their own begin to grow there.
+//! Bands of waves: every local maximum of T, at which another kind of wave may begin to grow.
 //!
 //! The zeros of Q with real T, q and θ are curves; along them T rises to several maxima, of ripples and of lines that bunch or
 //! snake. The largest of all follows from the certified search (`search.rs`). The others are what Newton's method finds
@@ -12,14 +12,15 @@ use std::f64::consts::PI;
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::stop;
 
-/// Wave numbers of the lattice, and phases from 0 to 2π.
+/// Number of wave numbers of the lattice.
 const WAVE_NUMBERS: u32 = 48;
+/// Number of phases of the lattice, from 0 to 2π.
 const PHASES: f64 = 32.0;
 /// Half the width of a cell about the wave number of a single line.
 const NARROW: f64 = 1e-3;
-/// Places closer than this are one.
+/// Places closer than this count as one.
 const APART: f64 = 1e-6;
-/// How far along its curve a maximum is compared with T beside it.
+/// Steps along the curve of zeros after which T is compared with a maximum; the first that can be made is used.
 const BESIDE: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
 /// All maxima found with T of at least `least` and q up to `band`, the largest T first.
@@ -68,7 +69,7 @@ fn is_same(lines: &Lines, a: Place, b: Place) -> bool {
     is_turned && (a.q - b.q).abs() < APART * (1.0 + a.q)
 }
 
-/// Whether T is less a little farther along the curve of zeros, on both sides: as far as a narrow band goes on.
+/// Whether T is smaller a small step farther along the curve of zeros, on both sides.
 fn is_largest(lines: &Lines, place: Place) -> bool {
     let slopes = place.slopes(lines);
     let turn = -(slopes.q / slopes.theta).re;

@@ -1,4 +1,4 @@
-//! Waves that grow at a given T and q, by the turns of the determinant along the unit circle.
+//! Number of waves that grow at a given T and q, from the change of arg Q along the unit circle.
 
 use super::determinant::Lines;
 use super::optimum::Place;
@@ -7,12 +7,12 @@ use crate::winding::{argument_along, whole};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// The wave of the threshold is counted this far within the circle and beyond.
+/// Waves are counted where the wave of the threshold is this far inside the unit circle, and outside it.
 const OFF_CIRCLE: f64 = 1e-3;
-/// α at which waves are counted are no farther from the threshold than this part of it.
+/// Largest relative distance from the threshold of the α at which waves are counted.
 const FARTHEST: f64 = 1e-3;
 
-/// What grows beside a threshold.
+/// Numbers of growing waves at α below and above a threshold by the fraction `margin`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Counted {
     pub(super) margin: f64,
@@ -20,7 +20,7 @@ pub(super) struct Counted {
     pub(super) above: Option<usize>,
 }
 
-/// Waves of the q of a threshold a little below it and above.
+/// Counts growing waves with the q of a threshold, slightly below and above this threshold.
 pub(super) fn beside(lines: &Lines, place: Place) -> Counted {
     let slopes = place.slopes(lines);
     // How far T moves while w moves by OFF_CIRCLE.
@@ -30,7 +30,7 @@ pub(super) fn beside(lines: &Lines, place: Place) -> Counted {
     Counted { margin, below: at(1.0 + margin), above: at(1.0 - margin) }
 }
 
-/// Zeros of Q within the unit circle; `None` where one lies on it.
+/// Number of zeros of Q within the unit circle; `None` if one lies on it.
 pub(super) fn growing(lines: &Lines, t: f64, q: f64) -> Option<usize> {
     let wave = lines.wave(q, 1.0);
     let along = |theta: Complex64| {

@@ -28,7 +28,7 @@ pub struct RasterCritical {
     pub kind: RasterKind,
     /// The smallest α with a wave that does not decay from line to line.
     pub alpha: f64,
-    /// r
+    /// The support velocity r.
     pub r: f64,
     /// Wave number q along the lines.
     pub q: f64,
@@ -46,13 +46,13 @@ pub struct RasterCritical {
 
 /// Evidence that no ripple grows below the threshold, and that one grows above it.
 ///
-/// Growing ripples are the zeros of a determinant within the unit circle of w = 1/z (w² on a zigzag), counted by the
-/// change of its argument along the circle. The search over all wave numbers and phases excludes zeros on the circle,
-/// and with them any growth, for all α below the threshold by more than `tolerance`. It uses floating-point arithmetic
-/// with bounds of the truncation errors, not interval arithmetic.
+/// Let a ripple grow by the factor z from line to line. Growing ripples are the zeros of a determinant within the unit
+/// circle of w = 1/z (w² on a zigzag), counted by the change of its argument along the circle. The search over all wave
+/// numbers and phases excludes zeros on the circle, and with them any growth, for all α below the threshold by more than
+/// `tolerance`. It uses floating-point arithmetic with bounds of the truncation errors, not interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RasterCertificate {
-    /// Largest relative distance by which a lower threshold could lie below this one.
+    /// No other threshold is lower than this one by more than this fraction.
     pub tolerance: f64,
     /// Number of cells of wave numbers and phases examined.
     pub cells: usize,

@@ -1,31 +1,31 @@
 //! The determinant that vanishes where a ripple e^{iqx} neither grows nor fades from line to line.
 //!
 //! With T = r/a, w = 1/z and m = 1 + irq - Mr²q² the equations of `docs/explanation/rasters.md` are (T - N)v = 0, N a matrix of
-//! functions of q and of Λ_l(w) = Σ_j c^j h_l(jd) w^j. One way, where not both the surface heals and the depth is limited,
+//! functions of q and of Λ_l(w) = Σ_j c^j h_l(jd) w^j. For one-way lines without healing or without a depth limit,
 //!
 //! ```text
 //!     Q = T - A,                 A = βφ + K/m + Σ_l (β - p²/m) ĝ_l Λ_l,    K = G(s) - G(p) + s²E
 //! ```
 //!
-//! and where both is so,
+//! and with both,
 //!
 //! ```text
 //!     Q = (T - N11)(T - N22) - N12 N21,     N11 = (K - Σ p²ĝ_l Λ_l)/m,     N22 = β(φ + Σ ĝ_l Λ_l),
 //!     N12 = (φ1 + Σ pĝ_l Λ_l)/m,            N21 = β(φ1(s) - φ1 + sE - Σ pĝ_l Λ_l)
 //! ```
 //!
-//! On the way back of a zigzag (s = 0) what is a line's own is conjugate. With E and O the even and the odd part of Λ, and
-//! A = κ + Σ F_l Λ_l as above,
+//! On the retrace of a zigzag (s = 0) the functions of q are the complex conjugates. With E and O the even and the odd part
+//! of Λ, and A = κ + Σ F_l Λ_l as above,
 //!
 //! ```text
 //!     Q = (T - κ - Σ F_l E_l)(T - κ* - Σ F_l* E_l) - (Σ F_l O_l)(Σ F_l* O_l)
 //! ```
 //!
-//! a function of W = w². A footprint whose sides differ has on the way back the κ and F of its mirror image in place of κ* and
-//! F*, conjugate. Q is analytic in w or W within the unit circle, where its zeros are the waves that grow.
+//! a function of W = w². For a footprint that is not even, the conjugates of κ and F of its mirror image replace κ* and F*.
+//! Q is analytic in w or W within the unit circle, where its zeros are the waves that grow.
 //!
-//! Where the tip gives way across the lines Q = det(T - N) has the rows of `plane.rs`, on a zigzag twice: A is a matrix
-//! there, and so are F_l, whose even sums stand beside the own terms and whose odd sums couple both ways.
+//! If the tip is flexible across the lines, Q = det(T - N) has the rows of `plane.rs`, on a zigzag twice. A and F_l are then
+//! matrices: Σ F_l E_l adds to κ as above, and Σ F_l O_l couples trace and retrace.
 
 use super::entry::Entry;
 use super::lines::Sequence;
@@ -36,30 +36,30 @@ use super::polynomial::{Polynomial, minor, null_vector};
 use super::waves::Waves;
 use num_complex::Complex64;
 
-/// What N is.
+/// The form of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Scalar,
     Full,
     Zigzag,
-    /// A single line, across.
+    /// A single line that deviates across the scan only.
     Across,
     /// Two rows, along and across, one way.
     Plane,
-    /// Three.
+    /// Three rows: along, weight and across, one way.
     PlaneFull,
-    /// Twice two.
+    /// Two rows, along and across, for the trace and two for the retrace.
     PlaneZigzag,
 }
 
-/// The determinant's functions of q on an interval; on a zigzag also those of the way back.
+/// The functions of q in the determinant, on an interval; on a zigzag also those of the retrace.
 #[derive(Debug, Clone)]
 pub(super) struct Wave(Vec<Entry>, Vec<Entry>);
 
 /// Sums over lines on an interval of the phase of w, or of W.
 #[derive(Debug, Clone)]
 pub(super) struct Phase {
-    /// Λ_l, or E_l, of h and where the tip gives way across of h' and h'' too.
+    /// Λ_l, or E_l on a zigzag, of h and, if the tip is flexible across the lines, of h' and h''.
     all: Vec<Vec<Patch>>,
     /// O_l/w
     odd: Vec<Vec<Patch>>,
@@ -67,11 +67,11 @@ pub(super) struct Phase {
     turn: Patch,
 }
 
-/// A law, a footprint, and how the lines lie.
+/// A law, a footprint and an arrangement of lines.
 #[derive(Debug, Clone)]
 pub(super) struct Lines {
     pub(super) waves: Waves,
-    /// Those of the mirror image, for the way back, if the sides of the footprint differ.
+    /// The transforms of the mirrored footprint, for the retrace, if the footprint is not even.
     pub(super) back: Option<Waves>,
     pub(super) kind: Kind,
     pub(super) r: f64,
@@ -95,7 +95,7 @@ pub(super) struct Terms {
     pub(super) across: Option<Sideways>,
 }
 
-/// c^j h_l(jd) of each layer, j = 1, 2, …, and where the tip gives way across the same of h' and h''.
+/// c^j h_l(jd) of each layer, j = 1, 2, …, and, if the tip is flexible across the lines, the same with h' and h''.
 pub(super) type Heights = Vec<Vec<Vec<f64>>>;
 
 impl Lines {
@@ -112,7 +112,7 @@ impl Lines {
         Self::of(waves, terms, kind, [all, vec![]])
     }
 
-    /// To and fro, where nothing heals.
+    /// Zigzag lines on a surface that does not heal.
     pub(super) fn zigzag(waves: Waves, terms: Terms, heights: &Heights) -> Self {
         let every_other = |from: usize| {
             let sequence = |h: &Vec<f64>| {
@@ -125,12 +125,12 @@ impl Lines {
         Self::of(waves, terms, kind, [every_other(1), every_other(0)])
     }
 
-    /// The same with these waves on the way back.
+    /// The same lines with these transforms on the retrace.
     pub(super) fn with_back(self, back: Option<Waves>) -> Self {
         Self { back, ..self }
     }
 
-    /// A single line, across alone.
+    /// A single line that deviates across the scan only.
     pub(super) fn single_across(waves: Waves, terms: Terms) -> Self {
         Self::of(waves, terms, Kind::Across, [vec![], vec![]])
     }
@@ -140,7 +140,7 @@ impl Lines {
         Self { waves, back: None, kind, r, mass, steepness, beside, across, all, odd }
     }
 
-    /// A single line over the same even grooves.
+    /// A single line over the steady grooves of the same earlier lines.
     pub(super) fn alone(&self) -> Self {
         let kind = match self.kind {
             Kind::Zigzag => Kind::Scalar,
@@ -150,14 +150,14 @@ impl Lines {
         Self { kind, back: None, all: vec![], odd: vec![], ..self.clone() }
     }
 
-    /// A single line, and if the sides of the footprint differ one of the way back.
+    /// [`Self::alone`], and, if the footprint is not even, also a single retrace.
     pub(super) fn each_alone(&self) -> Vec<Self> {
         let alone = self.alone();
         let back = self.back.clone().map(|waves| Self { waves, ..alone.clone() });
         std::iter::once(alone).chain(back).collect()
     }
 
-    /// The same along and across, each as if the other were held.
+    /// [`Self::alone`] with deviations along the scan only, and with deviations across it only.
     pub(super) fn alone_each(&self) -> [Self; 2] {
         let alone = self.alone();
         let both = alone.kind == Kind::PlaneFull;
@@ -169,8 +169,8 @@ impl Lines {
         self.all.is_empty()
     }
 
-    /// Centre and half of the interval of phases: all of them one way; on a zigzag with equal sides those of Im W ≥ 0, as
-    /// Q(W*) = Q(W)*.
+    /// Centre and half-width of the interval of phases: all phases; on a zigzag with an even footprint only those with
+    /// Im W ≥ 0, because Q(W*) = Q(W)*.
     pub(super) fn phases(&self) -> (f64, f64) {
         let half = std::f64::consts::PI;
         if self.is_mirrored() { (0.5 * half, 0.5 * half) } else { (0.0, half) }
@@ -187,17 +187,17 @@ impl Lines {
         matches!(self.kind, Kind::Zigzag | Kind::PlaneZigzag)
     }
 
-    /// Whether both ways are mirror images of each other, so that Q(W*) = Q(W)*.
+    /// Whether trace and retrace are mirror images of each other, so that Q(W*) = Q(W)*.
     pub(super) fn is_mirrored(&self) -> bool {
         self.is_zigzag() && self.back.is_none()
     }
 
-    /// Whether the tip gives way across the lines.
+    /// Whether the tip is flexible across the lines.
     pub(super) fn is_plane(&self) -> bool {
         matches!(self.kind, Kind::Plane | Kind::PlaneFull | Kind::PlaneZigzag)
     }
 
-    /// Lines that are felt at all, at most.
+    /// Largest number of earlier lines in a sum.
     pub(super) fn felt(&self) -> usize {
         self.all.iter().chain(&self.odd).flatten().map(Sequence::len).max().unwrap_or(0)
     }
@@ -266,7 +266,7 @@ impl Lines {
         ]
     }
 
-    /// Q about T.
+    /// Q(T + τ) for T = `t`.
     pub(super) fn determinant(&self, wave: &Wave, phase: &Phase, t: f64) -> Determinant {
         let t = Patch::constant(t);
         let entries = &wave.0;
@@ -289,7 +289,7 @@ impl Lines {
         })
     }
 
-    /// T - N, where the tip gives way across.
+    /// T - N for a tip that is flexible across the lines.
     fn matrix(&self, wave: &Wave, phase: &Phase, t: Patch) -> Vec<Vec<Patch>> {
         let entries = &wave.0;
         let rows = entries.len().isqrt();
@@ -319,8 +319,8 @@ impl Lines {
         (0..2 * rows).map(row).collect()
     }
 
-    /// How much of a wave is deviations along the lines: of the factors by which the entries on the diagonal of N take part in
-    /// dT, which add up to 1, the real part of those.
+    /// Share of the deviations along the lines in a wave. dT is a weighted mean of the changes of the diagonal entries of N;
+    /// the share is the real part of the weights of the entries along the lines.
     pub(super) fn share_along(&self, wave: &Wave, phase: &Phase, t: f64) -> f64 {
         let x = self.matrix(wave, phase, Patch::constant(t));
         let is_along = |i: usize| match self.kind {
@@ -337,15 +337,15 @@ impl Lines {
         (along / all).re
     }
 
-    /// What the own groove of a line has in T across: the real part of (S(s) - S)/m_y.
+    /// Contribution to T, for deviations across, of a line's own groove: the real part of (S(s) - S)/m_y.
     pub(super) fn own_across(&self, q: f64) -> f64 {
         let single = Sideways { beside: [0.0; 2], ..self.across.unwrap_or(Sideways::STIFF) };
         let across = Across::new(&self.waves, single, self.r, (q, 0.0));
         across.alone().iter().map(|entry| entry.own.value.re).sum()
     }
 
-    /// The groove of a way back as a multiple of that of the way before it, where Q = 0.
-    /// Where the tip gives way across, of that coordinate in which they are deeper.
+    /// Ratio of the ripple of a retrace to that of the trace before it, where Q = 0. If the tip is flexible across the
+    /// lines, it is that of the coordinate with the larger deviation.
     pub(super) fn back_by_forth(&self, wave: &Wave, phase: &Phase, t: f64) -> Complex64 {
         if self.kind == Kind::PlaneZigzag {
             let null = null_vector(&self.matrix(wave, phase, Patch::constant(t)));
@@ -359,7 +359,7 @@ impl Lines {
 }
 
 impl Wave {
-    /// By how much what the determinant is made of may vary with q on a cell, and with the phase.
+    /// Bounds on the variation of the entries of N on a cell, with q and with the phase.
     pub(super) fn spreads(&self, phase: &Phase) -> [f64; 2] {
         let mut spreads = [0.0; 2];
         for entry in &self.0 {

@@ -1,23 +1,23 @@
-//! Entries of the matrix of two lines beside each other: functions of q, times sums over the earlier lines.
+//! Entries of the matrix N of `determinant.rs`: functions of q, some of them multiplied by sums over the earlier lines.
 
 use super::patch::Patch;
 
-/// own + Σ_l `lines`_l Λ_l, a function of q on an interval of it but for Λ.
+/// own + Σ_l `lines`_l Λ_l, where `own` and `lines` are functions of q on an interval.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
     pub(super) own: Patch,
     pub(super) lines: Vec<Patch>,
-    /// How often h is differentiated in Λ: Σ_j c^j h(jd) w^j, or with h' or h'' in place of h.
+    /// Order of the derivative of h in Λ = Σ_j c^j h(jd) w^j.
     pub(super) order: usize,
 }
 
 impl Entry {
-    /// A sum of heights of layers, which push the tip along the lines.
+    /// An entry with Λ of h itself, of order 0.
     pub(super) fn level(own: Patch, lines: Vec<Patch>) -> Self {
         Self { own, lines, order: 0 }
     }
 
-    /// Given Λ_l of h, h' and h''.
+    /// The value of the entry, given Λ_l of h, h' and h''.
     pub(super) fn with(&self, sums: &[Vec<Patch>]) -> Patch {
         self.own + self.felt(sums)
     }

@@ -2,21 +2,21 @@
 
 use stickslip_tip::TipFunction;
 
-/// Samples of f over its reach, from which its integrals are bounded.
+/// Smallest and largest number of samples of f over its reach, from which its integrals are bounded.
 const SAMPLES: (f64, f64) = (256.0, 4000.0);
 /// A sum of more Gaussians than this is a table, smooth between its rows.
 const MOST_TERMS: usize = 16;
-/// Kept between those sums and the bounds that use them.
+/// Safety factor between sums over the samples and the bounds.
 const MARGIN: f64 = 1.2;
 
-/// Of f, f' and f'' in turn, F the transform ∫ f e^{-px}dx or its like, over x > 0 or all x:
+/// Bounds of the transform F = ∫ f e^{-px}dx, over x > 0 or all x, and of those of f' and f'', in this order:
 /// |F| ≤ `area` and ≤ `decay`/|p|, and |F''| ≤ `second` and ≤ `bend`/|p|².
 ///
 /// ```text
 ///     area = ∫|f|W,   decay = |f(0)| + ∫|f'|W,   second = ∫x²|f|W,   bend = ∫|(x²f)''|W
 /// ```
 ///
-/// by parts once and twice; W bounds e^{-Re(p)x}.
+/// where W bounds e^{-Re(p)x}; those with |p| follow by parts, once and twice.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Extent {
     pub(super) area: [f64; 3],
@@ -26,12 +26,12 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Over x > 0, Re p ≥ 0.
+    /// Bounds of transforms over x > 0, for Re p ≥ 0.
     pub(super) fn one_sided(tip: &TipFunction) -> Self {
         Self::weighted(tip, true, |_| 1.0)
     }
 
-    /// Over all x, Re p = `fading`.
+    /// Bounds of transforms over all x, for Re p = `fading`.
     pub(super) fn two_sided(tip: &TipFunction, fading: f64) -> Self {
         if tip.is_even() {
             return Self::weighted(tip, false, |x| 2.0 * (fading * x).cosh());
@@ -48,7 +48,7 @@ impl Extent {
         }
     }
 
-    /// |F''| where |p| ≥ `distance`, of f, f' and f''.
+    /// Bounds of |F''| for |p| ≥ `distance`, of f, f' and f''.
     pub(super) fn curvature(&self, distance: f64) -> [f64; 3] {
         [0, 1, 2].map(|i: usize| self.second[i].min(self.bend[i] / (distance * distance)))
     }

@@ -4,16 +4,16 @@ use super::Raster;
 use super::plane::Sideways;
 use num_complex::{Complex64, ComplexFloat};
 
-/// Lines after which a growth from line to line has settled.
+/// Largest number of lines in the computation of a growth factor.
 const MOST_PASSES: usize = 100_000;
 
 /// c0 + c1 a + c2 a².
 type Quadratic = [Complex64; 3];
 
-/// Of (A, B, C).
+/// A matrix that multiplies (A, B, C).
 type Matrix = [[Complex64; 3]; 3];
 
-/// What one q says, whatever the phase.
+/// Quantities that depend on q but not on the phase.
 struct At {
     /// det P
     own: Quadratic,
@@ -24,8 +24,8 @@ struct At {
 }
 
 impl Raster {
-    /// Factor 1 + C/D by which another pass over the same line multiplies a ripple e^{iqx} of its groove, at a given α
-    /// in the basic model. The ripple grows from pass to pass if the modulus is above 1.
+    /// Factor by which another pass over the same line multiplies a ripple e^{iqx} of its groove, at a given α in the
+    /// basic model: 1 + (α/r) q² f̂(q)/D(q) with D(q) = 1 + irq + (α/r) G(iq). The ripple grows if the modulus is above 1.
     pub fn repeat_gain(&self, alpha: f64, q: f64) -> Complex64 {
         let ratio = alpha / self.r;
         let [.., g] = self.waves.jets(Complex64::new(0.0, q));
@@ -34,9 +34,9 @@ impl Raster {
         1.0 + ratio * own / d
     }
 
-    /// Growth z of a ripple from line to line, A_n ∝ zⁿ, at a given α and q of a one-way raster: of all z that of the
-    /// largest modulus. It is the ratio of successive lines of the recurrence once it has settled. If the tip gives way
-    /// across the lines, the recurrence is that of both coordinates.
+    /// Growth factor z of a ripple from line to line, A_n ∝ zⁿ, at a given α and q of a one-way raster: the z of largest
+    /// modulus. It is the limit of A_n/A_{n-1} in the recurrence from line to line, which includes both coordinates if the
+    /// tip is flexible across the lines.
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
         if self.terms.across.is_some() {
             return settled_in_plane(&self.answers_in_plane(alpha, q));
@@ -59,8 +59,8 @@ impl Raster {
         (0..most).map(answer).collect()
     }
 
-    /// Matrices M_j, j = 1, 2, …, of the recurrence (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} of one-way lines whose tip
-    /// gives way across them; empty for any other tip. The deviations are e^{iqx} times A along the lines, B of the
+    /// Matrices M_j, j = 1, 2, …, of the recurrence (A, B, C)_n = Σ_j M_j (A, B, C)_{n-j} of one-way lines if the tip is
+    /// flexible across them; empty for any other tip. The deviations are e^{iqx} times A along the lines, B of the
     /// weight (0 without a depth limit) and C across the lines.
     pub fn answers_in_plane(&self, alpha: f64, q: f64) -> Vec<Matrix> {
         let Some(Sideways { stiffness, beside: [tilt, bend] }) = self.terms.across else {
@@ -150,7 +150,7 @@ fn solution(p: &Matrix, y: &Matrix) -> Matrix {
     std::array::from_fn(|row| columns.map(|column| column[row]))
 }
 
-/// The ratio of one line to the last that comes to be after many, of a recurrence of vectors.
+/// The limit of the ratio of successive lines in a recurrence of vectors.
 fn settled_in_plane(answers: &[Matrix]) -> Complex64 {
     let mut tracks = vec![[Complex64::new(1.0, 0.3), Complex64::ZERO, Complex64::new(0.7, -0.2)]];
     let mut z = Complex64::ZERO;
@@ -183,7 +183,7 @@ fn value(quadratic: &Quadratic, a: f64) -> Complex64 {
     quadratic[0] + (quadratic[1] + quadratic[2] * a) * a
 }
 
-/// The ratio of A_n to A_{n-1} that comes to be after many lines of A_n = Σ_j c_j A_{n-1-j}.
+/// The limit of A_n/A_{n-1} in the recurrence A_n = Σ_j c_j A_{n-1-j}.
 fn settled(couplings: &[Complex64]) -> Complex64 {
     let most = couplings.len();
     let mut tracks = vec![Complex64::new(1.0, 0.0)];

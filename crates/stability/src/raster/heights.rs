@@ -1,13 +1,13 @@
-//! Heights of earlier lines at y of this one.
+//! Heights h(jd) of earlier lines at the y of the present line.
 
 use crate::StabilityError;
 use stickslip_tip::{Across, Footprint};
 
-/// h_k(jd) below this share of the largest is none.
+/// Values of h_l(jd) below this fraction of the largest are left out.
 const NEGLIGIBLE: f64 = 1e-17;
 /// Largest number of lines in a sum: if more are needed the pitch is an error.
 const MOST_LINES: usize = 1_000_000;
-/// c^j h_l(jd) of each layer, j = 1, 2, … as far as they matter, or its derivative of this order.
+/// c^j h_l(jd) of each layer for j = 1, 2, …, as far as it is not negligible, with h_l or its derivative of this order.
 pub(super) fn heights(
     footprint: &Footprint,
     (pitch, left): (f64, f64),

@@ -3,17 +3,17 @@
 use super::patch::Patch;
 use num_complex::Complex64;
 
-/// Differences up to this order bound the sums away from θ = 0.
+/// Differences of orders below this one bound the sums away from θ = 0.
 const ORDERS: usize = 4;
 
-/// Σ_i h_i w^{i+first}: heights of earlier lines at y of this one.
+/// Σ_i h_i w^{i+first}, where h_i are the heights of earlier lines at the y of the present line.
 #[derive(Debug, Clone)]
 pub(super) struct Sequence {
     heights: Vec<f64>,
     first: usize,
     /// Σ|Δ^k h|, which bounds |sum| |1-w|^k, by summation by parts.
     sizes: [f64; ORDERS],
-    /// Σ|Δ^k (i + first)² h|, likewise of the second derivative.
+    /// Σ|Δ^k (i + first)² h|, which bounds the second derivative in the same way.
     seconds: [f64; ORDERS],
 }
 
@@ -47,7 +47,7 @@ impl Sequence {
         (sum * shift, derivative)
     }
 
-    /// For |θ - centre| ≤ `half`.
+    /// The sum for |θ - centre| ≤ `half`.
     pub(super) fn patch(&self, centre: f64, half: f64) -> Patch {
         let (value, slope) = self.at(centre);
         let slope = slope * half;
@@ -66,7 +66,7 @@ impl Sequence {
     }
 }
 
-/// |1 - e^{iθ}| is nowhere less for |θ - centre| ≤ half.
+/// Lower bound of |1 - e^{iθ}| for |θ - centre| ≤ half.
 fn distance_to_1(centre: f64, half: f64) -> f64 {
     let turns = std::f64::consts::TAU;
     let off = (centre - turns * (centre / turns).round()).abs() - half;
@@ -79,7 +79,7 @@ fn distance_to_1(centre: f64, half: f64) -> f64 {
     2.0 * (0.5 * off.max(0.0)).sin()
 }
 
-/// Σ|Δ^k h| of h with 0 before and behind.
+/// Σ|Δ^k h|, with zeros before and after h.
 fn differences(mut h: Vec<f64>) -> [f64; ORDERS] {
     let mut sums = [0.0; ORDERS];
     for sum in &mut sums {

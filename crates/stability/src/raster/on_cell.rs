@@ -12,30 +12,30 @@ pub(super) struct Determinant {
     pub(super) curved: bool,
     /// T - N11, T - N22 and N12 N21.
     factors: Option<[Patch; 3]>,
-    /// All of Q where the tip gives way across.
+    /// All of Q if the tip is flexible across the lines.
     plane: Option<Polynomial>,
 }
 
 impl Determinant {
-    /// T less a function of q and w.
+    /// Q = T - A, given its value.
     pub(super) fn linear(value: Patch) -> Self {
         let slope = Patch::constant(1.0);
         Self { value, slope, curved: false, factors: None, plane: None }
     }
 
-    /// Of two rows: (T - N11)(T - N22) - N12 N21.
+    /// Q of two rows: (T - N11)(T - N22) - N12 N21.
     pub(super) fn of_two([x, y, product]: [Patch; 3]) -> Self {
         let (value, slope) = (x * y - product, x + y);
         Self { value, slope, curved: true, factors: Some([x, y, product]), plane: None }
     }
 
-    /// Where the tip gives way across.
+    /// Q for a tip that is flexible across the lines.
     pub(super) fn in_plane(q: Polynomial) -> Self {
         let (value, slope) = (q.value(), q.slope());
         Self { value, slope, curved: true, factors: None, plane: Some(q) }
     }
 
-    /// By how much T must grow for Q to vanish in the middle of the cell, if it were real there: the largest there is.
+    /// The largest τ at which Q(T + τ) would vanish at the centre of the cell if it were real there.
     pub(super) fn beyond(&self) -> f64 {
         if let Some(plane) = &self.plane {
             return plane.largest();
@@ -49,12 +49,12 @@ impl Determinant {
         }
     }
 
-    /// By how much T must grow for zeros of Q that may be real on the cell, where the tip gives way across.
+    /// Estimates of all τ at which Q(T + τ) may vanish on the cell; empty unless the tip is flexible across the lines.
     pub(super) fn near_axis(&self) -> Vec<f64> {
         self.plane.as_ref().map_or_else(Vec::new, Polynomial::near_axis)
     }
 
-    /// Whether Q has no zero at any real T from this on, anywhere on the cell.
+    /// Whether Q has no zero at this T or any larger real one, anywhere on the cell.
     pub(super) fn has_none(&self) -> bool {
         if let Some(plane) = &self.plane {
             return plane.has_none();
@@ -81,14 +81,14 @@ impl Determinant {
         -most / self.slope.value.norm()
     }
 
-    /// Re (1 - iμ) Q > 0 for all T: then Q ≠ 0.
+    /// Whether Re (1 - iμ) Q > 0 at this T and all larger ones, so that Q ≠ 0.
     fn is_positive(&self, mu: f64) -> bool {
         let value = self.part(&self.value, mu, 1.0);
         let slope = self.part(&self.slope, mu, 1.0);
         value > 0.0 && (slope >= 0.0 || self.curved && slope * slope < 4.0 * value)
     }
 
-    /// Im Q ≠ 0 for all T, or Re Q ≠ 0 where it vanishes.
+    /// Whether at this T and all larger ones Im Q ≠ 0, or Re Q ≠ 0 where Im Q may vanish.
     fn is_beside_axis(&self) -> bool {
         let range = |f: &Patch, part: fn(&Complex64) -> f64| {
             let slopes: f64 = f.along.iter().map(|l| part(l).abs()).sum();
@@ -123,15 +123,15 @@ impl Determinant {
         above || last.is_finite() && below(first) && below(last)
     }
 
-    /// The least of Re (1 - iμ) f on the cell.
+    /// The smallest Re (1 - iμ) f on the cell, if the bound of the rest of f is multiplied by `rests`.
     fn part(&self, f: &Patch, mu: f64, rests: f64) -> f64 {
         let part = |z: &Complex64| z.re + mu * z.im;
         let slopes: f64 = f.along.iter().map(|l| part(l).abs()).sum();
         part(&f.value) - slopes - rests * (1.0 + mu * mu).sqrt() * f.rest
     }
 
-    /// Of Re Q > 0 under the condition Im Q = 0, to first order on the cell: the dual problem has its largest value at one
-    /// of these.
+    /// Lagrange multipliers μ for the smallest Re Q under the condition Im Q = 0, to first order on the cell: the dual
+    /// problem has its maximum at one of these.
     fn multipliers(&self) -> impl Iterator<Item = f64> {
         let each = self.value.along.map(|l| -l.re / l.im);
         std::iter::once(0.0).chain(each).filter(|mu| mu.is_finite())

@@ -1,4 +1,4 @@
-//! Where T is largest, by Newton's method.
+//! The largest T, by Newton's method.
 
 use super::determinant::{Lines, Phase, Wave};
 use super::growth::cramer;
@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 
 /// Largest number of steps of Newton's method.
 const MOST_STEPS: usize = 40;
-/// Part of a cell over which slopes are compared.
+/// Step of finite differences, as a fraction of a cell.
 const PART: f64 = 1e-2;
 /// Largest step of Newton's method, in cells.
 const FARTHEST: f64 = 1e3;
-/// Q = 0 to so much of what T changes it.
+/// Q counts as 0 if |Q| is below this fraction of T |∂Q/∂T|.
 const SOLVED: f64 = 1e-12;
 
 /// A zero of Q.
@@ -21,7 +21,7 @@ pub(super) struct Place {
     /// T
     pub(super) t: f64,
     pub(super) q: f64,
-    /// arg w, or arg W
+    /// arg w; on a zigzag arg W = arg w²
     pub(super) theta: f64,
     /// Whether T is stationary there.
     pub(super) is_stationary: bool,
@@ -37,7 +37,7 @@ pub(super) struct Slopes {
 }
 
 impl Place {
-    /// Whether it is stationary, and in a cell or beside it.
+    /// Whether T is stationary here, and this place is in the cell or next to it.
     pub(super) fn settles(&self, [q, theta]: [(f64, f64); 2]) -> bool {
         let is_in = |x: f64, (centre, half): (f64, f64)| (x - centre).abs() <= 3.0 * half;
         self.is_stationary && is_in(self.q, q) && is_in(self.theta, theta)
@@ -54,8 +54,8 @@ fn slopes(lines: &Lines, (wave, phase): (&Wave, &Phase), t: f64) -> Slopes {
     Slopes { value: value.value, t: slope.value, q, theta }
 }
 
-/// A zero of Q from the middle of a cell, near T = `known`: one at which T is stationary, or any. Where the tip gives way
-/// across the lines T may be largest at q = 0, which no method leads to from q > 0.
+/// A zero of Q, sought from the middle of a cell and T = `known`: if possible one at which T is stationary. If the tip is
+/// flexible across the lines, T may be largest at q = 0, which Newton's method does not reach from q > 0.
 pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
     let [(q, half_q), phases] = cell;
     let moving = moving(lines, cell, known);
@@ -66,7 +66,8 @@ pub(super) fn candidate(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Opt
     moving.into_iter().chain(still).max_by(|a, b| a.t.total_cmp(&b.t))
 }
 
-/// A zero of Q at q = 0. There Q is real where w is, so that T is stationary, and on a zigzag with equal sides Q is even in q.
+/// A zero of Q at q = 0. T is stationary there if w is real, because then Q is real too, and on a zigzag with an even
+/// footprint, because then Q is even in q.
 pub(super) fn still(lines: &Lines, (theta, half): (f64, f64), known: f64) -> Option<Place> {
     let real = if theta.abs() < 0.5 * PI { 0.0 } else { PI.copysign(theta) };
     let is_real = lines.is_alone() || (theta - real).abs() <= half;
@@ -86,7 +87,7 @@ fn moving(lines: &Lines, cell: [(f64, f64); 2], known: f64) -> Option<Place> {
     stationary.or_else(|| solved(lines, start))
 }
 
-/// Newton's method for Q = 0 and for what is 0 where T is stationary.
+/// Newton's method for Q = 0 and [`balance`] = 0, where T is stationary.
 pub(super) fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2]) -> Option<Place> {
     let [(_, half_q), (_, half_theta)] = cell;
     let (step_q, step_theta) = (PART * half_q, PART * half_theta);
@@ -120,7 +121,7 @@ pub(super) fn stationary(lines: &Lines, mut place: Place, cell: [(f64, f64); 2])
     None
 }
 
-/// T where Q would vanish in the middle of a cell if it were real there, the largest there is.
+/// The start of Newton's method: the largest T at which Q would vanish at this q and θ if it were real.
 fn started(lines: &Lines, q: f64, theta: f64, known: f64) -> Option<Place> {
     let here = lines.determinant(&lines.wave(q, 1.0), &lines.phase(theta, 1.0), known);
     let t = known + here.beyond();
@@ -128,7 +129,7 @@ fn started(lines: &Lines, q: f64, theta: f64, known: f64) -> Option<Place> {
     (t.is_finite() && t > 0.0).then_some(Place { t, q, theta, is_stationary })
 }
 
-/// Q = 0 at the same q, or for a single line at any.
+/// Newton's method for Q = 0 in T and θ, at the same q; for a single line in T and q.
 pub(super) fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
     for _ in 0..MOST_STEPS {
         let here = place.slopes(lines);
@@ -156,13 +157,13 @@ pub(super) fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
     (here.value.norm() <= SOLVED * place.t * here.t.norm()).then_some(place)
 }
 
-/// 0 where T is stationary: there Q = 0 allows a change of q and θ alone, so that both slopes are of one direction in the
-/// plane.
+/// 0 where T is stationary: there Q remains 0 if q and θ change and T does not, so that the slopes of Q along q and θ are
+/// parallel in the complex plane.
 fn balance(slopes: &Slopes) -> f64 {
     (slopes.q * slopes.theta.conj()).im / slopes.theta.norm()
 }
 
-/// Of three linear equations.
+/// The solution of three linear equations, if it is finite.
 fn solution(rows: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
     let x = cramer(rows, right);
     x.iter().all(|x| x.is_finite()).then_some(x)

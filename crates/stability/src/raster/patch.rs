@@ -5,8 +5,8 @@ use std::ops::{Add, Mul, Sub};
 
 /// f(x, y) = value + along\[0\] x + along\[1\] y + e(x, y) for all real |x|, |y| ≤ 1, with |e| ≤ rest.
 ///
-/// Sums, products and reciprocals of such functions are of the same form again, with bounds that hold for all x and y but
-/// for the rounding of this arithmetic.
+/// Sums, products and reciprocals of such functions have the same form, with bounds that hold for all x and y except for
+/// round-off.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Patch {
     pub(super) value: Complex64,
@@ -34,7 +34,7 @@ impl Patch {
         Self { value: self.value.conj(), along: self.along.map(|l| l.conj()), rest: self.rest }
     }
 
-    /// 1/f; of an infinite rest where f may vanish.
+    /// 1/f; its rest is infinite if f may vanish.
     pub(super) fn inv(self) -> Self {
         let inverse = self.value.inv();
         let (size, reach) = (self.value.norm(), self.reach());

@@ -1,8 +1,8 @@
-//! The equations of lines whose tip gives way across them too.
+//! The equations of lines if the tip is flexible across them too.
 //!
-//! Line n deviates by (A_n, C_n) e^{iqx} along and across. Across it even motion is displaced by the same distance on all
-//! lines, so that they stay jd apart, and f(x,0) being even in y nothing of first order couples both coordinates of one
-//! line. With m_y = κ_y + irq, S the transform of `f_yy(x,0)` over x > 0, E' and E'' as E with h' and h'', Λ' and Λ'' as Λ,
+//! Line n deviates by (A_n, C_n) e^{iqx} along and across. Steady motion is displaced across by the same distance on all
+//! lines, so that they stay jd apart. As f is even in y, nothing of first order couples both coordinates of one line. With
+//! m_y = κ_y + irq, S the transform of `f_yy(x,0)` over x > 0, and E', E'', Λ', Λ'' formed like E and Λ but with h' and h'',
 //! (T - N)v = 0 has for v = (A, B, C)
 //!
 //! ```text
@@ -11,8 +11,8 @@
 //!     N31 = (sE' - Σ pĝ_l Λ'_l)/m_y      N32 = Σ ĝ_l Λ'_l/m_y                   N33 = (S(s) - S + E'' - Σ ĝ_l Λ''_l)/m_y
 //! ```
 //!
-//! Without a depth limit the second row is 0, and (A, C) are left. Where nothing heals the first column is -p times the
-//! second: a line leaves R = B - pA and C alone, and
+//! Without a depth limit the second row is 0, and (A, C) remain. Without healing the first column is -p times the second:
+//! only R = B - pA and C of a line affect the later lines, and
 //!
 //! ```text
 //!     (T - N22 + pN12) R = (N23 - pN13) C,     (T - N33) C = N32 R
@@ -23,7 +23,7 @@ use super::patch::Patch;
 use super::waves::Waves;
 use num_complex::Complex64;
 
-/// What enters of the coordinate across, κ_y, and E' and E''.
+/// Parameters of the coordinate across the lines: κ_y, and E' and E''.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sideways {
     pub(super) stiffness: f64,
@@ -31,11 +31,11 @@ pub(super) struct Sideways {
 }
 
 impl Sideways {
-    /// No give.
+    /// A tip that is held on its line.
     pub(super) const STIFF: Self = Self { stiffness: f64::INFINITY, beside: [0.0; 2] };
 }
 
-/// What the entries along the lines are made of, on an interval of q.
+/// The functions of q in the entries along the lines, on an interval.
 pub(super) struct Along {
     /// 1/m
     pub(super) inverse: Patch,
@@ -51,7 +51,7 @@ pub(super) struct Along {
     pub(super) layers: Vec<[Patch; 3]>,
 }
 
-/// Of a tip on its spring across the lines.
+/// The functions of q in the entries across the lines, on an interval.
 pub(super) struct Across {
     /// 1/m_y
     inverse: Patch,
@@ -78,7 +78,7 @@ impl Across {
         vec![Entry::level(self.groove, vec![])]
     }
 
-    /// The two rows of (R, C), or over a surface that heals of (A, C).
+    /// The two rows of (R, C), or of (A, C) if the surface heals.
     pub(super) fn rows(&self, along: &Along) -> Vec<Entry> {
         if self.fading > 0.0 {
             let rows = self.all_rows(along);

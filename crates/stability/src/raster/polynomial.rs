@@ -1,11 +1,11 @@
-//! A real wave number and phase may have a marginal wave at some T only where a polynomial in T has a real zero: where on a
-//! cell it has none, and where about its centre they are.
+//! Q as a polynomial in T on a cell of wave numbers and phases. A wave is marginal at a T that is a real zero of Q: tests
+//! that a cell has no such zero, and estimates of those near its centre.
 
 use super::patch::Patch;
 use crate::newton::zeros_of;
 use num_complex::Complex64;
 
-/// Largest degree: two coordinates, there and back.
+/// Largest degree: two coordinates, on trace and retrace.
 const MOST: usize = 4;
 /// An interval of τ is halved no more often than this.
 const MOST_HALVINGS: u32 = 30;
@@ -67,18 +67,18 @@ impl Polynomial {
         true
     }
 
-    /// An estimate of the largest τ with a zero on the cell; -∞ where they seem to be none.
+    /// An estimate of the largest τ with a zero on the cell; -∞ if there seems to be none.
     pub(super) fn promise(&self) -> f64 {
         let each = self.with_spreads().map(|(tau, spread)| tau + spread);
         each.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The real parts of zeros about the centre that may be real on the cell.
+    /// Real parts of those zeros at the centre of the cell that may be real elsewhere on the cell.
     pub(super) fn near_axis(&self) -> Vec<f64> {
         self.with_spreads().map(|(tau, _)| tau).collect()
     }
 
-    /// The same, each with how far it may move on the cell, to first order.
+    /// As [`Self::near_axis`], each with the distance by which the zero may move on the cell, to first order.
     fn with_spreads(&self) -> impl Iterator<Item = (f64, f64)> {
         let reach = self.value().reach();
         self.zeros().into_iter().filter_map(move |zero| {
@@ -87,7 +87,7 @@ impl Polynomial {
         })
     }
 
-    /// The largest τ among zeros at the centre of the cell, the nearer to the real axis the sooner.
+    /// Re τ of the zero at the centre of the cell for which Re τ - |Im τ| is largest.
     pub(super) fn largest(&self) -> f64 {
         let each = self.zeros().into_iter();
         let best = each.max_by(|a, b| (a.re - a.im.abs()).total_cmp(&(b.re - b.im.abs())));
@@ -112,7 +112,7 @@ impl Polynomial {
         2.0 * each.fold(0.0, f64::max)
     }
 
-    /// The same polynomial about another τ.
+    /// The polynomial with τ shifted by `tau`.
     fn about(&self, tau: f64) -> Self {
         let mut shifted = *self;
         for from in 0..self.degree {
@@ -124,8 +124,8 @@ impl Polynomial {
         shifted
     }
 
-    /// Whether Q ≠ 0 for |τ| ≤ `half`. To first order the values of Q fill a zonotope, of which 0 is no part where it is
-    /// beyond one of its edges, or, for what is not of first order, far enough away.
+    /// Whether Q ≠ 0 for |τ| ≤ `half`. To first order the values of Q fill a zonotope. Q ≠ 0 if 0 lies outside one of its
+    /// edges, farther away than the bound of the higher orders.
     fn is_away(&self, half: f64) -> bool {
         let (value, slope) = (self.value(), self.slope());
         let along = [value.along[0], value.along[1], slope.value * half];
@@ -170,7 +170,7 @@ fn of_four(x: &[Vec<Patch>]) -> [Patch; MOST] {
     [det, threes, twos, x[0][0] + x[1][1] + x[2][2] + x[3][3]]
 }
 
-/// v with Xv = 0, up to a factor: the cofactors of a row, of the one where they are largest.
+/// v with Xv = 0, up to a factor: the cofactors of the row in which they are largest.
 pub(super) fn null_vector(x: &[Vec<Patch>]) -> Vec<Complex64> {
     let without = |i: usize| -> Vec<usize> { (0..x.len()).filter(|j| *j != i).collect() };
     let cofactors = |row: usize| -> Vec<Complex64> {

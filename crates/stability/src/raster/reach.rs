@@ -1,17 +1,17 @@
-//! How large T may be, and up to which wave number it may be so large: what makes the region of a search finite.
+//! Bounds of T and of the wave numbers at which T may exceed a given value: they make the region of a search finite.
 
 use super::determinant::{Kind, Lines};
 use super::lines::Sequence;
 use super::plane::Sideways;
 
 impl Lines {
-    /// Largest |T| of a real T with Q = 0 at wave numbers of at least q; falls with q.
+    /// Bound of |T| for real T with Q = 0 at wave numbers of at least q; it decreases with q.
     ///
-    /// Without a depth limit the imaginary part of m T = K - Σ p²ĝ_l Λ_l, in which K has a real constant, says
-    /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|; on a zigzag the same follows for both directions together. With it, |T| is at most the
-    /// sum of |N11|, |N22| and √|N12 N21|.
+    /// Without a depth limit the imaginary part of m T = K - Σ p²ĝ_l Λ_l, in which the constant of K is real, yields
+    /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|; on a zigzag this also holds for trace and retrace together. With a depth limit, |T|
+    /// is at most the sum of |N11|, |N22| and √|N12 N21|.
     ///
-    /// Where the tip gives way across it is at most the largest eigenvalue of a matrix of bounds of |N|.
+    /// If the tip is flexible across the lines, |T| is at most the largest eigenvalue of a matrix of bounds of |N|.
     pub(super) fn largest_beyond(&self, q: f64) -> f64 {
         let p = q.hypot(self.waves.fading);
         let [height, slope, curvature] = self.own_bounds(p);
@@ -38,14 +38,14 @@ impl Lines {
         groove + weight + (felt / drag * steep * (fading + felt)).sqrt()
     }
 
-    /// Bounds of |φ|, |φ1|, |G| on either way where |p| ≥ `distance`.
+    /// Bounds of |φ|, |φ1|, |G| on trace and retrace for |p| ≥ `distance`.
     fn own_bounds(&self, distance: f64) -> [f64; 3] {
         let forth = self.waves.own_bounds(distance);
         let back = self.back.as_ref().map_or(forth, |back| back.own_bounds(distance));
         [0, 1, 2].map(|i: usize| forth[i].max(back[i]))
     }
 
-    /// Of T where it is large: that of a single line, or less.
+    /// A scale of T: the largest T of a single line, or less.
     pub(super) fn scale(&self) -> f64 {
         let (bound, spring): (&dyn Fn(f64) -> f64, f64) = match (self.kind, self.across) {
             (Kind::Across, Some(across)) => (&|p| self.waves.across_bound(p), across.stiffness),
@@ -57,7 +57,7 @@ impl Lines {
         (near / spring).min(near / (self.r * q))
     }
 
-    /// The same where the tip gives way across, |m| and |m_y| at least `drag`.
+    /// [`Self::largest_beyond`] for a tip that is flexible across the lines; |m| and |m_y| are at least `drag`.
     fn largest_across(
         &self,
         sideways: Sideways,

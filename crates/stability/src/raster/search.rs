@@ -1,12 +1,11 @@
 //! The first ripple that neither grows nor fades: the largest T = r/a at which the determinant Q(T, q, θ) vanishes.
 //!
-//! Branch and bound. The half-strip of all wave numbers and phases is cut into cells; on each, Q is known with its slopes and
-//! a bound of all else ([`Patch`](super::patch)). A cell on which Q has no zero at any T above the largest known one, T',
-//! raised by one part in 1e10, is done with: there, for some μ, Re (1 - iμ)Q > 0 at all these T. Others are halved. In
-//! between, Newton's method looks for larger T in the cells that promise them. So the search ends only when no ripple is left
-//! that could grow at a smaller α, however narrow the band that it grows in; it ends because near the largest T bounds
-//! tighten with the square of a cell's size, as T falls away from it. What it proves holds but for round-off, of which the
-//! bounds know nothing.
+//! Branch and bound. The half-strip of all wave numbers and phases is divided into cells. On each cell Q is known to first
+//! order, with a bound of the remainder ([`Patch`](super::patch)). A cell is discarded if Q has no zero on it at any
+//! T > T' (1 + 1e-10), where T' is the largest known T: for example if Re (1 - iμ)Q > 0 for some μ at all these T. Other
+//! cells are halved, and Newton's method searches the most promising ones for larger T. Therefore the search ends only
+//! when no ripple can grow at a smaller α, however narrow its band. It does end, because near the largest T both the
+//! bounds and the decrease of T are of second order in the size of a cell. The bounds do not include round-off.
 
 use super::determinant::{Lines, Phase, Wave};
 use super::on_cell::Determinant;
@@ -19,7 +18,7 @@ use stickslip_tip::stop;
 pub(super) const MARGIN: f64 = 1e-10;
 /// Largest number of cells, at which the search is given up.
 const MOST_CELLS: usize = 4_000_000;
-/// Cells of a round in which Newton's method is tried.
+/// Number of cells of each round in which Newton's method is tried.
 const TRIED: usize = 3;
 
 /// An interval of wave numbers or of phases; its halves are computed at the first request.

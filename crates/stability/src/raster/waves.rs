@@ -1,4 +1,4 @@
-//! What one line, and a line beside it, says to a ripple e^{iqx}: functions of q, on intervals of q.
+//! The response of a line to its own ripple e^{iqx} and to those of earlier lines: transforms of f on intervals of q.
 
 use super::extent::Extent;
 use super::patch::Patch;
@@ -13,10 +13,10 @@ use stickslip_tip::{Footprint, Gaussian, TipFunction};
 pub(super) struct Waves {
     own: OneSided,
     own_extent: Extent,
-    /// Of `f_yy(x,0)`, where the tip gives way across and it is not 0.
+    /// The transform of `f_yy(x,0)`, if the tip is flexible across the lines and `f_yy(x,0)` is not 0.
     across: Option<(OneSided, Extent)>,
     layers: Vec<(Terms, Extent)>,
-    /// Centre and width of all Gaussians of all layers, those of tables the same in each.
+    /// Centre and width of the Gaussians of all layers; layers of a table share theirs.
     shapes: Vec<(f64, f64)>,
     /// s = 1/(rT)
     pub(super) fading: f64,
@@ -24,7 +24,7 @@ pub(super) struct Waves {
     pub(super) steady: [f64; 3],
 }
 
-/// Area of a Gaussian of a layer, and which shape it has.
+/// Area of each Gaussian of a layer, and its index in `shapes`.
 type Terms = Vec<(f64, usize)>;
 
 /// A function of q on an interval, for f, f' and f'' each.
@@ -61,7 +61,7 @@ impl Waves {
         }
     }
 
-    /// The same for a tip that gives way across the lines.
+    /// Adds the transform of `f_yy(x,0)`, for a tip that is flexible across the lines.
     pub(super) fn giving_way(mut self, footprint: &Footprint) -> Self {
         let curvature = footprint.curvature_across_path();
         let with_extent = |f: &TipFunction| (OneSided::across(f), Extent::one_sided(f));
@@ -141,7 +141,7 @@ impl Waves {
         bounds(&self.own_extent, distance)
     }
 
-    /// Of |ĝ|, |pĝ|, |p²ĝ| of every layer.
+    /// Bounds of |ĝ|, |pĝ|, |p²ĝ| of every layer where |p| ≥ `distance`.
     pub(super) fn layer_bounds(&self, distance: f64) -> Vec<[f64; 3]> {
         self.layers.iter().map(|(_, extent)| bounds(extent, distance)).collect()
     }
@@ -155,7 +155,7 @@ fn bounds(extent: &Extent, distance: f64) -> [f64; 3] {
     [0, 1, 2].map(|i: usize| extent.area[i].min(extent.decay[i] / distance))
 }
 
-/// A function of p = s + iq with a bound of its second derivative.
+/// A function of p = s + iq on an interval of q, from its value, its slope and a bound of its second derivative.
 fn on_axis((value, slope): Jet, half: f64, second: f64) -> Patch {
     let along = [slope * Complex64::I * half, Complex64::ZERO];
     Patch { value, along, rest: 0.5 * half * half * second }

@@ -9,11 +9,11 @@ use stickslip_tip::sorting::sort_by_number;
 
 /// Nodes on each quadrature panel.
 const PANEL_NODES: usize = 32;
-/// |Λ + band| times half a panel's width that 32 nodes integrate to round-off.
+/// Largest |Λ + band| times half a panel's width for which 32 nodes integrate to round-off.
 const PANEL_PHASE: f64 = 17.0;
-/// e^{-Λy} at the start of a panel is the product of a coarse and a fine factor.
+/// Number of successive panels for which e^{-Λy} at their starts has a common factor.
 const PANELS_PER_EXPONENTIAL: usize = 16;
-/// Panels that are summed side by side.
+/// Number of panels that are summed in parallel SIMD lanes.
 const LANES: usize = 4;
 /// The quadrature serves |Λ| up to this many bands; beyond, the closed form does.
 const BANDS_SERVED: f64 = 1.5;
@@ -30,7 +30,7 @@ impl Sorted {
         Self(sorted, terms.iter().map(|g| g.width).fold(0.0, f64::max))
     }
 
-    /// All that may matter at y.
+    /// The terms that may not be negligible at y.
     fn about(&self, y: f64) -> &[Gaussian] {
         let Self(terms, widest) = self;
         let far = WIDTHS_INTEGRATED * widest;
@@ -40,7 +40,7 @@ impl Sorted {
     }
 }
 
-/// f(y), f'(y) and f''(y), with the far tails that e^{-Λy} brings up for Re Λ < 0.
+/// f(y), f'(y) and f''(y), including the far tails, which e^{-Λy} amplifies for Re Λ < 0.
 fn derivatives(terms: &Sorted, y: f64) -> [f64; 3] {
     let scaled = |g: &Gaussian| (y - g.center) / g.width;
     let near =
@@ -52,16 +52,16 @@ fn derivatives(terms: &Sorted, y: f64) -> [f64; 3] {
     })
 }
 
-/// A value of each of some neighbouring panels.
+/// One value for each of [`LANES`] neighbouring panels.
 type Lane = [f64; LANES];
 
-/// Weight times a function: of the first panels at their first node, at their second and so on, then of the next panels.
-/// Panels that fill up the last ones have 0.
+/// Quadrature weight times a function, for groups of [`LANES`] panels: in each group node by node, one lane for each
+/// panel. The last group is filled up with zeros.
 #[derive(Debug, Clone)]
 struct Weighted(Vec<Lane>);
 
 impl Weighted {
-    /// Of what is given panel by panel.
+    /// From values in the order of panels.
     fn new(values: &[f64]) -> Self {
         let some_panels = values.chunks(LANES * PANEL_NODES).flat_map(|some| {
             let at = |i: usize| some.get(i).copied().unwrap_or(0.0);
@@ -71,7 +71,7 @@ impl Weighted {
     }
 }
 
-/// Of some panels Σg e^{-Λx} and Σx g e^{-Λx}.
+/// Σg e^{-Λx} and Σx g e^{-Λx} of [`LANES`] panels.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     re: Lane,
@@ -80,7 +80,7 @@ struct Sums {
     moment_im: Lane,
 }
 
-/// Where some panels start, after the first of [`PANELS_PER_EXPONENTIAL`], and e^{-Λx} there.
+/// The starts x of [`LANES`] panels, from the start of the first of [`PANELS_PER_EXPONENTIAL`] panels, and e^{-Λx} there.
 #[derive(Debug, Clone, Copy)]
 struct Starts {
     x: Lane,
@@ -90,10 +90,10 @@ struct Starts {
 
 type AllStarts = [Starts; PANELS_PER_EXPONENTIAL / LANES];
 
-/// Both sums of this number of panels each, over x from where the first of them starts, for nodes at `offsets` within a panel
-/// and e^{-Λx} there.
+/// Σg e^{-Λx} and Σx g e^{-Λx} of each [`PANELS_PER_EXPONENTIAL`] panels, with x from the start of the first of them.
+/// `within` contains e^{-Λx} at the nodes `offsets` of a panel.
 ///
-/// Compiled for wider vectors too: lanes do not know of each other.
+/// Wider vectors yield the same bits, because lanes do not depend on each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn sums(
     Weighted(weighted): &Weighted,
@@ -141,13 +141,14 @@ pub(super) struct Panels {
     offsets: Vec<f64>,
     /// Weight times f at every node.
     height: Weighted,
-    /// Weight times f' likewise, and its absolute values.
+    /// Weight times f' at every node.
     slope: Weighted,
+    /// Absolute values of `slope`.
     slope_size: Weighted,
-    /// Weight times f'' likewise.
+    /// Weight times f'' at every node.
     curvature: Weighted,
     curvature_size: Weighted,
-    /// |Λ| below which the integral by parts is of the smaller terms.
+    /// |Λ| below which the integral by parts has the smaller terms.
     by_parts_below: f64,
     largest_lambda: f64,
 }
@@ -209,7 +210,7 @@ impl Panels {
         Scaled { value: lambda * slope.value, derivative, ..slope }
     }
 
-    /// ∫f e^{-Λy}dy and its derivative, where [`Self::at`] is by parts.
+    /// ∫f e^{-Λy}dy and its derivative where [`Self::at`] integrates by parts, else `None`.
     pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
         let is_near = lambda.norm() < self.by_parts_below && self.serves(lambda);
         let unscaled = |f: Scaled| (f.value * f.log_scale.exp(), f.derivative * f.log_scale.exp());

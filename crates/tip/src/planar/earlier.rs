@@ -23,14 +23,14 @@ const SPREAD: f64 = FRAC_1_SQRT_2;
 /// Distance in widths beyond which e^{-z²/2} is negligible.
 pub(super) const NOTHING: f64 = 8.7;
 
-/// Rows parallel to the scan: their distance, and the shares of the rows in a visit of the tip at any y.
+/// Rows parallel to the scan: their distance, and the contribution of a visit of the tip at any y to each row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowLattice {
     spacing: f64,
     spread: f64,
 }
 
-/// A Gaussian as a sum over rows: that of one row, about a center.
+/// The factor of one row in a Gaussian that is represented by a sum over rows: a Gaussian about `center`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reading {
     center: f64,
@@ -42,9 +42,9 @@ pub(super) struct Reading {
 /// The heights of one layer of the footprint on all rows, and their slopes along the rows.
 #[derive(Debug, Clone)]
 pub struct GrooveRows {
-    /// h of the layer.
+    /// The factor h(y) of the layer.
     pub across: Across,
-    /// Heights.
+    /// Heights on the rows.
     pub heights: Rows,
     /// Slopes along the rows, summed separately from the heights: curvatures, their derivatives, are then as accurate
     /// as slopes.
@@ -97,13 +97,13 @@ impl RowLattice {
         row as f64 * self.spacing
     }
 
-    /// Indices of the first and the last row on which positions between `low` and `high` leave anything.
+    /// Indices of the first and the last row to which visits with y between `low` and `high` contribute.
     pub fn touched(&self, (low, high): (f64, f64)) -> (i64, i64) {
         let far = NOTHING * self.spread;
         (self.row_above(low - far), self.row_above(high + far))
     }
 
-    /// e^{-(y_j-y)²/2s²} on the rows from `row` on: what a tip at y leaves there in unit time.
+    /// e^{-(y_j-y)²/2s²} on the rows from `row` on: the contribution of a tip at y in unit time.
     pub fn shares(&self, y: f64, row: i64, shares: &mut [f64]) {
         for (j, share) in shares.iter_mut().enumerate() {
             let z = (self.y(row + j as i64) - y) / self.spread;
@@ -116,14 +116,14 @@ impl RowLattice {
         jet(self.readings(across), distance)[0]
     }
 
-    /// h as a sum over rows.
+    /// The factor of one row in h: a sum of one or two Gaussians.
     fn readings(&self, Across { center, width }: Across) -> impl Iterator<Item = Reading> {
         let twin = (center > 0.0).then_some(-center);
         let of = move |center| self.reading(Gaussian { amplitude: 1.0, center, width });
         std::iter::once(center).chain(twin).map(of)
     }
 
-    /// A Gaussian as a sum over rows.
+    /// The factor of one row in this Gaussian.
     pub(super) fn reading(&self, Gaussian { amplitude, center, width: v }: Gaussian) -> Reading {
         let Self { spacing, spread } = *self;
         let width = (v * v - spread * spread).sqrt();
@@ -143,7 +143,7 @@ pub(super) fn reach(readings: &[Reading]) -> f64 {
     readings.iter().map(reach).fold(0.0, f64::max)
 }
 
-/// Value and two derivatives of a sum at a distance from a row.
+/// Value and two derivatives of the factor of a row, at this distance from the row.
 pub(super) fn jet(readings: impl Iterator<Item = Reading>, distance: f64) -> [f64; 3] {
     let mut jet = [0.0; 3];
     for Reading { center, width: q, scale } in readings {

@@ -1,7 +1,7 @@
 //! The memory `fft` in two coordinates: for each layer a density of positions along the scan, convolved with g by FFT.
 //!
-//! It is valid for motion in both directions and for any g. A change of the center applies T to the densities of all layers,
-//! cell by cell.
+//! It is valid for motion in both directions and for any g. A change of the center applies the matrix T of the
+//! [layers](super::layers) to the densities of all layers, cell by cell.
 
 use super::layered::{Integrals, Layered};
 use super::layers::{LANES, Lanes, recenter};

@@ -18,8 +18,8 @@ pub struct Layers {
     pub error: f64,
 }
 
-/// Center and number of the layers. The center follows the middle of the tip and of all positions within reach, and
-/// the number of layers is sufficient for them. A step that leads beyond is shortened.
+/// Center and number of the layers. The center follows the middle of the tip and of all positions within reach, and the
+/// number of layers is sufficient for them. A step that would leave the range of the layers is shortened.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
     width: f64,
@@ -52,8 +52,8 @@ const LEAST_ROOM: (f64, f64) = (0.15, 0.35);
 const SPARE_ROOM: (f64, f64) = (0.1, 0.1);
 
 impl Frame {
-    /// A frame for a function across of Gaussians of this width, one about 0 or `is_wide`, and a footprint of this reach
-    /// along.
+    /// A frame for a function h(y) of Gaussians of this width, and a footprint of this reach along the scan. `is_wide`
+    /// is false for a single Gaussian about 0.
     pub(super) fn new((width, is_wide): (f64, bool), reach: f64, allowed: f64) -> Self {
         Self {
             width,
@@ -168,14 +168,14 @@ impl Frame {
         Some(1 + self.known.partition_point(|radii| !suits(radii, distance)))
     }
 
-    /// The radii for one group of layers more; `None` beyond the largest number.
+    /// Adds the radii for one more group of layers; `None` beyond the largest number.
     fn know_next(&mut self) -> Option<()> {
         let radii = Radii::of(LANES * (self.known.len() + 1), self.allowed)?;
         self.known.push(if self.is_wide { radii.for_any_tip() } else { radii });
         Some(())
     }
 
-    /// Records a truncation of layers; removes those whose positions are all out of reach.
+    /// Records a truncation of layers, and removes truncations that are out of reach.
     fn cut(&mut self, x: f64, error: f64) {
         let reach = self.extent.reach();
         while self.cuts.front().is_some_and(|cut| cut.x < x - reach) {

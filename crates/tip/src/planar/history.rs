@@ -25,23 +25,23 @@ impl Step {
         self.y + self.across[STAGES - 1]
     }
 
-    /// y0(t) on its polynomial.
+    /// y0(t) by its polynomial.
     pub fn y0(&self, t: f64) -> f64 {
         self.y + RADAU.value(&self.across, self.part(t))
     }
 
-    /// x0'(t) and y0'(t) on its polynomials: one order less accurate than positions.
+    /// x0'(t) and y0'(t), by the polynomials of the step: one order less accurate than positions.
     pub fn velocity(&self, t: f64) -> [f64; 2] {
         let across = RADAU.slope(&self.across, self.part(t)) / self.along.h;
         [self.along.velocity(t), across]
     }
 
-    /// y0' on its polynomial as a function of t, for many t.
+    /// y0' by its polynomial as a function of t, for many t.
     pub fn velocity_across(&self) -> impl Fn(f64) -> f64 + use<'_> {
         self.rate(&self.across)
     }
 
-    /// x0' on its polynomial as a function of t, for many t.
+    /// x0' by its polynomial as a function of t, for many t.
     pub fn velocity_along(&self) -> impl Fn(f64) -> f64 + use<'_> {
         self.rate(&self.along.displacement)
     }
@@ -88,11 +88,11 @@ pub type Trajectory = crate::Trajectory<Step>;
 /// A node of the history: a position with its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Visit {
-    /// x0
+    /// Position x0, in σ.
     pub x: f64,
-    /// y0
+    /// Position y0, in σ.
     pub y: f64,
-    /// Time spent there, multiplied by its undecayed part, and by w with a depth limit.
+    /// Time spent there, in Γ/k, multiplied by its undecayed part, and by w with a depth limit.
     pub weight: f64,
 }
 

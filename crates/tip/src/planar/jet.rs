@@ -5,16 +5,16 @@ use super::spline::Partials;
 /// Height, slopes and curvatures at a point of a surface, of f, or of an integral over f.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Jet {
-    /// u
+    /// Height u.
     pub height: f64,
-    /// `u_x` and `u_y`
+    /// Slopes `u_x` and `u_y`.
     pub slope: [f64; 2],
-    /// `u_xx`, `u_xy` and `u_yy`
+    /// Curvatures `u_xx`, `u_xy` and `u_yy`.
     pub curvature: [f64; 3],
 }
 
 impl Jet {
-    /// The first of these derivatives.
+    /// The jet with the derivatives up to the second order from `partials`.
     pub(super) fn of(partials: &Partials) -> Self {
         let at = |a: usize, b: usize| partials[a][b];
         Self {
@@ -24,7 +24,7 @@ impl Jet {
         }
     }
 
-    /// Adds another one times a factor.
+    /// Adds another jet times a factor.
     pub(super) fn add(&mut self, factor: f64, jet: &Self) {
         self.height += factor * jet.height;
         self.slope.iter_mut().zip(jet.slope).for_each(|(sum, slope)| *sum += factor * slope);
@@ -32,7 +32,7 @@ impl Jet {
         curvatures.for_each(|(sum, curvature)| *sum += factor * curvature);
     }
 
-    /// All of it times a factor.
+    /// The jet multiplied by a factor.
     pub(super) fn times(self, factor: f64) -> Self {
         Self {
             height: factor * self.height,

@@ -18,8 +18,8 @@ use crate::elementary::exp;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
 
-/// Distance behind the farthest point within which lattice points are kept, in the smallest width and in reaches of
-/// f: some 700 for (48).
+/// Distance behind the farthest point within which lattice points are kept, in the smallest width and in reaches of f,
+/// of which the larger distance counts: some 700 points for (48).
 const KEPT: (f64, f64) = (250.0, 4.0);
 
 /// Lattice points that have been close to the tip, in their order along the scan.
@@ -71,7 +71,7 @@ impl Lattice {
         self.nodes.len().checked_div(self.groups).unwrap_or(0)
     }
 
-    /// Adds lattice points between these displacements.
+    /// Adds the missing lattice points between these displacements.
     fn hold(&mut self, low: f64, high: f64) {
         let (groups, spacing) = (self.groups, self.spacing);
         if self.nodes.is_empty() {

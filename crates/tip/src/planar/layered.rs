@@ -1,4 +1,4 @@
-//! What a memory of the layers of one product does.
+//! The interface of a memory of the layers of one product.
 
 use super::layers::Lanes;
 use crate::memory::SteadyPast;
@@ -21,7 +21,7 @@ pub(super) trait Layered {
     /// Multiplies the whole past by a factor.
     fn fade(&mut self, factor: f64);
 
-    /// Adds a steady past on a line with these layers.
+    /// Adds a steady past on a line with the layers `phi`.
     fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]);
 
     /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the

@@ -1,6 +1,6 @@
 //! Layers across the scan: a Gaussian of the distance between two points as a sum of products.
 //!
-//! About a center c, with η = (y - c)/v and `φ_m(η) = η^m e^{-η²/2}/√m!`,
+//! About a center c, with the width v of the Gaussian, η = (y - c)/v and `φ_m(η) = η^m e^{-η²/2}/√m!`,
 //!
 //! ```text
 //!     e^{-(η-η')²/2} = Σ_m φ_m(η) φ_m(η')        dφ_m/dη = √m φ_{m-1} - √(m+1) φ_{m+1}
@@ -26,10 +26,10 @@ pub(super) const LANES: usize = 8;
 pub(super) type Lanes = [f64; LANES];
 /// Largest number of layers, for a range of 20 widths: more would cost more than a sum over the history.
 const MOST: usize = 256;
-/// Number of roots: those of the layers, and of some beyond that their series take.
+/// Number of roots: for the layers, and for some more that their series need.
 const MOST_ROOTS: usize = MOST + MOST_ORDER + LANES;
 
-/// `φ_m` at η multiplied by a weight, as many as there is room for.
+/// `φ_m` at η multiplied by a weight, as many as `phi` holds.
 pub(super) fn values(eta: f64, weight: f64, phi: &mut [Lanes]) {
     let mut value = weight * exp(-0.5 * eta * eta);
     for (phi, roots) in phi.iter_mut().zip(INVERSE_ROOTS.as_chunks::<LANES>().0) {
@@ -40,7 +40,7 @@ pub(super) fn values(eta: f64, weight: f64, phi: &mut [Lanes]) {
     }
 }
 
-/// dφ/dη at η, from φ: `√m φ_{m-1} - η φ_m`. Applied to the result once more and less φ, it is the second derivative.
+/// dφ/dη at η, from φ: `√m φ_{m-1} - η φ_m`. A second application, to the result, gives the second derivative plus φ.
 pub(super) fn slopes(eta: f64, phi: &[Lanes], slope: &mut [Lanes]) {
     let mut below = 0.0;
     let roots = ROOTS.as_chunks::<LANES>().0;
@@ -108,7 +108,7 @@ pub(super) fn error(radius: f64, count: usize) -> f64 {
     (tail(count) * tail(count).max(2.0 * slopes)).sqrt()
 }
 
-/// The same for past positions within a radius and a tip at any position: the squares of all φ sum to 1, and so do
+/// As [`error`], for past positions within a radius and a tip at any position: the squares of all φ sum to 1, and so do
 /// those of their derivatives.
 pub(super) fn error_of_visits(radius: f64, count: usize) -> f64 {
     poisson_tail(radius * radius, count).sqrt()
@@ -187,7 +187,7 @@ pub(super) fn resized(
     resized
 }
 
-/// Σ_m of products.
+/// `Σ_m a_m b_m`.
 pub(super) fn dot(a: &[Lanes], b: &[Lanes]) -> f64 {
     let mut sums = [0.0; LANES];
     for (a, b) in a.iter().zip(b) {

@@ -19,12 +19,12 @@ use multiversion::multiversion;
 use num_complex::Complex;
 use std::sync::Arc;
 
-/// The whole past.
+/// A memory of the whole past.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
     fit: Arc<Fit>,
     prepared: Arc<Prepared>,
-    /// Layers, in groups of lanes.
+    /// Number of groups of lanes that contain the layers.
     groups: usize,
     /// For each term the layers of the real part of its state, then those of the imaginary part.
     states: Vec<Lanes>,
@@ -60,8 +60,8 @@ impl Modes {
         self.fit.terms().iter().flat_map(|term| [term.exponent.re, term.exponent.im])
     }
 
-    /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as
-    /// many as there is room for.
+    /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as many
+    /// as `of_layers` holds.
     pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
         derivatives(self.prepared.powers.rows(), &self.states, factor, of_layers);
     }
@@ -210,7 +210,7 @@ fn moments(position: &[f64], weighted: &[Lanes], from: f64, moments: &mut [Lanes
     }
 }
 
-/// 1/n! of the moments of the highest degree, and of those that fill the last block.
+/// 1/n! up to the highest degree, and further ones that fill the last block.
 const INVERSE_FACTORIALS: [f64; (HIGHEST_DEGREE + 1).next_multiple_of(BLOCK)] =
     inverse_factorials();
 
@@ -242,7 +242,7 @@ fn carry(
     }
 }
 
-/// Number of derivatives that are summed in SIMD lanes.
+/// Number of derivatives that are summed together.
 const BLOCK: usize = 4;
 
 /// Products of rows and states, in the order of the terms: the same bits on every machine. The results are `groups`

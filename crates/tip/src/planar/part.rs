@@ -15,23 +15,23 @@ use crate::TipFunction;
 use crate::memory::{Fit, FitError, Retreat, SteadyPast};
 use crate::state::{Damaged, Reader, State};
 
-/// g, h, and what all positions of the tip left of them.
+/// The factors g and h, and the past.
 pub(super) struct Part {
     pub(super) along: TipFunction,
     pub(super) bells: Bells,
     pub(super) past: Past,
     pub(super) frame: Frame,
-    /// All positions, instead of layers of them.
+    /// All positions, if the past is not stored in layers.
     visits: Option<Visits>,
     /// Factor from the error of the layers of a single Gaussian to that of f.
     size: f64,
 }
 
-/// Factor by which the error of exponentials may exceed its share where they are no better: three quarters
-/// of the tolerance then.
+/// Largest factor by which the error of exponentials may exceed its share if no better fit exists. It then amounts to
+/// three quarters of the tolerance.
 const MOST_SLACK: f64 = 30.0;
 
-/// How the past is stored.
+/// Storage of the past.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Storage {
     /// Exponentials that allow for this retreat, with a lattice for retreats beyond it or without one.
@@ -150,13 +150,13 @@ impl Part {
         }
     }
 
-    /// g h and derivatives at this distance.
+    /// g h and its derivatives at (x, y).
     pub(super) fn of_visit(&self, x: f64, y: f64) -> Jet {
         let (g, (g1, g2)) = (self.along.value(x), self.along.slope_and_curvature(x));
         self.of_line([g, g1, g2], y)
     }
 
-    /// The same for a function of x with its derivatives, instead of g.
+    /// As [`of_visit`](Self::of_visit), for given values of g and its two derivatives.
     fn of_line(&self, [g, g1, g2]: [f64; 3], y: f64) -> Jet {
         let [h, h1, h2] = self.bells.jet(y);
         Jet { height: g * h, slope: [g1 * h, g * h1], curvature: [g2 * h, g1 * h1, g * h2] }

@@ -7,7 +7,7 @@ use super::modes::Modes;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
 
-/// Exponentials and, if there is one, another memory with the same past; or one without exponentials.
+/// Exponentials and, if there is one, another memory of the same past; or a memory without exponentials.
 pub(super) struct Past {
     modes: Option<Modes>,
     other: Option<Box<dyn Layered>>,
@@ -27,7 +27,7 @@ impl Past {
         Self { modes: Some(modes), other, goes_back: false }
     }
 
-    /// An empty memory without exponentials; `None`: positions are kept elsewhere.
+    /// An empty memory without exponentials; `other` is `None` if positions are kept elsewhere.
     pub(super) fn without_modes(other: Option<Box<dyn Layered>>) -> Self {
         Self { modes: None, other, goes_back: true }
     }
@@ -49,7 +49,7 @@ impl Past {
         other.or_else(|| self.modes.as_ref().map(|modes| modes as &dyn Layered))
     }
 
-    /// Chooses between the two for a step from the present position of the tip.
+    /// Chooses the memory for a step from the present position of the tip.
     pub(super) fn begin(&mut self) -> Result<(), TooFar> {
         let behind = self.behind();
         let of_modes = self.modes.as_ref().map_or(f64::NEG_INFINITY, Modes::retreat_between_steps);

@@ -1,8 +1,9 @@
 //! A footprint f(x,y) as a sum of few products g(x) h(y).
 //!
-//! The layers of a [`Footprint`] that have the same width v across are a matrix: amplitudes of shapes along, of centers
-//! across. Its singular value decomposition is the sum of fewest products; those that are too small to matter are left
-//! out. A table of dozens of rows is a handful of products. Layers of another width are other products.
+//! The layers of a [`Footprint`] that have the same width v across form a matrix of amplitudes. Its rows are shapes
+//! along the scan, its columns centers across. The singular value decomposition yields the sum of the fewest products,
+//! of which the negligible ones are omitted. A table of dozens of rows becomes a handful of products. Layers of another
+//! width become further products.
 
 use super::bells::Bells;
 use crate::elementary::{log10, pow};
@@ -13,7 +14,7 @@ use nalgebra::{DMatrix, SVD};
 use std::sync::{Arc, Mutex};
 use thiserror::Error;
 
-/// g, h, and how accurately they are needed.
+/// g and h, with the required accuracy.
 #[derive(Debug, Clone)]
 pub(super) struct Product {
     pub(super) along: TipFunction,
@@ -26,7 +27,7 @@ pub(super) struct Product {
     pub(super) layer_error: f64,
 }
 
-/// All products.
+/// All products of a footprint.
 #[derive(Debug, Clone)]
 pub(super) struct Products {
     all: Vec<Product>,
@@ -36,12 +37,12 @@ pub(super) struct Products {
 /// Reasons why a footprint is not a sum of few products.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProductsError {
-    /// It takes too many of them.
+    /// The footprint requires too many products.
     #[error(
         "in two coordinates the footprint f(x,y) is a sum of products of a function of x and one of y: this one takes {needed} for the tolerance, at most {MOST} are possible; smooth its table, or take a larger tolerance"
     )]
     TooMany {
-        /// Number of products.
+        /// Number of products required.
         needed: usize,
     },
     /// Several layers of which some are not sums of Gaussians.
@@ -49,17 +50,17 @@ pub enum ProductsError {
     Layer(#[from] TipFunctionError),
 }
 
-/// Largest number of products: each costs as much as a groove of one product.
+/// Largest number of products: each costs as much as a separable footprint.
 const MOST: usize = 48;
-/// Share of the accuracy for the products left out.
+/// Share of the allowed error for the omitted products.
 const SHARE_OF_THE_REST: f64 = 0.1;
-/// Singular values below this part of the largest are round-off.
+/// Singular values below this fraction of the largest are round-off.
 const ROUND_OFF: f64 = 1e-15;
-/// Points per width at which functions are looked at.
+/// Number of points per width at which functions are evaluated for bounds.
 const POINTS_PER_WIDTH: f64 = 16.0;
 
 impl Products {
-    /// As [`of`](Self::of), or the same made before.
+    /// As [`of`](Self::of), or an earlier result for the same arguments.
     pub(super) fn cached(footprint: &Footprint, accuracy: f64) -> Result<Arc<Self>, ProductsError> {
         type Known = (Footprint, u64, Result<Arc<Products>, ProductsError>);
         static CACHE: Mutex<Vec<Known>> = Mutex::new(vec![]);
@@ -80,7 +81,7 @@ impl Products {
         products
     }
 
-    /// The products of a footprint whose f and slopes are to be accurate to this error.
+    /// The products that represent f and its slopes to this accuracy.
     pub(super) fn of(footprint: &Footprint, accuracy: f64) -> Result<Self, ProductsError> {
         let mut factors = vec![];
         for group in of_one_width(footprint.layers()) {
@@ -108,7 +109,7 @@ impl Products {
         &self.all
     }
 
-    /// Bound on the error of f and its slopes by the products left out.
+    /// Bound on the error of f and its slopes due to the omitted products.
     pub(super) fn error(&self) -> f64 {
         self.error
     }
@@ -119,7 +120,7 @@ impl Products {
     }
 }
 
-/// Layers by their width across.
+/// The layers in groups of the same width across.
 fn of_one_width(layers: &[Layer]) -> Vec<Vec<&Layer>> {
     let mut sorted: Vec<&Layer> = layers.iter().collect();
     sort_by_number(&mut sorted, |item| item.across.width);
@@ -204,7 +205,7 @@ impl Factors {
         (g * h).max(g1 * h).max(g * h1)
     }
 
-    /// Its share of the accuracy of f and its slopes.
+    /// The product, with its share of the allowed error of f and its slopes.
     fn product(self, accuracy: f64, count: usize) -> Product {
         let Self { along, bells, along_most, across_most } = self;
         if count == 1 && bells.is_single() {
@@ -223,15 +224,15 @@ impl Factors {
     }
 }
 
-/// Rounded down, so that similar runs share a fit.
+/// Rounds down to quarter decades, so that similar runs share a fit.
 fn quarter_decade(x: f64) -> f64 {
     pow(10.0, (4.0 * log10(x)).floor() / 4.0)
 }
 
-/// Bounds on an even or odd function and its slope up to its reach: the largest of samples, and what a smooth function may
-/// rise by between them.
+/// Bounds on an even or odd function and its slope up to its reach: the largest samples, increased by the possible rise
+/// of a smooth function between them.
 fn largest(f: impl Fn(f64) -> [f64; 2], reach: f64, spacing: f64) -> [f64; 2] {
-    /// Slopes between samples so dense differ by less than this part of the largest.
+    /// Bound on the largest slope, relative to that of the samples.
     const BETWEEN: f64 = 1.1;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let count = (reach / spacing).ceil() as usize;
@@ -244,13 +245,13 @@ fn largest(f: impl Fn(f64) -> [f64; 2], reach: f64, spacing: f64) -> [f64; 2] {
     [most[0] + 0.5 * spacing * slope, slope]
 }
 
-/// The terms about centers that are not negative, of which the others are mirror images.
+/// The terms with centers ≥ 0; the others are their mirror images.
 fn right_half(along: &TipFunction) -> Result<Vec<Gaussian>, TipFunctionError> {
     let TipFunction::Gaussians(sum) = along else { return Err(TipFunctionError::Zero) };
     Ok(sum.terms().iter().filter(|g| g.center >= 0.0).copied().collect())
 }
 
-/// All centers and widths along.
+/// Terms with all distinct centers and widths along the scan.
 fn shapes(layers: &[&Layer]) -> Result<Vec<Gaussian>, TipFunctionError> {
     let mut shapes: Vec<Gaussian> = vec![];
     for layer in layers {

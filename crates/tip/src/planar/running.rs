@@ -25,7 +25,7 @@ pub struct PlanarRun {
 /// [`MOST_STEPS`] steps is an error; for longer runs take the steps one by one from [`PlanarRunning`].
 ///
 /// # Errors
-/// As [`PlanarRunning`]; too long a history.
+/// As [`PlanarRunning`], or the history is too long.
 pub fn run(scenario: &PlanarScenario) -> Result<PlanarRun, PlanarError> {
     let mut running = PlanarRunning::new(scenario)?;
     let (mut steps, mut interrupted) = (vec![], false);

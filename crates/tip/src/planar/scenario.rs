@@ -98,7 +98,7 @@ pub enum PlanarError {
     Along(#[from] RunError),
 }
 
-/// Finest accuracy of exponentials with the retreat of a tip that swings back: of use below a tolerance of 1e-11.
+/// Finest accuracy of exponentials with the retreat of a resonant tip; it matters for tolerances below 1e-11.
 const FINEST: f64 = 5e-14;
 /// Least distance of rows of noise, in σ.
 const LEAST_SPACING: f64 = 0.01;
@@ -125,7 +125,7 @@ impl PlanarScenario {
     /// The initial surface except for the groove of steady motion.
     ///
     /// # Errors
-    /// A profile that is not a function of x, noise of too many points.
+    /// The profile is not a function of x, or the noise has too many points.
     pub fn texture(&self) -> Result<Texture, PlanarError> {
         let table = self.profile_across.as_ref();
         Ok(Texture::new(&self.along, self.noise_spacing_across, table)?)
@@ -134,7 +134,7 @@ impl PlanarScenario {
     /// The footprint as a sum of products g(x) h(y), as accurate as the tolerance needs.
     ///
     /// # Errors
-    /// A footprint f(x) alone, or one of too many products.
+    /// The footprint is f(x) alone, or requires too many products.
     pub(super) fn products(&self) -> Result<Arc<Products>, PlanarError> {
         let model = &self.along.model;
         let footprint = model.tip().footprint().ok_or(match model.tip().reach() {
@@ -145,6 +145,8 @@ impl PlanarScenario {
         Ok(Products::cached(footprint, accuracy)?)
     }
 
+    /// Checks all parameters.
+    ///
     /// # Errors
     /// The first parameter out of range, or an option that is not available.
     pub fn validate(&self) -> Result<(), PlanarError> {

@@ -11,10 +11,10 @@
 use crate::relief::{Axis, Piece};
 use crate::spline::{CubicSpline, Ends};
 
-/// `∂x^a ∂y^b u` in row a and column b: all that a cubic has.
+/// `∂x^a ∂y^b u` in row a and column b; higher derivatives of a bicubic are 0.
 pub(super) type Partials = [[f64; 4]; 4];
 
-/// What a spline is made of, with respect to x and y.
+/// A bicubic spline.
 #[derive(Debug, Clone)]
 pub(super) struct Bicubic {
     x: Vec<f64>,
@@ -31,9 +31,9 @@ pub(super) struct Patch {
 }
 
 impl Bicubic {
-    /// The spline through heights given row after row. Across it is level at both ends and continues so beyond them;
-    /// a single row is the same for all y. Along it is 0 beyond its ends. The callers ensure that both axes increase,
-    /// that there are at least two x, and a height for each point.
+    /// The spline through heights given row after row. Across the scan the spline has slope 0 at both ends and is
+    /// constant beyond them; a single row is the same for all y. Along the scan the spline is 0 beyond its ends. The
+    /// callers ensure that both axes increase, that there are at least two x, and a height for each point.
     pub(super) fn through(x: Vec<f64>, y: Vec<f64>, u: &[f64], ends: Ends) -> Self {
         let columns = x.len();
         let mut points: Vec<[f64; 4]> = u.iter().map(|u| [*u, 0.0, 0.0, 0.0]).collect();
@@ -57,8 +57,8 @@ impl Bicubic {
         Self { x, y, points }
     }
 
-    /// The patch that contains a tip at (x, y), or that the tip is about to enter if it is at its border, by the signs
-    /// of its velocities; the position has an error of at most `accuracy`.
+    /// The patch that contains a tip at (x, y), or that the tip is about to enter if it is at a border. `forward`
+    /// contains the signs of its velocities; the position has an error of at most `accuracy`.
     pub(super) fn patch(&self, at: [f64; 2], forward: [bool; 2], accuracy: f64) -> Patch {
         let axis = |knots: &[f64], j: usize| match knots {
             [_] => Piece::EVERYWHERE,

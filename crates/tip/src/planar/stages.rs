@@ -1,12 +1,13 @@
 //! The collocation equations of a step in two coordinates, and their Newton iteration.
 //!
 //! ```text
-//!     d = hA F_x, or what inertia makes of it        F_x = α (past_x + Σ_k b_ik f_x(d_i - d_k, e_i - e_k)) + R - x0 - d
+//!     d = hA F_x without inertia                     F_x = α (past_x + Σ_k b_ik f_x(d_i - d_k, e_i - e_k)) + R - x0 - d
 //!     e = hA F_y                                     F_y = α (past_y + Σ_k b_ik f_y(d_i - d_k, e_i - e_k)) - κ_y (y0 + e)
 //! ```
 //!
-//! with external forces added to both. The force of the past is that of all layers at the displacement of the stage. With
-//! a [`Depth`] limit the heights under the tip are further unknowns,
+//! with the Butcher matrix A, the weights `b_ik` of stage k in the groove at stage i, and external forces added to
+//! both. The force of the past is that of all layers at the displacements d_i along and e_i across. With a [`Depth`]
+//! limit the heights under the tip are further unknowns,
 //!
 //! ```text
 //!     h = -α (past + Σ_k b_ik w_k f(d_i - d_k, e_i - e_k))        w_k = e^{-σ h_k/b}
@@ -25,7 +26,7 @@ pub(super) struct StageEquations<'a> {
     /// The products of the footprint with their pasts.
     pub(super) parts: &'a [Part],
     pub(super) alpha: f64,
-    /// κ_y
+    /// Stiffness κ_y of the spring across the scan.
     pub(super) stiffness: f64,
     /// y0 at the start.
     pub(super) y: f64,
@@ -52,7 +53,7 @@ pub(super) struct Under<'a> {
     pub(super) left: Stages,
 }
 
-/// Displacements at the nodes, along and across, and heights; these are 0 without a depth limit.
+/// Displacements at the nodes, along and across, and heights; the heights are 0 without a depth limit.
 pub(super) type Unknowns = [Stages; 3];
 
 /// Result of an iteration.
@@ -81,7 +82,7 @@ struct Forces {
     curvatures: Curvatures,
 }
 
-/// The factored Jacobian: one of the two forms.
+/// The factored Jacobian: `limited` with a depth limit, `free` without.
 struct Jacobian {
     free: Option<Factors<{ 2 * STAGES }>>,
     limited: Option<Factors<{ 3 * STAGES }>>,
@@ -164,7 +165,7 @@ impl StageEquations<'_> {
         }
     }
 
-    /// Derivatives of [`missed`](Self::missed), with heights or without.
+    /// Derivatives of [`missed`](Self::missed) by the unknowns, with or without heights.
     fn derivatives<const N: usize>(&self, forces: &Forces) -> [[f64; N]; N] {
         let mut derivatives = [[0.0; N]; N];
         for (n, row) in derivatives.iter_mut().enumerate() {
@@ -236,11 +237,11 @@ impl Under<'_> {
     }
 }
 
-/// The coordinates that a force acts on, or that it is differentiated by.
+/// Pairs of the component of a force and the coordinate by which it is differentiated.
 const PAIRS: [(usize, usize); 4] = [(0, 0), (0, 1), (1, 0), (1, 1)];
 
 impl Forces {
-    /// Adds a groove of this strength under stage i, less the pull of the springs, and derivatives of the groove by
+    /// Adds the force of a groove of this strength on stage i, minus the pull of the springs, and the derivatives by
     /// the position of the stage.
     fn add(&mut self, strength: f64, i: usize, jet: &Jet, springs: [f64; 2]) {
         for (of, (push, spring)) in jet.slope.iter().zip(springs).enumerate() {
@@ -259,7 +260,7 @@ impl Forces {
         self.curvatures.iter_mut().zip(jet.curvature).for_each(|(sum, bend)| *sum += bend);
     }
 
-    /// Derivatives of the same groove by the position of stage k, which carved it.
+    /// Adds the derivatives by the position of stage k, which carved the groove under stage i.
     fn move_visit(&mut self, strength: f64, (i, k): (usize, usize), jet: &Jet) {
         for of in 0..2 {
             self.slope[2][of][i][k] += strength * jet.slope[of];
@@ -269,7 +270,7 @@ impl Forces {
         }
     }
 
-    /// Derivatives by the height at stage k, on which its weight depends.
+    /// Adds the derivatives by the height at stage k, on which the weight of its groove depends.
     fn weigh(&mut self, change: f64, (i, k): (usize, usize), jet: &Jet) {
         for of in 0..2 {
             self.slope[of][2][i][k] += change * jet.slope[of];
@@ -294,7 +295,7 @@ impl Jacobian {
     }
 }
 
-/// The largest correction; those of heights count relative to a large height.
+/// The largest correction; that of a height above 1 counts relative to the height.
 fn size([along, across, height]: &Unknowns, heights: &Stages) -> f64 {
     let largest = |all: &Stages| all.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
     let relative = height.iter().zip(heights).map(|(c, height)| c.abs() / height.abs().max(1.0));

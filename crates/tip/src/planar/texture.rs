@@ -1,4 +1,4 @@
-//! The initial surface u0(x,y) as far as no tip has carved it: tables and noise.
+//! The part of the initial surface u0(x,y) that no tip has carved: profile, table and noise.
 
 use super::spline::{Bicubic, Partials, Patch};
 use crate::relief::{Piece, noise_heights, noise_points};
@@ -140,7 +140,7 @@ impl Texture {
         self.parts.iter().map(part).fold([0.0; 3], add)
     }
 
-    /// The field about a tip.
+    /// The field that contains a tip, or that the tip is about to enter.
     pub(super) fn field(&self, at: [f64; 2], forward: [bool; 2], accuracy: f64) -> Field {
         let patches: Vec<Patch> =
             self.parts.iter().map(|part| part.patch(at, forward, accuracy)).collect();
@@ -169,14 +169,14 @@ impl Texture {
 }
 
 impl Field {
-    /// Whether u0 is 0 in it.
+    /// Whether u0 is 0 in the field.
     pub(super) fn is_flat(&self) -> bool {
         self.patches.iter().all(|patch| patch.x.index.is_none())
     }
 }
 
-/// Number of the random stream and y of each row. That on the line y = 0 is the noise of a single coordinate, and the
-/// only one without a distance.
+/// Number of the random stream and y of each row. The row y = 0 is the noise of a run in one coordinate; without a
+/// spacing it is the only row.
 fn rows_of_noise(spacing: Option<f64>) -> Vec<(u64, f64)> {
     let Some(spacing) = spacing else { return vec![(0, 0.0)] };
     #[expect(clippy::cast_possible_truncation, reason = "a count")]

@@ -10,10 +10,10 @@ use crate::state::{Damaged, Reader, State};
 pub(super) struct Visits {
     /// Positions along the scan, with weights.
     record: Record,
-    /// y of each of them.
+    /// y of each position.
     across: Vec<f64>,
     fading: Fading,
-    /// The past before the first of them, on the line y = 0.
+    /// The past before the first position, on the line y = 0.
     steady: Option<SteadyPast>,
 }
 
@@ -48,8 +48,8 @@ impl Visits {
         self.steady.iter_mut().for_each(|past| past.weight *= factor);
     }
 
-    /// The sum of `of_visit` over all positions at a displacement d from the tip along the scan, at y across it, and of
-    /// the steady past that of `of_past`.
+    /// The sum of `of_visit` over all positions, and of `of_past` for the steady past: at a displacement d from the tip
+    /// along the scan, and at y across it.
     pub(super) fn at(
         &self,
         (d, y): (f64, f64),

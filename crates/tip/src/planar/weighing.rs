@@ -16,9 +16,9 @@ use crate::integrator::taylor::{INVERSE, MOST_ORDER, Series};
 pub(super) struct Weighing {
     height: Series,
     weights: Series,
-    /// Of -(σ/b) h'.
+    /// Coefficients of -(σ/b) h'.
     rate: [f64; MOST_ORDER],
-    /// `w φ_m` of the highest power known.
+    /// Coefficients of `w φ_m` of the latest order.
     carved: Vec<Lanes>,
 }
 
@@ -28,12 +28,12 @@ impl Weighing {
         Self { height: zero, weights: zero, rate: [0.0; MOST_ORDER], carved: vec![] }
     }
 
-    /// The height under the tip.
+    /// The series of the height under the tip.
     pub(super) fn height(&self) -> &Series {
         &self.height
     }
 
-    /// w
+    /// The series of w.
     pub(super) fn weights(&self) -> &Series {
         &self.weights
     }
@@ -44,7 +44,7 @@ impl Weighing {
         self.weights.set(0, weight);
     }
 
-    /// The coefficients of order k + 1, from that of the height; `rate` is σ/b.
+    /// Computes the coefficients of order k + 1 from that of the height; `rate` is σ/b.
     #[inline(always)]
     pub(super) fn advance(&mut self, k: usize, height: f64, rate: f64) {
         self.height.set(k + 1, height);

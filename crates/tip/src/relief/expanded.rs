@@ -1,4 +1,4 @@
-//! A relief as power series about the points of a lattice: the groove of earlier lines, as it becomes known.
+//! A relief as power series about the points of a lattice: the groove of earlier scan lines.
 
 use crate::memory::ROOM;
 use multiversion::multiversion;
@@ -8,14 +8,14 @@ use stickslip_convolution::{PowerSeries, TERMS};
 
 /// A smooth height, 0 far away, as a power series about each point of a lattice.
 pub trait Ground: Debug + Send + Sync {
-    /// Distance of the points, which are its multiples: a number of few bits.
+    /// Distance between the points, a number with few significant bits. The points are at its multiples.
     fn spacing(&self) -> f64;
-    /// Coefficients `c_n` of u = Σ `c_n` s^n, with s the distance from this point in spacings; to round-off within
-    /// half a spacing.
+    /// Coefficients `c_n` of u = Σ `c_n` s^n, with s the distance from this point in spacings; accurate to round-off
+    /// within half a spacing.
     fn about(&self, point: i64) -> PowerSeries;
 }
 
-/// Unlike a relief on a lattice it has all derivatives that series need.
+/// A relief by power series. Unlike a relief on a lattice it has all derivatives that Taylor steps need.
 #[derive(Debug, Clone)]
 pub(super) struct Expanded {
     ground: Arc<dyn Ground>,
@@ -24,7 +24,7 @@ pub(super) struct Expanded {
     sign: f64,
 }
 
-/// Terms that are not negligible within half a spacing, whose product with the band is at most π/2.
+/// Number of terms that are not negligible within half a spacing. The product of spacing and bandwidth is at most π/2.
 const NEAR: usize = 16;
 
 /// Binomials (n + m over n), for every m.
@@ -43,7 +43,7 @@ static BINOMIALS: [PowerSeries; TERMS] = {
 };
 
 impl Expanded {
-    /// Along x from an origin or, if mirrored, against x.
+    /// A relief along x from an origin or, if mirrored, against x.
     pub(super) fn new(ground: Arc<dyn Ground>, (origin, mirrored): (f64, bool)) -> Self {
         Self { ground, origin, sign: if mirrored { -1.0 } else { 1.0 } }
     }
@@ -86,7 +86,7 @@ impl Expanded {
     }
 }
 
-/// The same power series about a point at this distance.
+/// The same power series about a point at the distance s.
 #[multiversion(targets("x86_64+avx2"))]
 fn shifted(series: &PowerSeries, s: f64) -> PowerSeries {
     let (mut sums, mut power) = ([0.0; TERMS], 1.0);

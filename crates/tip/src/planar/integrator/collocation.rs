@@ -14,7 +14,7 @@ use crate::integrator::{COASTING, ENOUGH, IntegrationError, Retry};
 use crate::memory::longest_look;
 use crate::step::{self, Depth, Inertia, carving, healing};
 
-/// Weight of the defect of the motion across, as far as its change from step to step is not looked at.
+/// Weight of the defect of the motion across; it allows for the change from step to step, which is not evaluated.
 const WEIGHT_OF_DEFECT: f64 = 1.5;
 
 impl PlanarRunning<'_> {
@@ -64,7 +64,7 @@ impl PlanarRunning<'_> {
         step::longest_displacement(self.model.tip().band())
     }
 
-    /// A step of length h, or what to try instead.
+    /// Attempts a step of length h; an error says how to repeat the attempt.
     fn attempt(&mut self, h: f64) -> Result<Solution, Retry> {
         let longest = self.longest_displacement();
         let mass = self.wider().inertia;
@@ -143,7 +143,8 @@ impl PlanarRunning<'_> {
         }
     }
 
-    /// The last polynomials, extrapolated where this is reliable; otherwise straight lines.
+    /// Predicts a step of length h: the last polynomials, extrapolated where this is reliable, otherwise straight
+    /// lines.
     fn guess(&self, h: f64, longest: f64) -> Unknowns {
         let [along, across] = self.way_ahead(h, longest);
         let heights = |corner: &Corner| corner.ahead(self.last.as_ref().map(|last| &last.along), h);

@@ -41,14 +41,14 @@ pub struct PlanarRunning<'a> {
     /// The products of the footprint with the past of each.
     parts: Vec<Part>,
     products: Arc<Products>,
-    /// κ_y
+    /// Stiffness κ_y of the spring across the scan.
     stiffness: f64,
-    /// Along and across.
+    /// External forces along and across.
     force: [&'a Force; 2],
     support: Support,
     /// The initial surface, except for the groove of steady motion.
     texture: Texture,
-    /// The part of it on which the present step began.
+    /// The part of the initial surface on which the present step began.
     field: Field,
     /// The grooves of earlier lines, as they were at the start.
     earlier: Option<&'a EarlierGrooves>,
@@ -63,7 +63,7 @@ pub struct PlanarRunning<'a> {
     /// Start and end time of the run.
     start: f64,
     until: f64,
-    /// R - x0
+    /// Extension R - x0 of the spring.
     extension: f64,
     y: f64,
     /// Velocity along and across; the former is independent of the force only for a tip with inertia.
@@ -75,11 +75,11 @@ pub struct PlanarRunning<'a> {
     room: Vec<Lanes>,
 }
 
-/// Order of the series per decimal digit; its cost is proportional to the third power of the order.
+/// Increase of the order for an error smaller by the factor e. The cost of a series is proportional to the third power
+/// of its order.
 const ORDER_PER_DIGIT: f64 = 0.7;
 
-/// Kick in widths above which, as with inertia, the tip retreats farther behind its farthest point than friction
-/// allows.
+/// Kick, in widths, above which the tip retreats farther behind its farthest point, as it does with inertia.
 const LARGE_KICK: f64 = 0.2;
 
 fn retreat(along: &Scenario) -> Retreat {
@@ -222,7 +222,7 @@ impl<'a> PlanarRunning<'a> {
         self.made.front().map_or(self.t, |step| step.along.t)
     }
 
-    /// Counts so far.
+    /// Numbers of steps, iterations and series so far.
     pub fn work(&self) -> Work {
         self.work
     }
@@ -280,7 +280,7 @@ impl<'a> PlanarRunning<'a> {
         self.parts.iter_mut().try_for_each(|part| part.past.begin()).map_err(too_far)
     }
 
-    /// x0
+    /// The present x0.
     fn position(&self) -> f64 {
         self.support.position(self.t) - self.extension
     }
@@ -316,13 +316,13 @@ impl<'a> PlanarRunning<'a> {
         self.force.iter().map(|force| force.longest_step(self.t)).fold(f64::INFINITY, f64::min)
     }
 
-    /// A motion as one along the scan that carves as fine a groove: waves of f are shortest along the motion.
+    /// The length of a motion along the scan that carves as fine a groove: f has other bandwidths along and across.
     fn effective(&self, [along, across]: [f64; 2]) -> f64 {
         let ratio = BAND_OF_A_GAUSSIAN / (self.products.width() * self.model.tip().band());
         (along * along + (ratio * across) * (ratio * across)).sqrt()
     }
 
-    /// The largest decay rate over a groove of these curvatures, in k/Γ.
+    /// The largest rate, in k/Γ, at which the tip relaxes in a groove of these curvatures.
     fn fastest(&self, [along, mixed, across]: Curvatures) -> f64 {
         let (along, across) = (1.0 + along, self.stiffness + across);
         let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
@@ -335,8 +335,8 @@ impl<'a> PlanarRunning<'a> {
         along.max(across) + mixed.abs()
     }
 
-    /// Tells the memory of visits of these displacements from the tip and of this weight, in a step of length h, after which it
-    /// stands at the last. Layers are those that hold for them.
+    /// Adds the visits of a step of length h to the memory: displacements from the tip, of which the last is its new
+    /// position, and weights. The layers are adapted to them first.
     fn remember(
         &mut self,
         (along, across): (&[f64], &[f64]),
@@ -408,7 +408,8 @@ impl<'a> PlanarRunning<'a> {
         Some(jet.map(|row| row.map(|entry| left * entry)))
     }
 
-    /// Part of a step at which it leaves the field, if it does, from the displacements at these parts of it.
+    /// Fraction of a step at which the tip leaves the field; `None` if it does not. `displacement` contains the
+    /// displacements at the fractions `parts`.
     fn leaves_field(
         &self,
         parts: &[f64],
@@ -424,7 +425,7 @@ impl<'a> PlanarRunning<'a> {
         [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
     }
 
-    /// Changes the side of the kink for the next attempt; false if the other side has been tried.
+    /// Changes the side of the kink for the next attempt; false if the other side has already been tried.
     fn turn(&mut self) -> bool {
         self.corner.as_mut().is_some_and(Corner::turn)
     }

@@ -1,4 +1,4 @@
-//! Steps by Taylor series: long ones, handed out in pieces.
+//! Steps by Taylor series: long steps, returned in pieces.
 
 use super::super::chain::Acting;
 use super::super::part::Part;
@@ -17,18 +17,18 @@ use crate::integrator::taylor::{
 };
 use crate::step;
 
-/// A step before it is made.
+/// A planned step.
 struct Plan {
     length: f64,
     pieces: usize,
-    /// Displacement per time at its fastest, about.
+    /// Largest [effective](PlanarRunning::effective) speed in the step, approximately.
     fastest: f64,
 }
 
 /// Number of sides of the kink of |h|.
 const SIDES: usize = 2;
 
-/// Result of a plan.
+/// Result of an attempt to make a planned step.
 enum Made {
     Step,
     /// The step must be made on the other side of the kink.
@@ -37,7 +37,8 @@ enum Made {
 }
 
 impl PlanarRunning<'_> {
-    /// Makes a step: its pieces wait, the memory knows of all of it. False where collocation is to make it.
+    /// Makes a step: its pieces are stored, and the memory contains the whole step. False if collocation must make the
+    /// step.
     pub(super) fn step_by_series(&mut self) -> Result<bool, PlanarError> {
         if self.control.is_fixed() || !self.switch.is_to_series() {
             return Ok(false);
@@ -53,7 +54,7 @@ impl PlanarRunning<'_> {
         Ok(made)
     }
 
-    /// Makes a step, if there is a series for it that leads farther than collocation.
+    /// Makes a step if there is a series that is longer than a step of collocation.
     fn expand(&mut self, end: f64) -> Result<bool, PlanarError> {
         self.enter_field();
         for _ in 0..SIDES {
@@ -68,7 +69,7 @@ impl PlanarRunning<'_> {
         Ok(false)
     }
 
-    /// The series from here on; false where there is none.
+    /// Computes the series from the present time on; false if there is none.
     fn look_ahead(&mut self) -> bool {
         // Grooves of earlier lines have derivatives up to the second only.
         if self.earlier.is_some() || !self.parts.iter().all(|part| part.past.knows_series()) {
@@ -98,7 +99,7 @@ impl PlanarRunning<'_> {
         true
     }
 
-    /// w now and σ/b, with a depth limit, from the series as it starts.
+    /// w at the start of the series and ±1/b for the side of the kink; `None` without a depth limit.
     fn weight_now(&mut self) -> Option<(f64, f64)> {
         let relief = self.relief_now().map_or(0.0, |jet| jet[0][0]);
         let (corner, limit) = self.corner.as_mut().zip(self.model.wider().depth_limit)?;
@@ -106,7 +107,7 @@ impl PlanarRunning<'_> {
         Some((exp(-corner.side * corner.height / limit), corner.side / limit))
     }
 
-    /// How long a step, in how many pieces; `None` where collocation gets farther.
+    /// Length of a step, and number of its pieces; `None` if a step of collocation is longer.
     fn plan(&mut self, end: f64) -> Option<Plan> {
         let [along, across] = self.chain.displacement();
         let error = SHARE_OF_SERIES * self.control.target();
@@ -175,19 +176,19 @@ impl PlanarRunning<'_> {
         Some(Plan { length, pieces, fastest })
     }
 
-    /// How long a step may be for what heals within it: rules for visits have an end, and of e^{-t/T} the terms beyond the
-    /// order are to fall by half from one to the next.
+    /// Longest step on a surface that heals: the quadrature rules for nodes have a limited order, and beyond the order
+    /// of the series the terms of e^{-t/T} must decrease by half from one to the next.
     fn longest_healing(&self) -> f64 {
         let times = self.visits.most_healing().min(0.5 * self.chain.order() as f64);
         self.wider().healing_time.map_or(f64::INFINITY, |time| times * time)
     }
 
-    /// How far a piece may lead: its nodes stand for what it carves.
+    /// Largest displacement in a piece, whose nodes represent its contribution to the groove.
     fn reach_of_piece(&self) -> f64 {
         REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
     }
 
-    /// The pieces of a step, shortened to where exponentials, layers and the side of the kink are valid.
+    /// Makes the pieces of a step, shortened to where exponentials, layers and the side of the kink are valid.
     fn make(&mut self, plan: &Plan, end: f64) -> Result<Made, PlanarError> {
         let Plan { mut length, mut pieces, fastest } = *plan;
         for _ in 0..MOST_SHORTENINGS {
@@ -226,8 +227,8 @@ impl PlanarRunning<'_> {
         Ok(Made::Nothing)
     }
 
-    /// A part of a step of this length that leads out of the field, too far back for the exponentials, too far across
-    /// for the layers, or to numbers that overflow.
+    /// A shorter fraction for a step that leaves the field, retreats too far for the exponentials, moves too far across
+    /// for the layers, or overflows; `None` for a valid step.
     fn broken(
         &self,
         (parts, total): (&[f64], f64),
@@ -250,7 +251,7 @@ impl PlanarRunning<'_> {
         None
     }
 
-    /// Hands out the pieces, and moves the tip to the end of the last.
+    /// Stores the pieces, and moves the tip to the end of the last one.
     fn accept_series(
         &mut self,
         (along, across): (&[f64], &[f64]),
@@ -279,7 +280,7 @@ impl PlanarRunning<'_> {
         self.work.series += 1;
     }
 
-    /// Tells the memory of the whole step, which begins where the tip is.
+    /// Adds the whole step, from the present position of the tip, to the memory.
     fn remember_series(&mut self, fastest: f64, total: f64) -> Result<(), PlanarError> {
         let healing = total * self.healing();
         let rule = self.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);

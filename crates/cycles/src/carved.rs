@@ -1,7 +1,7 @@
 //! Weights of the visits of a step, and decay of earlier contributions.
 //!
-//! Visit k of a step of length h has the weight `b_ik w_k` at stage i: b = hA, or b = (1 + hA/T)⁻¹hA if the surface
-//! heals; `w_k` = e^{-|η_k|/b} under a depth limit. Contributions from before the step have decayed by e^{-c_i h/T}.
+//! Visit k of a step of length h has the weight `b_ik w_k` at stage i. The matrix b_ik is hA, or (1 + hA/T)⁻¹hA with the
+//! healing time T; `w_k` = e^{-|η_k|/b} under the depth limit b. Earlier contributions have decayed by e^{-c_i h/T}.
 
 use stickslip_tip::Wider;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};

@@ -1,7 +1,7 @@
 //! Kink crossings under a depth limit: a step should end where the height under the tip passes through 0.
 //!
-//! If a step ends a time δ from the crossing, w is wrong by 2|h|/b for this time. This shifts the force by α times the
-//! product, which falls as δ²: after a few rounds of moving the mesh to the crossings the shift is negligible.
+//! If a step ends a time δ from the crossing, w is wrong by 2|h|/b for this time. This shifts the force by 2α|h|δ/b,
+//! which falls as δ²: after a few rounds of moving the mesh to the crossings the shift is negligible.
 
 use super::carved::Heights;
 use super::embedding::Embedding;
@@ -17,7 +17,7 @@ const CLOSEST: f64 = 1e-7;
 const SHARE: f64 = 1e-4;
 
 impl Heights {
-    /// The side of the kink on which most of the heights lie.
+    /// These heights, with the side of the kink on which most of them lie.
     pub(super) fn new(nodes: Stages) -> Self {
         let side = if nodes.iter().sum::<f64>() > 0.0 { 1.0 } else { -1.0 };
         Self { nodes, side }

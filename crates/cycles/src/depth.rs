@@ -31,8 +31,8 @@ pub(super) struct LinearHeights {
 }
 
 impl LinearHeights {
-    /// `history` is the contribution of the history to g, `slope` that to the slope of the groove at the stages; `None`
-    /// if the equations are singular.
+    /// `history` is the contribution of the history to g, `slope` the slope of the whole groove at the stages, divided by
+    /// α. `None` if the equations are singular.
     pub(super) fn new(
         equation: &Embedding,
         history: Stages,

@@ -26,7 +26,7 @@ pub(super) struct Embedding {
     pub(super) short: Arc<Fit>,
     /// Replaces `short` during the search for a cycle.
     pub(super) rough: Arc<Fit>,
-    /// Whether derivatives in the short sum are those of f.
+    /// Whether the short sum is accurate enough for derivatives.
     pub(super) short_is_precise: bool,
     /// Largest wave number of f that matters for the step length.
     pub(super) band: f64,
@@ -50,12 +50,12 @@ const ACCURACY_OF_SHORT: f64 = 1e-8;
 const ACCURACY_OF_ROUGH: f64 = 1e-4;
 /// Largest number of exponentials in a sum without a lattice.
 const FEW: usize = 60;
-/// Largest number of waves of a lattice of exponents, used if no few exponentials fit f'.
+/// Largest number of waves of a lattice of exponents, which is used if few exponentials cannot fit f'.
 const MOST_WAVES_OF_FINE: usize = 1200;
 const MOST_WAVES_OF_SHORT: usize = 120;
-/// Displacement by the part of f that steps need not resolve, and the ratio of the largest wave number of steps to that
-/// of this accuracy.
+/// Displacement of the tip by the part of f that steps need not resolve.
 const ACCURACY_OF_STEPS: f64 = 1e-5;
+/// Largest wave number that steps resolve, over the largest one of f at this accuracy.
 const WAVES_OF_ROUND_OFF: f64 = 1.5;
 
 impl Embedding {
@@ -70,7 +70,7 @@ impl Embedding {
     /// The same equations with sums of more terms, valid up to this distance behind the farthest point reached.
     ///
     /// # Errors
-    /// No such sum reaches farther than these, or none is accurate enough.
+    /// No sum is valid farther than the present ones, or none is accurate enough.
     pub(super) fn reaching_back(&self, retreat: f64, allowed: f64) -> Result<Self, CycleError> {
         let Self { alpha, r, .. } = *self;
         let model = self.model().ok_or(CycleError::NotConverged { alpha, r })?;
@@ -160,7 +160,7 @@ impl Embedding {
         Law { alpha: self.alpha, r: self.r, spring: 1.0 }
     }
 
-    /// Factors for the sensitivities of the state over this number of steps.
+    /// Work for the sensitivities of the state over this number of steps, in the unit of [`super::solve::MOST_WORK`].
     pub(super) fn work(&self, steps: f64) -> f64 {
         let state = self.state_len() as f64;
         steps * state * state

@@ -1,4 +1,4 @@
-//! State of a run at its end, as far as the search for cycles needs it. `stickslip-outcome` classifies the motion.
+//! State of a run at its end, for the search for cycles. `stickslip-outcome` classifies the motion in detail.
 
 use stickslip_tip::motion::{Oscillation, latest_extrema};
 use stickslip_tip::{Run, Scenario};
@@ -19,7 +19,7 @@ pub enum Ended {
     Repeating,
     /// l has only risen in the second half of the run: the groove holds the tip, for a long time or permanently.
     Stuck,
-    /// Neither.
+    /// Neither repeating nor stuck.
     Unsettled,
 }
 

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// An error of a limit-cycle function.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CycleError {
-    /// The residual is out of range.
+    /// The requested residual is out of range.
     #[error(
         "the tolerance must lie between {min:e}, below which round-off takes over, and {max:e}; {0:e} does not",
         min = super::TOLERANCES.0, max = super::TOLERANCES.1
@@ -20,7 +20,7 @@ pub enum CycleError {
         "limit cycles exist only for a tip on a spring behind a support: without a spring the lag l is not defined"
     )]
     NoSpring,
-    /// The footprint never fades: its history is no state of a few numbers.
+    /// The footprint never fades, so that the history of the tip is not a state of a few numbers.
     #[error(
         "cycles need a footprint that decays; this one does not (J0 falls like 1/√x, cos x not at all)"
     )]
@@ -93,7 +93,7 @@ pub enum CycleError {
         /// Largest backward motion for which the sum is valid, in σ.
         most: f64,
     },
-    /// There is no critical point.
+    /// An error of the linear-stability functions, such as a missing critical point.
     #[error(transparent)]
     Stability(#[from] StabilityError),
     /// A run failed.

@@ -7,8 +7,9 @@ use super::past::{Numbers, Past};
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::step::OwnHeight;
 
-/// Number of rounds of the fixed-point iteration for the heights, and its relaxation factor.
+/// Number of rounds of the fixed-point iteration for the heights.
 const ROUNDS: usize = 12;
+/// Relaxation factor of this iteration.
 const SHARE: f64 = 0.5;
 
 impl Orbit {

@@ -1,4 +1,4 @@
-//! Exponents on a lattice, for footprints that no few exponentials fit: narrow lobes, tables.
+//! Exponents on a lattice, for footprints that few exponentials cannot fit: narrow lobes, tables.
 //!
 //! On [-δ, P - δ], where P exceeds the reach of f by δ, f'(ξ)e^{aξ} equals a Fourier series of period P, apart from
 //! the images of f' one period on, which are damped by e^{-aP}. So
@@ -7,7 +7,8 @@
 //!     f'(ξ) ≈ Σ_k Re(w_k e^{s_k ξ}),    s_k = -a + 2πik/P,    w_k = (2/P) ∫ f'(ξ) e^{-s_k ξ} dξ
 //! ```
 //!
-//! with half of this for k = 0. For a Gaussian the integral over all ξ is -s·a√(2π)w e^{sc + s²w²/2}, s = -s_k.
+//! where w_0 is half of this. For a Gaussian of amplitude A, center c and width W the integral over all ξ is
+//! s_k A √(2π) W e^{-s_k c + s_k² W²/2}.
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
@@ -16,7 +17,7 @@ use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::memory::{Fit, FitError, Term};
 use stickslip_tip::{Gaussian, TipFunction, stop};
 
-/// P over the reach: δ is at most a quarter of it.
+/// P over the reach of f; δ is at most a quarter of the reach.
 const PERIOD: f64 = 1.6;
 /// Largest contribution of the images of f' and of the omitted waves, in units of the required accuracy.
 const SHARE: f64 = 0.2;
@@ -56,12 +57,12 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
     best.ok_or(FitError::Terms)
 }
 
-/// Length behind the tip over which a lattice is valid, in units of the reach, and its period, for which the images of
-/// f' are negligible there.
+/// Retreat up to which a lattice is valid, in units of the reach.
 const FAR: f64 = 0.25;
+/// Period of this lattice, in units of the reach: the images of f' are negligible there.
 const FAR_PERIOD: f64 = 2.4;
 
-/// Largest factor of this length, and of the period with it: the farthest retreat is a reach.
+/// Largest factor by which both are increased: the farthest retreat is one reach.
 const MOST_TIMES: f64 = 4.0;
 
 /// A lattice that is valid far behind the farthest point that the tip has reached: at least up to this retreat, if any
@@ -141,7 +142,7 @@ fn terms(
     Ok(terms)
 }
 
-/// Limit beyond which coefficients are not evaluated.
+/// Largest number of waves whose coefficients are evaluated.
 const MOST_LOOKED_AT: usize = 20_000;
 
 /// Adds ∫ g(ξ) e^{-s_k ξ} dξ of a Gaussian g for each k.

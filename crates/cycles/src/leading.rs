@@ -22,14 +22,15 @@ use stickslip_tip::sorting::sort_by_number;
 
 /// Number of kicks, and of deviations that are carried through a period together.
 const BLOCK: usize = 8;
-/// Largest dimension of the space, and its growth factor between evaluations.
+/// Largest dimension of the space.
 const MOST_DIMENSIONS: usize = 320;
+/// Growth factor of the dimension between computations of the multipliers.
 const GROWTH: f64 = 1.2;
-/// Largest difference of a returned multiplier between the last two spaces, and the same if the space were to grow
-/// further.
+/// Largest difference of a returned multiplier between the last two spaces.
 const AGREED: f64 = 1e-8;
+/// This difference if the space has its largest dimension.
 const NEARLY: f64 = 1e-4;
-/// Fraction of a deviation in the present space that is round-off.
+/// A part of a deviation outside the present space is round-off if it is below this fraction of the deviation.
 const HELD: f64 = 1e-11;
 
 /// The multipliers in the fine sum, by decreasing modulus: those above `least`, and others if available. `None` if the
@@ -80,7 +81,7 @@ pub(super) fn sorted(matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
 
 /// The map from deviations of the state at the start of a period to those at its end.
 struct PeriodMap<'a> {
-    /// The map linearised in the fine sum.
+    /// The equations, linearised in the fine sum.
     equation: Embedding,
     orbit: &'a Orbit,
     carved: Vec<Carved>,

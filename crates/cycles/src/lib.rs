@@ -1,11 +1,11 @@
 //! Limit cycles: periodic solutions of (18), their stability, and how they depend on α and r.
 //!
-//! A cycle is a motion x0(t + T) = x0(t) + rT. On the side of the past f' is a sum of few exponentials
-//! ([`stickslip_tip::memory::Fit`]), so that the tip with its past is a state of some twenty numbers, and a cycle the
+//! A cycle is a motion x0(t + T) = x0(t) + rT. Behind the tip f' is fitted by a sum of few exponentials
+//! ([`stickslip_tip::memory::Fit`]), so that the tip with its past is a state of some twenty numbers, and a cycle is a
 //! periodic solution of an ordinary differential equation. It is found by Radau collocation on a mesh that
 //! follows the motion, with Newton's method for all displacements, the period and, along a branch, a
-//! parameter; eliminated step by step, the equations leave a matrix of the size of the state, whose
-//! eigenvalues are the Floquet multipliers. `docs/explanation/cycles.md` derives it, and
+//! parameter. Elimination step by step reduces the equations to a matrix of the size of the state, whose
+//! eigenvalues are the Floquet multipliers. `docs/explanation/cycles.md` derives the equations, and
 //! `docs/findings/README.md` has the results.
 //!
 //! ```
@@ -74,23 +74,23 @@ const ON_THE_CIRCLE: f64 = 1e-7;
 /// Multipliers of smaller modulus belong to the exponentials rather than to f.
 const LEAST_MULTIPLIER: f64 = 1e-6;
 
-/// An extremum within this fraction of a period of the seam counts as that of the seam.
+/// An extremum closer than this fraction of a period to the seam, the start and end of the period, counts as lying on it.
 const AT_THE_SEAM: f64 = 1e-6;
-/// The part of the largest backward motion from which on no step along a branch keeps within it.
+/// Backward motion, as a fraction of the largest admissible one, beyond which no step along a branch stays admissible.
 const AT_THE_FARTHEST: f64 = 0.999;
-/// Coefficients of [`Cycle::error`].
+/// Coefficient of the residual in [`Cycle::error`].
 const ERROR_OVER_RESIDUAL: f64 = 0.1;
 /// Residual above which the ends of steps are no longer much more accurate than the points between them.
 const COARSE: f64 = 1e-7;
 const ERROR_PER_GAP: f64 = 0.01;
 const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
-/// The same under a depth limit, where heights contribute a larger error than slopes: measured close to the non-smooth
-/// onset (β = 1, b = 5, α = 1.076) from 1e-4 to 1e-9, the error is at most a third of this.
+/// [`ERROR_OVER_DISPLACEMENT`] under a depth limit, where heights contribute a larger error than slopes: close to the
+/// non-smooth onset (β = 1, b = 5, α = 1.076), at residuals from 1e-4 to 1e-9, the error is at most a third of the estimate.
 const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
-/// Amplitude, in widths of the tip, above which errors grow in proportion to it. A slip begins when a creeping tip
-/// escapes from its groove, which depends on its velocity, and this is smaller the farther the tip lags behind.
+/// Amplitude, in widths of the tip, above which errors grow in proportion to the amplitude: a slip begins when a creeping
+/// tip escapes from its groove, and the farther the tip lags behind, the more slowly it creeps.
 const SHORT_SLIPS: f64 = 2.0;
-/// Additional factor if f is fitted by a lattice of exponents.
+/// Additional factor of the error if f' is fitted by a lattice of exponents.
 const ON_LATTICE: f64 = 40.0;
 
 /// A periodic solution of (18). Lengths in σ, times in Γ/k.
@@ -153,9 +153,9 @@ impl Cycle {
         0.5 * (self.extremes.1 - self.extremes.0)
     }
 
-    /// Half the peak-to-peak value of the surface far behind the tip, (35), in kσ²/a. If the surface heals, u at the
-    /// distance D behind the support is U(x) e^{-D/(rT)} with a periodic U, and this is half the peak-to-peak value of
-    /// U, at most `f64::MAX`.
+    /// Half the peak-to-peak value of the surface far behind the tip, (35), in kσ²/a. If the surface heals, with the
+    /// healing time T_h, u at the distance D behind the support is U(x) e^{-D/(rT_h)} with a periodic U. The result is
+    /// then half the peak-to-peak value of U, at most `f64::MAX`.
     pub fn amplitude_u(&self) -> f64 {
         let amplitude = || self.ripple().amplitude();
         *self
@@ -187,7 +187,8 @@ impl Cycle {
         self.slips
     }
 
-    /// The largest backward motion of the tip, if cycles can hardly have a larger one: a branch of them ends here.
+    /// The largest backward motion of the tip, in σ, if cycles cannot have a notably larger one, so that a branch ends
+    /// here; else `None`.
     pub fn farthest_retreat(&self) -> Option<f64> {
         let retreat = self.closed.orbit.retreat();
         (retreat > AT_THE_FARTHEST * self.closed.equation.retreat()).then_some(retreat)
@@ -258,7 +259,7 @@ impl Cycle {
         displacement(&self.model, self.closed.equation.fine.certificate().slope)
     }
 
-    /// The corresponding error of the amplitude of the surface far behind the tip, in kσ²/a.
+    /// Estimate of the error of [`amplitude_u`](Self::amplitude_u), in kσ²/a.
     pub fn amplitude_u_error(&self) -> f64 {
         let relative = self.error() / self.amplitude_x0() + self.error() / self.period();
         3.0 * relative * self.amplitude_u()
@@ -293,7 +294,7 @@ impl std::fmt::Debug for Cycle {
 const LEAST_AMPLITUDE: f64 = 1e-9;
 
 impl Closed {
-    /// Whether Newton's method has converged to steady motion, for which every period is one.
+    /// Whether Newton's method has converged to steady motion, of which any time is a period.
     fn is_steady(&self) -> bool {
         let r = self.equation.r;
         let motion = self.orbit.trajectory(r);

@@ -37,11 +37,11 @@ struct Phase {
     by_parameter: f64,
 }
 
-/// The equations of a step are singular because the orbit is far from a solution, or a request to stop.
+/// The equations of a step are singular because the orbit is far from a solution, or a stop was requested.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singular;
 
-/// The numbers of both histories of a linearisation, whose memory the next one uses again.
+/// The numbers of both histories of a linearisation, whose memory the next linearisation uses again.
 #[derive(Default)]
 pub(super) struct Room {
     past: Numbers,

@@ -16,9 +16,10 @@ const AROUND: usize = 2;
 /// A step shorter than this fraction of a neighbour belongs to a kink crossing: its residual is round-off, and is no
 /// estimate for the neighbour.
 const SLIVER: f64 = 0.02;
-/// After a kink crossing the steps of a run grow gradually to their usual length. Steps whose residual is below this
-/// fraction of the largest one, or both round-off and below that fraction of the allowed residual, need not be short.
+/// After a kink crossing the steps of a run grow gradually to their usual length. A step need not be short if its
+/// residual is below this fraction of the largest one.
 const NEGLIGIBLE: f64 = 1e-6;
+/// A step need not be short either if its residual is below this and below [`SMALL`] times the allowed one.
 const ROUND_OFF: f64 = 1e-12;
 const SMALL: f64 = 1e-3;
 pub(super) const MOST_STEPS: usize = 4000;
@@ -30,14 +31,14 @@ pub(super) const MOST_STEPS_OF_GUESS: usize = 4 * MOST_STEPS;
 pub(super) struct OfStep {
     /// Stiffness of the groove.
     pub(super) stiffness: f64,
-    /// Quadrature error of the sum over the nodes for the [force](super::quadrature) of the step's own groove.
+    /// [Quadrature error](super::quadrature) of the force of the step's own groove.
     pub(super) missed: f64,
 }
 
-/// Largest residual of (18) within each step, estimated from the start of its polynomial and from that of the next:
-/// there the true velocity is that at the end of the step before. If the groove is stiff, an interpolation error of a
-/// polynomial causes an error of the force larger by the factor `stiffness`. The quadrature error at the nodes is not
-/// added: it has another form, and the same order.
+/// Largest residual of (18) within each step, estimated at the starts of its polynomial and of the next one, where the
+/// true velocity is that at the end of the step before. If the groove is stiff, an interpolation error of a polynomial
+/// causes an error of the force larger by the factor `stiffness`. The quadrature error at the nodes is not added to this
+/// estimate, but replaces it if larger.
 pub(super) fn residuals(orbit: &Orbit, of_steps: &[OfStep]) -> Vec<f64> {
     let h: Vec<f64> = orbit.lengths().collect();
     let steps = h.len();
@@ -140,9 +141,9 @@ pub(super) fn graded(mut density: Vec<f64>) -> Vec<f64> {
     density
 }
 
-/// Ends of steps with equal shares of the density, which is constant on each step of the old mesh; between kink
-/// crossings, each of which ends a step, the shares are equal separately. The list is cut off when it shows that there
-/// are too many steps.
+/// Ends of steps with equal shares of the density, which is constant on each step of the old mesh. Kink crossings
+/// (`corners`) are among the ends, so that shares are equal only between two of them. The list is cut off if there are
+/// too many steps.
 pub(super) fn equidistributed(mesh: &[f64], density: &[f64], corners: &[f64]) -> Vec<f64> {
     let mut cumulated = vec![0.0];
     let mut total = 0.0;

@@ -20,8 +20,9 @@ use stickslip_tip::memory::{Fit, accuracy_needed};
 const FADED: f64 = 1e-3;
 /// Smallest multiplier computed for sums of hundreds of exponentials.
 const LEADING: f64 = 1e-2;
-/// Largest displacement by the residual of the second sum, and its largest number of waves.
+/// Largest displacement of the tip by the residual of the second sum.
 const ACCURACY_OF_ANOTHER: f64 = 1e-6;
+/// Largest number of waves of the second sum.
 const MOST_WAVES_OF_ANOTHER: usize = 160;
 /// Largest number of terms of a fine sum for which all eigenvalues are computed.
 const MOST_TERMS: usize = 64;

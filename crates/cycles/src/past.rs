@@ -18,8 +18,8 @@ pub(super) struct Past<'a> {
     left: Vec<Stages>,
 }
 
-/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation. Who linearises again keeps
-/// them, because a new allocation takes longer than writing them.
+/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation. Their memory is kept for
+/// the next one, because a new allocation takes longer than writing them.
 #[derive(Default)]
 pub(super) struct Numbers {
     /// `e^{s_j d_i}`
@@ -69,7 +69,8 @@ impl<'a> Past<'a> {
     /// `None` after a request to stop. `carved` contains the weights and the decay of each step; `numbers` are those of an
     /// earlier history, whose memory is used again.
     ///
-    /// Over a step ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`; after a period it must be what it was.
+    /// Over a step of length h ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`, with the healing time T; after a
+    /// period it must be the same again.
     pub(super) fn of(
         fit: &'a Fit,
         orbit: &Orbit,
@@ -171,12 +172,12 @@ impl PastOfStep<'_> {
         self.sum(|zeta, _| zeta)
     }
 
-    /// Curvature of this groove, divided by α.
+    /// Curvature of the groove of the history at the stages, divided by α.
     pub(super) fn curvature(&self) -> Stages {
         self.sum(|zeta, term| zeta * term.exponent)
     }
 
-    /// Height of this groove: u is -α times this.
+    /// Height of the groove of the history at the stages, divided by -α.
     pub(super) fn height(&self) -> Stages {
         self.sum(|zeta, term| zeta / term.exponent)
     }

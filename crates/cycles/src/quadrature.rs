@@ -1,15 +1,15 @@
 //! Quadrature error of the sum over the nodes of a step for the groove of this step.
 //!
-//! At the node `c_i` this groove is h Σ_k `a_ik` g(`c_k`) with g(τ) = f'(`d_i` - d(τ)), exact for polynomials of
-//! degree 5. For other g the error is
+//! At the node `c_i` its slope, divided by α, is h Σ_k `a_ik` g(`c_k`) with g(τ) = f'(`d_i` - d(τ)), exact for
+//! polynomials g of degree 5. For other g the error is
 //!
 //! ```text
 //!     h g[0, c_1 … c_6] ∫_0^{c_i} Π_k (τ - c_k) dτ
 //! ```
 //!
 //! with the divided difference over one additional point, the start of the step. Multiplied by α, it is the residual
-//! of (18) there. It vanishes at nodes at the ends of steps. Where the seventh derivative of the motion passes through
-//! zero, this error limits the step length.
+//! of (18) there. It vanishes at the last node, the end of the step. Where the seventh derivative of the motion passes
+//! through zero, this error limits the step length.
 
 use std::sync::LazyLock;
 use stickslip_tip::TipFunction;

@@ -11,8 +11,8 @@ use stickslip_tip::{TipFunction, Trajectory};
 /// Poisson's formula u(x) = -(α/Λ) `Σ_k f̂(q_k) e^{i q_k x} ∫_0^T e^{-i q_k x0(t)}dt`, `q_k` = 2πk/Λ. The sum ends
 /// where f̂ is negligible.
 ///
-/// If the surface heals, u at the distance D behind the support is U(x) e^{-D/(rT)}. U is the same series with f̂(q -
-/// i/(rT)) instead of f̂(q) and with the weight e^{(R - x0)/(rT)} of a visit.
+/// If the surface heals, with the healing time T_h, u at the distance D behind the support is U(x) e^{-D/(rT_h)}. U is the
+/// same series with f̂(q - i/(rT_h)) instead of f̂(q) and with the weight e^{(R - x0)/(rT_h)} of a visit, R = rt.
 #[derive(Debug, Clone)]
 pub(super) struct Ripple {
     wavelength: f64,

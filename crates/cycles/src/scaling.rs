@@ -31,7 +31,7 @@ pub struct ScalingPoint {
     pub distance: f64,
     /// Half the peak-to-peak value of l.
     pub amplitude_x0: f64,
-    /// Half the peak-to-peak value of u far behind the tip.
+    /// Half the peak-to-peak value of u far behind the tip; `None` for runs.
     pub amplitude_u: Option<f64>,
     /// Wavelength rT.
     pub wavelength: f64,

@@ -17,7 +17,7 @@ const REPEATS_WITHIN: f64 = 1e-7;
 /// The motion that a tip settles into after a small disturbance of steady motion.
 #[derive(Debug, Clone)]
 pub enum Settled {
-    /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
+    /// Steady motion is stable. (If onset is subcritical, a large cycle may also be stable.)
     Steady,
     /// A stable cycle.
     Cycle(Box<Cycle>),
@@ -153,7 +153,7 @@ fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
     if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
 }
 
-/// Number of guesses with a cycle of too large a residual after which the search ends.
+/// The search ends after this number of guesses whose cycles have too large a residual.
 const MOST_COARSE: usize = 3;
 
 /// Results of a search above αc.
@@ -233,9 +233,9 @@ impl Search {
     }
 }
 
-/// Positions of the first cycle on the branch from onset and of the first step, as fractions of the distance to the
-/// requested α.
+/// Position of the first cycle on the branch from onset, as a fraction of the distance from αc to the requested α.
 const FIRST_SHARE: f64 = 0.02;
+/// Length of the first step along this branch, as such a fraction.
 const FIRST_STEP: f64 = 0.05;
 const GROWTH: f64 = 1.5;
 /// Number of steps that may fail; each failed step is repeated with half its length.
@@ -275,8 +275,8 @@ fn followed_from_onset(
 /// Largest number of cycles on a branch to the requested α.
 const MOST_ON_THE_WAY: usize = 300;
 
-/// The same in the extended model, where the position of the small cycle is not known: the cycle on the branch from
-/// onset, if the branch leads to this α without first leading away from it.
+/// As [`followed_from_onset`] in the extended model, where the position of the small cycle is not known. `None` if the
+/// branch first leads away from the requested α.
 fn branch_from_onset(model: &Model, critical: Critical, tolerance: f64) -> Option<Cycle> {
     let settings = Continuation {
         to: model.alpha(),
@@ -324,7 +324,7 @@ impl Sought {
     }
 }
 
-/// The cycle near a guess, with its smallest period: a guess of two slips may have the period of one.
+/// The cycle near a guess, with its smallest period: a guess with two slips may consist of two equal periods.
 fn solve(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, NotClosed> {
     solve_if(equation, guess, tolerance, Sought::Any)
 }

@@ -89,7 +89,8 @@ impl Sensitivity {
         expand(&stages.entries, stride, factors, &mut self.entries);
     }
 
-    /// Multiplies rows that are the real and the imaginary parts of as many quantities, the first of them row `from`.
+    /// Multiplies complex quantities by these factors. Their real parts are the rows from row `from` on, and their
+    /// imaginary parts follow.
     pub(super) fn multiply_pairs(&mut self, from: usize, factors: &[Complex<f64>]) {
         let stride = self.stride();
         let pairs = &mut self.entries[from * stride..][..2 * factors.len() * stride];
@@ -103,6 +104,8 @@ impl Sensitivity {
     }
 }
 
+/// Multiplies each complex row by its factor.
+///
 /// Compiled for wider vectors too: columns are independent of each other.
 #[multiversion(targets("x86_64+avx2"))]
 fn turn(re: &mut [f64], im: &mut [f64], stride: usize, factors: &[Complex<f64>]) {
@@ -118,7 +121,7 @@ fn turn(re: &mut [f64], im: &mut [f64], stride: usize, factors: &[Complex<f64>])
     }
 }
 
-/// Row k of `sums`, of this stride, is `Σ_j factors[j][k]` times row j.
+/// Sets row k of `into` to `Σ_j factors[j][k]` times row j of `rows`.
 ///
 /// Compiled for wider vectors too: lanes and the order of sums are the same.
 #[multiversion(targets("x86_64+avx2"))]

@@ -47,26 +47,28 @@ pub(super) enum NotClosed {
 
 const MOST_ITERATIONS: usize = 15;
 const MOST_MESHES: usize = 8;
-/// The same in the extended model: meshes must follow the kink crossings, and resonant motions.
+/// Largest number of meshes in the extended model, where they must follow kink crossings and resonant motions.
 const MOST_MESHES_OF_WIDER: usize = 20;
-/// Number of meshes after which each aims at this fraction of the residual of the one before.
+/// Number of meshes after which those of a tip with inertia aim at ever smaller residuals.
 const USUAL_MESHES: usize = 4;
+/// Factor between the residuals that successive meshes then aim at.
 const SHARPER: f64 = 0.5;
 /// Steps times the square of the length of the state, summed over linearisations: some seconds of work.
 pub(super) const MOST_WORK: f64 = 4e8;
 /// Largest estimated residual as a fraction of the allowed one, because the residual within a step may exceed the
 /// estimate.
 const ESTIMATE_FALLS_SHORT: f64 = 0.7;
-/// The residual is accepted within this factor of the one below which finer meshes no longer reduce it.
+/// Residual that is reported as possible, over the one below which finer meshes do not reduce it.
 const MARGIN: f64 = 2.0;
-/// Largest size of the last correction: its error is of the order of its square.
+/// Largest size of the last correction: the remaining error is of the order of its square.
 const ENOUGH: f64 = 1e-8;
 /// Size of a correction that is sufficient for the refinement of the mesh.
 const ENOUGH_FOR_A_MESH: f64 = 1e-6;
 /// Corrections below this that no longer decrease are round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Largest change of a position by a correction, in widths of the tip, and largest relative change of the period.
+/// Largest change of a position by a correction, in widths of the tip.
 const LONGEST_CORRECTION: f64 = 1.0;
+/// Largest relative change of the period by a correction.
 const LARGEST_CHANGE_OF_PERIOD: f64 = 0.2;
 /// Largest change of a height by a correction, in units of the depth limit: w depends on heights exponentially.
 const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
@@ -78,13 +80,13 @@ const FAR_BEYOND: f64 = 30.0;
 /// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it: the
 /// solution on it begins with the fine sum.
 const NEARLY_MET: f64 = 100.0;
-/// Residual, relative to the allowed one, beyond which a mesh gives a rough estimate only of the mesh that is needed. The next
-/// mesh then aims at a multiple of the allowed residual, and costs half as much.
+/// Residual, relative to the allowed one, beyond which a mesh gives only a rough estimate of the necessary one.
 const FAR_OFF: f64 = 3000.0;
+/// The next mesh then aims at this multiple of the allowed residual, and costs half as much.
 const HALFWAY: f64 = 40.0;
-/// Retreat of the sums of a tip that swings back, over the retreat found with sums that do not reach as far.
+/// Retreat for which the sums of a resonant tip are valid, over the retreat found with the usual sums.
 const MARGIN_OF_RETREAT: f64 = 1.05;
-/// Corrections below this that decrease by no smaller factor show that the rough sum is not sufficient: motions that
+/// If a correction below [`NEAR`] exceeds this fraction of the one before, the rough sum is not sufficient: motions that
 /// amplify deviations amplify its errors.
 const SLOW: f64 = 0.1;
 const NEAR: f64 = 1e-3;
@@ -122,7 +124,7 @@ pub(super) fn close_if(
     close_in_sums(far, closed.orbit, condition, allowed, &is_wanted)
 }
 
-/// The same in the sums of an embedding, for any retreat of the tip.
+/// As [`close_if`], in the sums of the embedding whatever the retreat of the tip.
 fn close_in_sums(
     mut equation: Embedding,
     mut orbit: Orbit,
@@ -311,7 +313,7 @@ impl Closed {
         self.linearisation.monodromy()
     }
 
-    /// The same in another sum.
+    /// The monodromy matrix in another sum; `None` if the equations are singular.
     pub(super) fn monodromy_in(&self, sum: &Arc<Fit>) -> Option<DMatrix<f64>> {
         let Self { equation, orbit, .. } = self;
         let precise = Embedding { short: Arc::clone(sum), ..equation.clone() };

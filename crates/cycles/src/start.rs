@@ -15,8 +15,8 @@ use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
 const FEWEST_STEPS: f64 = 18.0;
 /// Largest amplitude at which the leading order is used as a guess, in widths.
 const LARGEST_MODE: f64 = 1.0;
-/// Wavelength of the motion over the width that scales it. Where lobes are narrow the motion does not depend on their
-/// width: there an eighth of the wavelength takes its place, which for Gaussians is about one width.
+/// Wavelength of the motion over the width with which it scales. If the lobes of f are narrow, the motion does not depend
+/// on their width; a ninth of the wavelength, about the width of a Gaussian, then replaces it.
 const WIDTHS_PER_WAVELENGTH: f64 = 9.0;
 
 /// The linear mode with the amplitude and period of leading order in α - αc; `None` if the amplitude is imaginary, or
@@ -47,7 +47,7 @@ pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> 
     move |t| steady + amplitude * cos(TAU * t / period)
 }
 
-/// So many steps that none leads too far; `None` where that is more than any mesh has.
+/// A number of steps that keeps the displacement in each of them short enough; `None` if no mesh has so many.
 pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> Option<usize> {
     let farthest = equation.r * period + PI * amplitude;
     let longest = longest_displacement(equation.band);
@@ -56,14 +56,14 @@ pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -
     (steps <= MOST_STEPS).then_some(steps)
 }
 
-/// Whether a small cycle is expected here.
+/// Whether a small cycle is expected at this α.
 pub(super) fn small_cycle_exists(equation: &Embedding, onset: &Onset) -> bool {
     let above = equation.alpha > onset.critical.alpha;
     above == (onset.criticality == Criticality::Supercritical)
 }
 
-/// Times from the start at which a run is examined; they are proportional to the period of the bifurcating oscillation
-/// if it is longer than [`USUAL_PERIOD`].
+/// Times from the start at which a run is examined. If the period of the bifurcating oscillation is longer than
+/// [`USUAL_PERIOD`], they are longer in proportion.
 const LOOKS: [f64; 4] = [80.0, 320.0, 1280.0, 5120.0];
 const USUAL_PERIOD: f64 = 10.0;
 /// Largest number of steps of a run.
@@ -73,7 +73,7 @@ const TOLERANCE_OF_A_RUN: f64 = 1e-6;
 const KICK: f64 = 0.3;
 
 /// Passes the last period of a run to `take` at increasing times, until `take` returns true; returns the run. The kick
-/// is in these widths, and `born` is the period of the oscillation that bifurcates at onset.
+/// is proportional to `width`, and `born` is the period of the oscillation that bifurcates at onset.
 pub(super) fn from_run(
     model: &Model,
     (width, born): (f64, f64),
@@ -106,7 +106,8 @@ pub(super) fn from_run(
     Ok(Tried { scenario, run })
 }
 
-/// Whether to pass on the last period of a run. The same period is not passed on twice: a stuck tip has no other.
+/// Passes the last period of a run to `take`, and returns what `take` returns. The same period is not passed twice: a
+/// stuck tip has no other.
 fn offer(
     trajectory: &Trajectory,
     offered: &mut Vec<(f64, f64)>,
@@ -121,7 +122,7 @@ fn offer(
     periods.into_iter().map(|(from, to)| part(trajectory, from, to)).any(take)
 }
 
-/// Two maxima a period apart: the highest within the period, and the one before it.
+/// Times of two maxima a period apart: the second is the highest of the last period.
 fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
     let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);

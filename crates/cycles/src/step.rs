@@ -38,7 +38,7 @@ pub(super) struct LinearStep<'a> {
     velocity_slope: Square,
     /// Slope of the groove divided by α, from history and step: ∂v/∂α.
     groove: Vector,
-    /// Its derivative with respect to h.
+    /// Derivative of `groove` with respect to h.
     groove_rate: Vector,
     carrying: Carrying,
     heights: Option<LinearHeights>,
@@ -161,7 +161,7 @@ impl<'a> LinearStep<'a> {
         Some((stages, heights))
     }
 
-    /// Changes of the displacements with the period, with the free parameter, and to solve the equations.
+    /// Changes of the displacements with the period and with the free parameter, and those that solve the equations.
     fn constants(&self, free: Parameter, share: f64, gain: &Square) -> [Vector; 3] {
         let Carrying { by_force, to_force, by_force_rate, glide, glide_rate, .. } = &self.carrying;
         let advance = Vector::from_fn(|i, _| self.equation.r * RADAU.c[i]);
@@ -303,7 +303,7 @@ fn products(
     }
 }
 
-/// Real and imaginary parts of these numbers, multiplied by a factor for each and a common one.
+/// Real and imaginary parts of these numbers, each multiplied by its factor and by the common factor `of_all`.
 #[inline]
 fn times(
     numbers: &[Complex<f64>; STAGES],

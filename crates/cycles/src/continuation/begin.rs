@@ -1,4 +1,4 @@
-//! Where branches begin: at onset, or at a cycle.
+//! The first cycles of branches, at onset or at a given cycle.
 
 use super::place::{Place, solved_again};
 use super::{Continuation, Special, SpecialKind};
@@ -51,7 +51,7 @@ pub(super) fn small(
         .map_err(|error| error.told(settings.tolerance, lost))
 }
 
-/// Of a cycle whose halves are nearly the same, the one of half the period.
+/// The cycle of half the period, for a cycle whose halves are nearly the same.
 pub(super) fn halved(settings: &Continuation, cycle: &Cycle) -> Option<Place> {
     let guess = cycle.closed.orbit.halved(cycle.model().r());
     let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
@@ -60,7 +60,7 @@ pub(super) fn halved(settings: &Continuation, cycle: &Cycle) -> Option<Place> {
     Place::new(closed, settings.over, &Direction::PARAMETER)
 }
 
-/// At a cycle, so that the parameter goes towards its last value.
+/// The place of a cycle, with the direction in which the parameter approaches its last value.
 pub(super) fn at_cycle(settings: &Continuation, cycle: &Cycle) -> Result<Place, CycleError> {
     let closed = solved_again(cycle, settings)?;
     let (alpha, r) = (closed.equation.alpha, closed.equation.r);

@@ -7,13 +7,13 @@ use super::signs::{Counts, circle, difference_of_halves, doubling, fold, second_
 use super::special::{Special, SpecialKind};
 use crate::Cycle;
 
-/// What was found between two cycles.
+/// Whether and how the branch ends between two cycles.
 pub(super) enum Located {
-    /// Nothing that ends the branch.
+    /// The branch continues.
     OnTheWay,
-    /// Steady motion.
+    /// It ends in steady motion.
     Steady,
-    /// The branch of half the period.
+    /// It joins the branch of half the period.
     Halved,
 }
 
@@ -22,14 +22,15 @@ const MOST_ITERATIONS: usize = 60;
 const CLOSE: f64 = 1e-11;
 /// Amplitudes from which a Hopf point is extrapolated, in widths.
 const AMPLITUDES: [f64; 2] = [5e-3, 1e-2];
-/// Nearest and farthest that a period doubling is looked for from where its branch was left.
+/// Shortest step along the branch of half the period in the search for its period doubling.
 const NEAREST: f64 = 1e-4;
+/// Number of steps tried in this search, each twice as long as the one before.
 const SEARCHES: i32 = 12;
 /// A cycle with less amplitude, in widths, is about to vanish.
 const SMALL: f64 = 0.05;
 
 impl Continuation {
-    /// Locates what lies between a place and a cycle next to it, and adds it to the list.
+    /// Locates special points between a place and a cycle next to it, and adds them to the list.
     pub(super) fn special_between(
         &self,
         place: &Place,
@@ -92,8 +93,8 @@ impl Continuation {
         Some(best)
     }
 
-    /// Where the difference of the halves is zero two branches meet, and the equations are singular: the point
-    /// is looked for on the other one.
+    /// Two branches meet where the difference of the halves is zero, and the equations are singular there. Therefore
+    /// the point is located on the other branch.
     fn vanishing(&self, place: &Place, next: &Cycle, special: &mut Vec<Special>) -> Located {
         let width = place.cycle.closed.equation.width();
         let smaller = place.cycle.amplitude_x0().min(next.amplitude_x0());
@@ -107,7 +108,7 @@ impl Continuation {
         Located::Halved
     }
 
-    /// Where a small cycle vanishes: the parameter is a function of the square of its amplitude.
+    /// The Hopf point at which a small cycle vanishes, by extrapolation in the square of its amplitude.
     fn hopf_near(&self, cycle: &Cycle) -> Option<Special> {
         let width = cycle.closed.equation.width();
         let of = |amplitude: f64| {
@@ -127,7 +128,7 @@ impl Continuation {
         })
     }
 
-    /// Where the branch of half the period doubles it.
+    /// The period doubling on the branch of half the period.
     fn doubling_near(&self, cycle: &Cycle) -> Option<Special> {
         let half = halved(self, cycle)?;
         let sign = doubling(&half).signum();

@@ -45,7 +45,7 @@ pub struct Point {
     pub alpha: f64,
     /// r
     pub r: f64,
-    /// T
+    /// Period T.
     pub period: f64,
     /// Half the peak-to-peak value of l.
     pub amplitude_x0: f64,
@@ -96,7 +96,7 @@ const SHORTEST_STEP: f64 = 1e-8;
 const GROWTH: f64 = 1.5;
 /// A step is repeated with half its length if the cosine of the angle between its tangents is smaller.
 const SHARPEST_TURN: f64 = 0.9;
-/// The step length may grow if the cosine is larger.
+/// The step length may grow if this cosine is larger.
 const STRAIGHT: f64 = 0.98;
 
 impl Default for Continuation {
@@ -128,7 +128,7 @@ impl Continuation {
         self.from_onset_under((&Wider::default(), tip), other, observe)
     }
 
-    /// The branch that bifurcates at onset in the extended model, where α varies.
+    /// As [`from_onset`](Self::from_onset), also in the extended model, where only α can vary.
     ///
     /// # Errors
     /// As [`from_onset`](Self::from_onset).

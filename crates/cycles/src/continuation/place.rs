@@ -1,4 +1,4 @@
-//! A cycle on a branch, and the way on from there.
+//! A cycle on a branch, and steps along the branch.
 
 use super::Continuation;
 use crate::change::{Change, Direction};
@@ -11,13 +11,14 @@ use crate::{Cycle, CycleError};
 pub(super) struct Place {
     pub(super) cycle: Cycle,
     over: Parameter,
-    /// Of length 1 in the scales of the place.
+    /// The tangent, of length 1 in the [`Scales`] of this place.
     pub(super) tangent: Change,
+    /// The inner product with the tangent.
     pub(super) along: Direction,
 }
 
 impl Place {
-    /// On the branch that goes on so that `along` grows.
+    /// The place of a cycle, with the tangent on which `along` increases.
     pub(super) fn new(closed: Closed, over: Parameter, along: &Direction) -> Option<Self> {
         let tangent = closed.linearisation.tangent(along)?;
         let scales = Scales::at(&closed, over);
@@ -35,7 +36,7 @@ impl Place {
         self.cycle.closed.equation.parameter(self.over)
     }
 
-    /// The cycle at this distance along the tangent, and on the branch through it.
+    /// The cycle of the branch at this distance along the tangent.
     pub(super) fn step(&self, settings: &Continuation, length: f64) -> Result<Self, NotClosed> {
         let Closed { mut equation, mut orbit, .. } = self.cycle.closed.clone();
         orbit.move_by(&self.tangent, length);
@@ -49,7 +50,7 @@ impl Place {
         Self::new(closed, self.over, &self.along).ok_or(NotClosed::Lost)
     }
 
-    /// How far along the tangent another cycle lies.
+    /// Distance of another cycle along the tangent.
     pub(super) fn distance(&self, cycle: &Cycle) -> f64 {
         let (here, there) = (&self.cycle.closed, &cycle.closed);
         let l = |of: &Closed| of.orbit.extension - of.equation.r;
@@ -58,7 +59,7 @@ impl Place {
             + self.along.parameter * (there.equation.parameter(self.over) - self.parameter())
     }
 
-    /// Cosine of the angle between the tangents here and there.
+    /// Cosine of the angle between the tangents of both places.
     pub(super) fn turn(&self, next: &Self) -> f64 {
         self.along.of(&next.tangent)
     }
@@ -75,7 +76,7 @@ impl Place {
     }
 }
 
-/// The cycle again, linearised with this parameter free.
+/// The cycle, linearised again with the parameter of the continuation free.
 pub(super) fn solved_again(cycle: &Cycle, settings: &Continuation) -> Result<Closed, CycleError> {
     let Closed { equation, orbit, .. } = cycle.closed.clone();
     let (alpha, r) = (equation.alpha, equation.r);
@@ -84,7 +85,7 @@ pub(super) fn solved_again(cycle: &Cycle, settings: &Continuation) -> Result<Clo
         .map_err(|error| error.told(settings.tolerance, CycleError::NotConverged { alpha, r }))
 }
 
-/// What a change of each quantity is measured by.
+/// Units of the changes of l, of the period and of the parameter.
 struct Scales {
     l: f64,
     period: f64,

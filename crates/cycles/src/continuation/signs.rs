@@ -1,4 +1,4 @@
-//! Test functions: what changes sign at a special point.
+//! Test functions, which change sign at special points.
 
 use super::place::Place;
 use crate::Cycle;
@@ -11,14 +11,14 @@ fn is_real(m: &Complex<f64>) -> bool {
     m.im.abs() < REAL
 }
 
-/// How many multipliers are where.
+/// Numbers of multipliers outside the unit circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Real ones below -1.
     pub(super) below: usize,
-    /// Real ones above 1, but that of a shift in time.
+    /// Real ones above 1, except that of a shift in time.
     pub(super) above: usize,
-    /// Complex ones outside of the unit circle.
+    /// Complex ones outside the circle.
     pub(super) around: usize,
 }
 

@@ -11,7 +11,7 @@ pub struct Special {
     pub alpha: f64,
     /// r
     pub r: f64,
-    /// T
+    /// Period T.
     pub period: f64,
     /// The cycle at this point; at a period halving, the one of half the period; `None` at a Hopf point.
     pub cycle: Option<Cycle>,

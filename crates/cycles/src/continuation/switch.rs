@@ -8,9 +8,9 @@ use crate::linearisation::Linearisation;
 use crate::solve::{Closed, Condition, close};
 use nalgebra::{DMatrix, DVector};
 
-/// By how much the first cycle deviates from the one that doubles, in widths; what is tried in turn.
+/// Deviations of the first cycle from the one that doubles, in widths, in the order in which they are tried.
 const DEVIATIONS: [f64; 4] = [0.02, 0.06, 0.006, 0.2];
-/// Halves that differ by less, over the deviation, are the same.
+/// Halves whose difference is a smaller fraction of the deviation are the same.
 const LEAST_SHARE: f64 = 0.1;
 /// Steps of inverse iteration: the eigenvalue is known to nearly all digits.
 const ITERATIONS: usize = 4;

@@ -124,7 +124,7 @@ fn groups(scenarios: &[Scenario]) -> Vec<Group> {
     groups
 }
 
-/// Whether the groove and a support of constant velocity are the only forces.
+/// Whether a run can share SIMD lanes: the conditions are those of [`run_each`].
 fn is_plain(scenario: &Scenario) -> bool {
     let Scenario { model, path, start_velocity, noise, profile, force, memory, .. } = scenario;
     let is_free = path.is_none() && start_velocity.is_none() && force.begins().is_infinite();

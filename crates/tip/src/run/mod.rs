@@ -52,7 +52,7 @@ impl Run<Vec<Step>> {
 /// [`MOST_STEPS`] steps is an error; for longer runs take the steps one by one from [`Running`].
 ///
 /// # Errors
-/// A parameter out of range, a tolerance that cannot be met, or too long a history.
+/// A parameter out of range, a tolerance that cannot be met, or a history that is too long.
 pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
     run_observed(scenario, |_| ControlFlow::Continue(()))
 }
@@ -76,7 +76,7 @@ pub fn run_observed(
     Ok(collected(scenario, vec![], take)?.into_run(scenario))
 }
 
-/// Runs a scenario by itself: `take` adds each step to a collector, and may end the run there.
+/// Runs a scenario alone: `take` adds each step to a collector, and may end the run there.
 fn collected<C>(
     scenario: &Scenario,
     mut steps: C,

@@ -16,7 +16,7 @@ impl<'a> Running<'a> {
     /// Begins a scenario over its [`Scenario::initial_surface`].
     ///
     /// # Errors
-    /// A parameter out of range.
+    /// A parameter out of range, or `modes` is requested but does not fit the footprint.
     pub fn new(scenario: &'a Scenario, surface: &'a InitialSurface) -> Result<Self, RunError> {
         scenario.validate()?;
         let start = (scenario.start_time(), scenario.start_extension() + scenario.kick);
@@ -59,7 +59,7 @@ impl<'a> Running<'a> {
     /// Makes the next step; `None` once the end of the scenario is reached.
     ///
     /// # Errors
-    /// The tolerance cannot be met.
+    /// The tolerance cannot be met, or the tip retreats farther than the memory reaches back.
     #[inline]
     pub fn step(&mut self) -> Result<Option<Step>, RunError> {
         if self.integrator.t() >= self.scenario.until {
@@ -77,7 +77,7 @@ impl<'a> Running<'a> {
         self.integrator.t()
     }
 
-    /// Counts so far.
+    /// Numbers of steps, iterations and series so far.
     pub fn work(&self) -> Work {
         self.integrator.work()
     }

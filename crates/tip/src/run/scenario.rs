@@ -23,7 +23,7 @@ pub enum Start {
 pub struct Scenario {
     /// Footprint, α and r.
     pub model: Model,
-    /// Steady or flat.
+    /// The initial condition, steady or flat.
     pub start: Start,
     /// Start position X, before the kick.
     pub start_position: f64,
@@ -72,7 +72,7 @@ pub enum RunError {
         "the path of the support ends at t = {end:?}, before the end of the run at {until:?}: end the run there, or extend the path"
     )]
     PathEnds {
-        /// Its last time.
+        /// Last time of the path.
         end: f64,
         /// Requested end.
         until: f64,
@@ -112,7 +112,7 @@ pub enum RunError {
         noise.amplitude, noise.spacing
     )]
     Noise {
-        /// As given.
+        /// The noise requested.
         noise: Noise,
         /// Grid points between the start and the end.
         points: f64,
@@ -152,7 +152,7 @@ pub const TOLERANCES: (f64, f64) = (1e-13, 1e-2);
 const MOST_NOISE_POINTS: f64 = 2e7;
 /// Share of the tolerance available for rounding errors of positions.
 const SHARE_OF_ROUNDING: f64 = 0.05;
-/// Length of the noise behind the start and ahead of the last position of the support.
+/// Length of the noise behind the start and ahead of the last position of the support, in σ.
 const NOISE_BEYOND: f64 = 30.0;
 
 impl Scenario {
@@ -281,6 +281,8 @@ impl Scenario {
         Ok(())
     }
 
+    /// Checks all parameters.
+    ///
     /// # Errors
     /// The first parameter out of range.
     pub fn validate(&self) -> Result<(), RunError> {

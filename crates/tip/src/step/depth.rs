@@ -16,9 +16,9 @@ use crate::elementary::exp;
 /// b of (61), and the side of the kink: σ = 1 above 0, -1 below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
-    /// b
+    /// Depth limit b, in kσ²/a.
     pub limit: f64,
-    /// σ
+    /// Side σ of the kink, 1 or -1.
     pub side: f64,
 }
 
@@ -29,7 +29,7 @@ pub struct Known {
     pub past_slope: Stages,
     /// ∫ f'' over the undecayed past.
     pub past_curvature: Stages,
-    /// ∫ f
+    /// ∫ f over the undecayed past.
     pub past_height: Stages,
     /// Slope of the initial surface, undecayed part.
     pub relief_slope: Stages,
@@ -42,9 +42,9 @@ pub struct Known {
 /// Residuals of the equations at given displacements and heights.
 #[derive(Debug, Clone, Copy)]
 pub struct Missed {
-    /// d - hAv
+    /// Residual d - hAv of the displacements.
     pub displacement: Stages,
-    /// η minus the right-hand side of its equation.
+    /// Residual of the heights: η minus the right-hand side of its equation.
     pub height: Stages,
 }
 

@@ -5,10 +5,10 @@ use crate::collocation::{RADAU, STAGES, Stages, apply};
 /// Largest displacement of the tip in a step, times the band limit of f: 1.5 widths of a Gaussian. Beyond it the
 /// contribution of the step to the groove is not a smooth function of its stages.
 const BANDS_PER_STEP: f64 = 13.0;
-/// Largest displacement in any case.
+/// Largest displacement of the tip in a step for any f, in σ.
 const LONGEST_DISPLACEMENT: f64 = 4.0;
 
-/// Largest planned displacement of a step, for an f of this band.
+/// Largest planned displacement of a step, in σ, for an f of this bandwidth.
 #[inline]
 pub fn longest_displacement(band: f64) -> f64 {
     (BANDS_PER_STEP / band).min(LONGEST_DISPLACEMENT)

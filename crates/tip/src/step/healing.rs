@@ -14,7 +14,7 @@ pub fn healing(h: f64, time: f64) -> Matrix {
     columns(|k| factors.solve(&std::array::from_fn(|i| h * RADAU.a[i][k])))
 }
 
-/// The derivative of this matrix by the length of the step: with N = (1 + hA/T)⁻¹, NAN.
+/// The derivative of the matrix of [`healing`](fn@healing) by the length of the step: NAN with N = (1 + hA/T)⁻¹.
 pub fn healing_rate(h: f64, time: f64) -> Matrix {
     let share = h / time;
     let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));

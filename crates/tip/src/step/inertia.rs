@@ -5,8 +5,8 @@ use super::linear_system::Factors;
 use super::own::Matrix;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
-/// M v' + v = φ, x' = v, collocated: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and d = hAv. So d is linear in
-/// the force at the stages, and one unknown per stage is sufficient.
+/// Collocation of M v' + v = φ, x' = v with the Butcher matrix A: v = S(v(start) + (hA/M)φ) with S = (1 + hA/M)⁻¹, and
+/// d = hAv. So d is linear in the force φ at the stages, and one unknown per stage is sufficient.
 #[derive(Debug, Clone)]
 pub struct Inertia {
     /// hA S hA/M: derivative of d by φ.

@@ -10,7 +10,7 @@ use crate::collocation::{RADAU, STAGES, Stages, apply};
 /// inertia it equals the velocity of the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Law {
-    /// α
+    /// Indentation rate α.
     pub alpha: f64,
     /// Velocity of the support: r, if it is constant.
     pub r: f64,
@@ -25,14 +25,14 @@ impl Law {
         Self { alpha: model.alpha(), r: model.r(), spring }
     }
 
-    /// The pull of the support at the position of the tip at the start of the step. The extension of the spring was
-    /// `extension` then, and is larger by rh c at the node c.
+    /// The pull of the support at the nodes on a tip that stays at its start position. The spring has the extension
+    /// `extension` at the start of the step, and rh c more at the node c.
     #[inline]
     pub fn pull(&self, extension: f64, h: f64) -> Stages {
         RADAU.c.map(|c| self.spring * (extension + self.r * h * c))
     }
 
-    /// Velocity at a displacement d with the pull p, on a relief of this slope.
+    /// Velocity at a displacement d with this pull, and these slopes of relief and groove.
     #[inline]
     pub fn velocity(&self, pull: f64, d: f64, relief: f64, groove: f64) -> f64 {
         pull - self.spring * d - relief + self.alpha * groove
@@ -65,7 +65,7 @@ impl<'a> Equations<'a> {
         Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
     }
 
-    /// The equations for a surface that heals in this time.
+    /// The equations for a surface with this healing time.
     #[must_use]
     pub fn with_healing(mut self, time: f64) -> Self {
         (self.carving, self.heals) = (healing(self.h, time), true);
@@ -83,7 +83,7 @@ impl<'a> Equations<'a> {
         &self.carving
     }
 
-    /// The same matrix, multiplied by α.
+    /// The matrix of [`carving`](Self::carving), multiplied by α.
     pub fn indenting(&self) -> Matrix {
         if self.heals {
             return self.carving.map(|row| row.map(|b| self.law.alpha * b));
@@ -103,7 +103,7 @@ impl<'a> Equations<'a> {
         self.velocity_with(&self.carving, d, (past, relief), own)
     }
 
-    /// The same with another matrix of weights.
+    /// As [`velocity`](Self::velocity), with another matrix of weights.
     #[inline]
     pub(super) fn velocity_with(
         &self,
@@ -133,7 +133,7 @@ impl<'a> Equations<'a> {
         self.jacobian_with(&self.indenting(), (past, relief), own)
     }
 
-    /// The same with another matrix of indentations.
+    /// As [`jacobian`](Self::jacobian), with another matrix instead of [`indenting`](Self::indenting).
     #[inline]
     pub(super) fn jacobian_with(
         &self,

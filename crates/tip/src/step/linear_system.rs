@@ -52,7 +52,7 @@ impl<const N: usize> Factors<N> {
         x
     }
 
-    /// The same for all columns of a matrix, in SIMD lanes.
+    /// J⁻¹ times each column of `right`, in SIMD lanes.
     pub(crate) fn solve_columns(&self, right: &[[f64; N]; N]) -> [[f64; N]; N] {
         let mut x = self.order.map(|i| right[i]);
         for i in 0..N {

@@ -6,13 +6,13 @@
 //! ```text
 //!     d_i = h Σ_k a_ik v_k
 //!     v_i = α g_i - u0'(x_i) + p_i - κd_i        p: the pull of the support and of forces
-//!     g_i = past_i + Σ_k b_ik f'(d_i - d_k)      b = hA: what the step itself carves
+//!     g_i = past_i + Σ_k b_ik f'(d_i - d_k)      b = hA: weights of the step's own groove
 //! ```
 //!
-//! All terms of the extended model are here. With a [`Depth`] limit the weight w of each node multiplies the columns
-//! of b, and the heights in it are further unknowns. A surface that heals replaces b by another matrix, [`healing`].
-//! A further term of the force belongs to [`Law`], together with its derivative. Inertia changes the relation of d to
-//! v, [`Equations::residual`].
+//! All terms of the extended model are here. With a [`Depth`] limit the weight w of each node multiplies the columns of
+//! b, and the heights, which determine w, are further unknowns. A surface that heals replaces b by another matrix,
+//! [`healing`]. A further term of the force belongs to [`Law`], together with its derivative. Inertia changes the
+//! relation of d to v, [`Equations::residual`].
 
 mod depth;
 mod estimate;

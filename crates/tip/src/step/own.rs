@@ -20,7 +20,7 @@ pub struct OwnGroove {
 const PAIRS: [(usize, usize); 16] = pairs();
 const IDLE: usize = PAIRS.len() - 1;
 type Pairs = [f64; PAIRS.len()];
-/// At `d_i - d_k`, and at `d_k - d_i`.
+/// Values at `d_i - d_k`, and at `d_k - d_i`.
 type Both = [Pairs; 2];
 
 const fn pairs() -> [(usize, usize); 16] {
@@ -61,13 +61,13 @@ impl OwnGroove {
         Self { slope: [ahead[0], behind[0]], curvature: [ahead[1], behind[1]] }
     }
 
-    /// Of an even f, of which f' is odd.
+    /// The contribution for an even f, whose f' is odd.
     #[inline]
     fn even([slope, curvature]: [Pairs; 2]) -> Self {
         Self { slope: [slope, slope.map(|slope| -slope)], curvature: [curvature; 2] }
     }
 
-    /// The same from the polynomial about the apex, where that is accurate.
+    /// As [`new`](Self::new), from the polynomial about the apex if that is accurate.
     #[inline]
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let distance = PAIRS.map(|(i, k)| d[i] - d[k]);
@@ -112,7 +112,7 @@ impl OwnGroove {
     }
 }
 
-/// f' and f'' at these distances; compiled for wider vectors too.
+/// f' and f'' at these distances; also compiled for wider vectors.
 #[multiversion(targets("x86_64+avx2"))]
 fn side_by_side(tip: &TipFunction, distance: &Pairs) -> [Pairs; 2] {
     tip.slopes_and_curvatures(distance)
@@ -139,7 +139,7 @@ impl OwnHeight {
         Self { value: [ahead, behind], apex: tip.value(0.0) }
     }
 
-    /// The same from the polynomial about the apex, where that is accurate.
+    /// As [`new`](Self::new), from the polynomial about the apex if that is accurate.
     pub(crate) fn near(apex: &Apex, tip: &TipFunction, d: &Stages) -> Self {
         let mut value = [0.0; PAIRS.len()];
         if apex.values(&PAIRS.map(|(i, k)| d[i] - d[k]), &mut value) {

@@ -22,8 +22,8 @@ const MOST_TERMS: usize = 24;
 const CANCELLATION: f64 = 100.0;
 
 impl Apex {
-    /// Accurate to `error` in f', per unit of the largest |f'|. Of an f that is not even there is none: no displacement is
-    /// near enough.
+    /// Polynomials with an error of f' of at most `error` times the largest |f'|. If f is not even, they are valid for
+    /// no displacement.
     pub(crate) fn new(tip: &TipFunction, error: f64) -> Self {
         let mut apex = Self {
             slope: [0.0; MOST_TERMS],
@@ -93,7 +93,7 @@ impl Apex {
         true
     }
 
-    /// Number of terms needed for the farthest of these displacements.
+    /// Number of terms needed for the farthest of these displacements; `None` if that is too far.
     fn terms(&self, d: &[f64]) -> Option<usize> {
         let farthest = d.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
         // Lengths grow with the number of terms until round-off ends them.

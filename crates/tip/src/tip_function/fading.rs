@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
-/// With z = (x-c)/w and p = sw: a w √(π/2) e^{-z²/2} erfcx((z+p)/√2).
+/// The integral for one Gaussian: a w √(π/2) e^{-z²/2} erfcx((z+p)/√2) with z = (x-c)/w and p = sw.
 pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     let (z, p) = ((x - g.center) / g.width, s * g.width);
     let scale = g.amplitude * g.width * (PI / 2.0).sqrt();
@@ -20,14 +20,14 @@ pub(super) fn gaussian(g: &Gaussian, x: f64, s: f64) -> f64 {
     }
 }
 
-/// For s above this the integrand of the mean over wave numbers is smooth on a few hundred points.
+/// For s above this a few hundred points resolve the integrand of the mean over wave numbers.
 const FAST: f64 = 0.1;
 /// Largest exponent s x of the factor e^{sx}, which amplifies the error of the difference that it multiplies.
 const MOST_GROWTH: f64 = 2.0;
 
-/// J0 is the mean of cos(x sin θ) over θ, so this is the mean of Re e^{ikx}/(s - ik), k = sin θ; the
-/// trapezoidal rule converges geometrically, the slower the nearer the poles at sin θ = ±is are. For small
-/// s, from its value 1/√(1+s²) at x = 0 (the Laplace transform of J0) by quadrature.
+/// The integral for J0. J0 is the mean of cos(x sin θ) over θ, so that the integral is the mean of Re e^{ikx}/(s - ik),
+/// k = sin θ. The trapezoidal rule converges geometrically, but slowly if the poles at sin θ = ±is are close. For small
+/// s the integral follows by quadrature from its value 1/√(1+s²) at x = 0, the Laplace transform of J0.
 pub(super) fn bessel(x: f64, s: f64) -> f64 {
     if s < FAST && s * x < MOST_GROWTH {
         let from_zero = integral(x, WAVE, |y| libm::j0(y) * exp(-s * y));
@@ -45,7 +45,7 @@ pub(super) fn bessel(x: f64, s: f64) -> f64 {
 /// Half a wave of J0.
 const WAVE: f64 = 3.0;
 
-/// ∫_0^x g, of a g that is smooth over this length.
+/// ∫_0^x g, for a g that is smooth over `length`.
 fn integral(x: f64, length: f64, g: impl Fn(f64) -> f64) -> f64 {
     static GAUSS: LazyLock<GaussLegendre> =
         LazyLock::new(|| GaussLegendre::new(const { NonZeroUsize::new(16).unwrap() }));

@@ -21,8 +21,10 @@ pub struct GaussianSum {
 }
 
 impl GaussianSum {
+    /// An even sum.
+    ///
     /// # Errors
-    /// As [`with_apex_at_0`](Self::with_apex_at_0), or a sum that is not even.
+    /// As [`with_apex_at_0`](Self::with_apex_at_0), or the sum is not even.
     pub(super) fn new(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         let sum = Self::validated(terms)?;
         if sum.is_even { Ok(sum) } else { Err(sum.not_even()) }
@@ -31,7 +33,7 @@ impl GaussianSum {
     /// A sum that need not be even, but has f'(0) = 0.
     ///
     /// # Errors
-    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or not level at 0.
+    /// A term is not finite or far out of range, a width is not positive, the sum is zero everywhere or f'(0) is not 0.
     pub(super) fn with_apex_at_0(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         let sum = Self::validated(terms)?;
         let steepest: f64 = sum.terms.iter().map(|g| g.amplitude.abs() / g.width).sum();
@@ -150,7 +152,8 @@ impl GaussianSum {
         sums
     }
 
-    /// From g' = -(x-c)/w² g: (n+1) `g_{n+1}` = (c `g_n` - `g_{n-1}`)/w².
+    /// Taylor coefficients about 0. For each Gaussian g' = -(x-c)/w² g, hence (n+1) `g_{n+1}` = (c `g_n` -
+    /// `g_{n-1}`)/w².
     pub(super) fn taylor(&self, degree: usize) -> Vec<f64> {
         let mut sum = vec![0.0; degree + 1];
         for g in &self.terms {
@@ -169,7 +172,7 @@ impl GaussianSum {
         sum
     }
 
-    /// Cramér's bound of Hermite functions: |d^n/dz^n e^{-z²/2}| < 1.0865 √(n!).
+    /// A bound on |f^{(n)}|, from Cramér's bound of Hermite functions: |d^n/dz^n e^{-z²/2}| < 1.0865 √(n!).
     pub(super) fn derivative_bound(&self, n: usize) -> f64 {
         let root_factorial: f64 = (1..=n).map(|k| (k as f64).sqrt()).product();
         let power = i32::try_from(n).unwrap_or(i32::MAX);
@@ -185,7 +188,7 @@ impl GaussianSum {
         self.terms.iter().map(term).sum()
     }
 
-    /// Of an even sum: ∫ f cos(qξ)dξ.
+    /// ∫ f cos(qξ)dξ of an even sum.
     pub(super) fn fourier(&self, q: f64) -> f64 {
         let term = |g: &Gaussian| {
             let qw = q * g.width;
@@ -194,7 +197,8 @@ impl GaussianSum {
         self.terms.iter().map(term).sum()
     }
 
-    /// f̂(q - iκ), of each Gaussian `a w √(2π) e^{-z²w²/2} e^{-izc}` at z = q - iκ, where twins make of e^{-izc} cos(zc).
+    /// f̂(z) at z = q - iκ, κ = `fading`: the sum of `a w √(2π) e^{-z²w²/2} e^{-izc}`, where in an even sum cos(zc)
+    /// replaces e^{-izc}.
     pub(super) fn fourier_fading(&self, q: f64, fading: f64) -> Complex<f64> {
         let z = Complex::new(q, -fading);
         let term = |g: &Gaussian| {
@@ -216,8 +220,8 @@ impl GaussianSum {
         self.terms.iter().map(|g| BAND_OF_A_GAUSSIAN / g.width).fold(0.0, f64::max)
     }
 
-    /// Width, z = (x-c)/w and value of the terms that are not negligible at x: most of the narrow terms of a table
-    /// are.
+    /// Passes width, z = (x-c)/w and value of each term that is not negligible at x. Most of the narrow terms of a
+    /// table are negligible.
     fn near(&self, x: f64, mut take: impl FnMut(f64, f64, f64)) {
         if let Some(lattice) = &self.lattice {
             return lattice.near(&self.terms, x, take);
@@ -231,7 +235,7 @@ impl GaussianSum {
     }
 }
 
-/// Largest slope at the apex, as a fraction of what the terms may have.
+/// Largest slope at the apex, relative to a bound on the slope of the terms.
 const LEVEL: f64 = 1e-10;
 
 /// Whether the mirror image of `term` is among `terms` as often as `term` itself, to round-off.

@@ -40,9 +40,9 @@ impl Lattice {
         Some(Self { spacing, width, fading })
     }
 
-    /// Width, z = (x-c)/w and value of the terms that are not negligible at x.
+    /// Passes width, z = (x-c)/w and value of each term that is not negligible at x.
     ///
-    /// If u belongs to the nearest term, then u - jΔ/w belong to its neighbours, and
+    /// With z = u for the nearest term, its neighbours have z = u - jΔ/w, and
     ///
     /// ```text
     ///     exp(-(u - jΔ/w)²/2) = exp(-u²/2) exp(uΔ/w)^j exp(-(jΔ/w)²/2)

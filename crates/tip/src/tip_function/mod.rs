@@ -82,7 +82,7 @@ impl TipFunction {
     /// A sum of Gaussians with f'(0) = 0 whose sides may differ: x > 0 is ahead of a tip that moves to larger x.
     ///
     /// # Errors
-    /// As [`gaussian_sum`](Self::gaussian_sum); instead of not being even, f' is not 0 at 0.
+    /// A term that is not finite or far out of range, a width ≤ 0, a sum that is zero everywhere or has f'(0) ≠ 0.
     pub fn asymmetric_sum(terms: Vec<Gaussian>) -> Result<Self, TipFunctionError> {
         GaussianSum::with_apex_at_0(terms).map(Self::Gaussians)
     }
@@ -109,7 +109,7 @@ impl TipFunction {
     /// is analytic, so that the orders of convergence hold. Between rows its error is at most that of a cubic spline.
     ///
     /// # Errors
-    /// Too short or long, not finite, unsorted, not from x = 0, or not decaying.
+    /// The table is too short or too long, not finite, not sorted, does not start at x = 0, or does not decay.
     pub fn table(x: &[f64], f: &[f64]) -> Result<Self, TipFunctionError> {
         Self::gaussian_sum(table::gaussians_through(x, f)?)
     }
@@ -216,7 +216,7 @@ impl TipFunction {
         }
     }
 
-    /// ∫_{-∞}^∞ f(ξ)dξ: the depth far behind the tip, (25).
+    /// ∫_{-∞}^∞ f(ξ)dξ, which determines the depth far behind the tip, (25).
     pub fn integral(&self) -> f64 {
         self.fourier(0.0)
     }
@@ -239,8 +239,8 @@ impl TipFunction {
         }
     }
 
-    /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and decay rate κ; `None` for a footprint that does not
-    /// decay.
+    /// ∫_{-∞}^∞ f(ξ) e^{-κξ} e^{-iqξ}dξ at wave number q and decay rate κ = `fading`; `None` for a footprint that does
+    /// not decay.
     pub fn fourier_fading(&self, q: f64, fading: f64) -> Option<Complex<f64>> {
         match self {
             Self::Gaussians(sum) => Some(sum.fourier_fading(q, fading)),
@@ -248,7 +248,7 @@ impl TipFunction {
         }
     }
 
-    /// Distance beyond which f and its derivatives are below the round-off of their largest values; `None` for a
+    /// Distance, in σ, beyond which f and its derivatives are below the round-off of their largest values; `None` for a
     /// footprint without such a distance (J0 decays only like 1/√x).
     pub fn reach(&self) -> Option<f64> {
         match self {
@@ -257,7 +257,7 @@ impl TipFunction {
         }
     }
 
-    /// Wave number beyond which the transform of f is below the round-off of its largest value.
+    /// Wave number, in 1/σ, beyond which the transform of f is below the round-off of its largest value.
     pub fn band(&self) -> f64 {
         match self {
             Self::Gaussians(sum) => sum.band(),

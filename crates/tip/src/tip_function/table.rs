@@ -20,7 +20,7 @@ const ZEROS_BEYOND: usize = 12;
 /// Half-width of the matrix in lattice points: exp(-(11/1.2)²/2) is below round-off.
 const NEIGHBOURS: usize = 11;
 
-/// Largest error with which a coarser lattice reproduces the rows, as a fraction of the largest value: some times the
+/// Largest error with which a coarser lattice reproduces the rows, as a fraction of the largest value: a few times the
 /// saturation error.
 const REPRODUCED: f64 = 4e-12;
 /// Smallest number of spacings of a coarser lattice.
@@ -33,9 +33,9 @@ pub(super) fn gaussians_through(x: &[f64], f: &[f64]) -> Result<Vec<Gaussian>, T
     Ok(gaussians_of(spacing, &coefficients[0]))
 }
 
-/// Spacing of the coarsest lattice that reproduces the rows of all these functions of x, and for each of them the
-/// coefficients on its points ≥ 0 of the even sum of Gaussians: their width, not the spacing of the rows, determines the length
-/// of steps. The x are those of a valid table.
+/// Finds the coarsest lattice that reproduces the rows of all these functions of x, where x is valid for a table.
+/// Returns its spacing and, for each function, the coefficients of the even sum of Gaussians on the points ≥ 0. The
+/// coarsest lattice allows the longest steps, because the width of the Gaussians limits them.
 pub(crate) fn lattice_through(x: &[f64], functions: &[&[f64]]) -> (f64, Vec<Vec<f64>>) {
     let fine: Vec<Through> = functions.iter().map(|f| Through::of(on_a_lattice(x, f))).collect();
     let wanted = |through: &Through| through.samples[..x.len()].to_vec();
@@ -86,7 +86,7 @@ impl Through {
         Self { spacing, samples, coefficients }
     }
 
-    /// The sum through the values of this one on a lattice that many times as wide, with this number of spacings.
+    /// The sum through the values of this sum on another lattice, of `count` spacings that are `times` as wide.
     fn on(&self, count: usize, times: f64) -> Self {
         let spacing = times * self.spacing;
         Self::of((spacing, (0..=count).map(|i| self.value(i as f64 * spacing)).collect()))

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! over half of the N directions, because opposite ones have conjugate z. The system is quadratic, so that its Taylor
-//! coefficients follow from each other.
+//! coefficients obey a recurrence.
 
 use super::scenario::{WalkerPast, WalkerScenario};
 use crate::elementary::{complex_exp, sin_cos};
@@ -17,22 +17,22 @@ use crate::tip_function::bessel_orders;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// A walker at one time, and the coefficients of powers of time from there.
+/// A walker at the start of a step, and the Taylor coefficients of the step.
 pub(super) struct Chain<'a> {
     scenario: &'a WalkerScenario,
     order: usize,
-    /// Half of the directions.
+    /// Half of the directions k, as unit vectors.
     directions: Vec<[f64; 2]>,
-    /// x and y.
+    /// Coefficients of x and y.
     pub(super) position: [Vec<f64>; 2],
-    /// x' and y'.
+    /// Coefficients of x' and y'.
     pub(super) velocity: [Vec<f64>; 2],
-    /// External force.
+    /// Coefficients of the external force.
     pub(super) force: [Vec<f64>; 2],
-    /// Real and imaginary parts of z: coefficient by coefficient, the directions side by side.
+    /// Real and imaginary parts of z: for each order the coefficients of all directions.
     re: Vec<f64>,
     im: Vec<f64>,
-    /// k·x' likewise.
+    /// k·x', in the same order.
     phase: Vec<f64>,
 }
 
@@ -119,7 +119,7 @@ impl<'a> Chain<'a> {
         [over * (x + rotation * y), over * (y - rotation * x)]
     }
 
-    /// z at order m + 1.
+    /// Computes z at order m + 1.
     fn expand_field(&mut self, m: usize, healing: f64, over: f64) {
         let half = self.directions.len();
         let (re, re_next) = self.re.split_at_mut((m + 1) * half);
@@ -144,7 +144,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// The step over which the last terms of the position and of the drive amount to an error.
+    /// The length of a step for which the last terms of the position and of the drive amount to `error`.
     pub(super) fn length(&self, error: f64) -> f64 {
         let half = self.directions.len();
         let largest = |m: usize| {
@@ -161,8 +161,8 @@ impl<'a> Chain<'a> {
         motion.chain(velocity).fold(length(&drive, error), f64::min)
     }
 
-    /// A bound on the speed over a step: at the middle of each of a few pieces, and what the velocity changes by from
-    /// there.
+    /// A bound on the speed over a step: the largest speed in the middle of a few pieces, plus a bound on the change
+    /// within half a piece.
     pub(super) fn largest_speed(&self, h: f64) -> f64 {
         const PIECES: u32 = 16;
         let order = self.order;
@@ -224,7 +224,7 @@ fn field_of_past(scenario: &WalkerScenario, directions: &[[f64; 2]]) -> Vec<Comp
     }
 }
 
-/// z of a direction after motion on a circle, whose point at the end is (along, across) the direction:
+/// z of a direction after motion on a circle. The end point has the coordinates `along` and `across` the direction:
 ///
 /// z = e^{i along} Σ_m (-i)^m J_m(r) e^{imψ}/(1/T + imω), ψ the angle from the direction to the point (Jacobi and Anger).
 fn circle(

@@ -14,11 +14,12 @@
 //!     |J_n(d)| ≤ g(d/n)^n,   g(z) = z e^{√(1-z²)}/(1 + √(1-z²))
 //! ```
 //!
-//! (W. Kapteyn; NIST Digital Library of Mathematical Functions, 10.14.8), which rises with d to 1 and falls as n rises.
+//! (W. Kapteyn; NIST Digital Library of Mathematical Functions, 10.14.8), This bound rises with d to 1 and falls as n
+//! rises.
 
 use crate::elementary::{exp, ln};
 
-/// Largest number of directions: a memory that a particle crosses in VT = 300.
+/// Largest number of directions, sufficient for a distance VT = 300 in the healing time T.
 const MOST: usize = 8192;
 /// Number of pieces of an upper sum of an integral.
 const PIECES: u32 = 256;
@@ -42,7 +43,7 @@ pub fn directions(range: f64, allowed: f64) -> Option<usize> {
     Some(4 * high)
 }
 
-/// A bound on the error of ∇Q/T with this even number of directions.
+/// A bound on the error of ∇Q/T with this even number of directions, for `range` = VT.
 pub fn error_of_directions(range: f64, count: usize) -> f64 {
     if range <= 0.0 {
         return 0.0;

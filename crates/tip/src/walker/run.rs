@@ -15,7 +15,8 @@ const SHARE_OF_SERIES: f64 = 1e-2;
 const SHARE_OF_DIRECTIONS: f64 = 1e-3;
 /// Smaller errors of the directions are round-off.
 const LEAST_ERROR: f64 = 1e-16;
-/// The speed for which directions suffice, over the largest one known at the start, and over one that exceeded it.
+/// Speed for which the directions are sufficient, relative to the largest speed known at the start, or to a speed that
+/// was too large.
 const ROOM: f64 = 1.5;
 /// The same for a particle at rest, as a speed times T.
 const LEAST_RANGE: f64 = 0.2;
@@ -42,7 +43,7 @@ pub fn run(scenario: &WalkerScenario) -> Result<WalkerRun, WalkerError> {
     run_observed(scenario, |_, _| ControlFlow::Continue(()))
 }
 
-/// As [`run`], with a callback after every step, with it and the number of steps so far, which may end the run.
+/// As [`run`], with a callback after every step. It gets the step and the number of steps so far, and may end the run.
 ///
 /// # Errors
 /// As [`run`].
@@ -65,7 +66,7 @@ pub fn run_observed(
 /// The result of a run with a number of directions.
 enum Attempt {
     Done(WalkerRun),
-    /// The particle was faster than the directions allow.
+    /// The particle was faster than the directions allow, at this speed.
     TooFast(f64),
 }
 

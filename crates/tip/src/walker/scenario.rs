@@ -11,7 +11,7 @@ pub struct WalkerScenario {
     pub alpha: f64,
     /// T, the time in which the field decays.
     pub healing_time: f64,
-    /// M
+    /// Inertia M; `None` without inertia.
     pub inertia: Option<f64>,
     /// Ω, the coefficient of the Coriolis force -Ω ẑ × x'.
     pub rotation: f64,
@@ -29,7 +29,7 @@ pub struct WalkerScenario {
     pub velocity: [f64; 2],
     /// Time at which the run ends.
     pub until: f64,
-    /// Largest error of the position in a time unit.
+    /// Target for the error of the position per unit of time.
     pub tolerance: f64,
 }
 
@@ -83,7 +83,7 @@ pub enum WalkerError {
     Range {
         /// Time reached.
         t: f64,
-        /// VT
+        /// Distance VT of the motion in the healing time T.
         range: f64,
     },
     /// The step is lost in round-off.
@@ -121,16 +121,18 @@ impl WalkerScenario {
         }
     }
 
-    /// The speed of a free walker in steady motion without inertia, which needs none: v² = (2B - 1 - √(1 + 4B))/2 /T² with
-    /// B = -αT² (Oza, Rosales and Bush 2013); 0 up to B = 2.
+    /// The speed of a free walker in steady motion, which does not depend on its inertia: v² = (2B - 1 - √(1 +
+    /// 4B))/(2T²) with B = -αT² (Oza, Rosales and Bush 2013); 0 up to B = 2.
     pub fn free_speed(&self) -> f64 {
         let b = -self.alpha * self.healing_time * self.healing_time;
         let square = if b > 2.0 { 0.5 * (2.0 * b - 1.0 - (1.0 + 4.0 * b).sqrt()) } else { 0.0 };
         square.sqrt() / self.healing_time
     }
 
+    /// Checks all parameters.
+    ///
     /// # Errors
-    /// The first parameter out of its range.
+    /// The first parameter that is out of its range.
     pub fn validate(&self) -> Result<(), WalkerError> {
         let above_0 = |value: f64| value.is_finite() && value > 0.0;
         if !self.alpha.is_finite() {

@@ -46,7 +46,7 @@ impl WalkerTrajectory {
         self.steps[self.steps.len() - 1].end()
     }
 
-    /// (x0, y0) at t. Outside of the run, the polynomials of the first or last step.
+    /// (x0, y0) at t. Outside of the run, the first or last step is extrapolated.
     pub fn position(&self, t: f64) -> [f64; 2] {
         let step = self.step_at(t);
         [0, 1].map(|axis| sum(&step.position[axis], t - step.t))

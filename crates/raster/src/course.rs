@@ -1,8 +1,8 @@
 //! Lines of a tip that is held on them, one after the other or several at a time.
 //!
-//! What a line feels of the one before is local: it may begin when that one is a few reaches of the footprint ahead. Its
-//! motion depends on the traces of earlier lines alone, and not on when they become known. Should a tip return to where the
-//! next line has already been, that line and all later ones begin anew.
+//! Earlier lines affect a line only locally: it may begin when the line before it is a few reaches of the footprint ahead.
+//! Its motion depends on the traces of earlier lines, and not on the time at which they become known. If a tip returns to
+//! a place that the next line has already passed, that line and all later ones begin anew.
 
 use crate::earlier::{Earlier, Expanders};
 use crate::error::RasterError;
@@ -16,20 +16,20 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use stickslip_tip::{InitialSurface, Relief, Running, Step, Support, stop};
 
-/// The lines at one y, in the order of the last of them.
+/// The trace of all lines at one y.
 #[derive(Clone)]
 struct Row {
     y: f64,
-    /// The part of it that has not yet healed.
+    /// The fraction of the trace that has not yet healed.
     left: f64,
     trace: Arc<Trace>,
 }
 
-/// The rows that lines still to come may feel.
+/// The rows within reach of later lines, in the order of their last lines.
 #[derive(Clone, Default)]
 pub(crate) struct Rows(Vec<Row>);
 
-/// The course of all lines.
+/// The scan of all lines of a plan.
 pub(crate) struct Course<'a> {
     plan: &'a Plan,
     expanders: Arc<Expanders>,
@@ -37,47 +37,48 @@ pub(crate) struct Course<'a> {
     ahead: Vec<(f64, f64)>,
 }
 
-/// A line to be made.
+/// A line to be scanned.
 struct Job {
     n: usize,
-    /// Before it and after it.
+    /// The rows before this line.
     rows: Rows,
+    /// The rows after it.
     after: Rows,
     given_up: Arc<AtomicBool>,
 }
 
-/// A line, what was made of it, and the rows after it.
+/// A line, the result of `of_line` for it, and the rows after it.
 type Made<T> = (Line, T, Rows);
 
-/// What the threads share.
+/// The state that the threads share.
 struct Shared<T> {
     /// The next line to begin, and the rows before it.
     next: usize,
     rows: Rows,
-    /// Lines under way.
+    /// Lines under way, each with the flag that gives it up.
     under_way: BTreeMap<usize, Arc<AtomicBool>>,
-    /// Lines that wait for those before them.
+    /// Finished lines that wait for those before them.
     finished: BTreeMap<usize, Result<Made<T>, RasterError>>,
-    /// A line whose tip has returned: none begins before it ends.
+    /// A line whose tip has returned: no later line begins before it ends.
     returned: Option<usize>,
-    /// The first line that has not been handed out.
+    /// The first line that has not been passed to `take`.
     out: usize,
     ended: bool,
 }
 
-/// Number of lines per thread that may wait for those before them.
+/// Number of finished lines per thread that may wait for those before them.
 const WAITING: usize = 4;
 /// Longest time until waiting threads notice that the work is cancelled.
 const PATIENCE: Duration = Duration::from_millis(20);
 
 impl<'a> Course<'a> {
-    /// `None` for footprints of which transforms of whole lines cost less.
+    /// `None` for footprints for which transforms of whole lines cost less.
     pub(crate) fn new(plan: &'a Plan) -> Option<Self> {
         Some(Self { plan, expanders: Expanders::new(plan)?, ahead: ahead(plan) })
     }
 
-    /// Line n after these rows, begun at this distance ahead of the support with this velocity; `None` if it is
-    /// cancelled.
+    /// Scans line n after these rows. The tip begins at this distance ahead of the support, with this velocity. `None` if
+    /// the work is cancelled.
     pub(crate) fn line(
         &self,
         n: usize,
@@ -112,8 +113,9 @@ impl<'a> Course<'a> {
         self.surface_of(&self.job(n, rows))
     }
 
-    /// Lines from `out` on, on this number of threads, each passed to `take` in their order with what its thread has made
-    /// of it and the rows after it, until that is false or the work is cancelled. One-way and repeated lines only.
+    /// Scans the lines from `out` on with this number of threads. It passes them to `take` in their order, each with the
+    /// result of `of_line` and the rows after it, until `take` returns false or the work is cancelled. For one-way and
+    /// repeated lines only.
     pub(crate) fn each_line<T: Send>(
         &self,
         (out, rows): (usize, Rows),
@@ -143,7 +145,7 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// One thread: takes lines until there are no more. At most `most` wait for those before them.
+    /// The work of one thread: it scans lines until there are no more. At most `most` lines wait for those before them.
     fn work<T>(
         &self,
         (shared, news): (&Mutex<Shared<T>>, &Condvar),
@@ -174,7 +176,7 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Makes a line, and the rows after it; `None` if it is given up.
+    /// Scans a line, and returns it with the rows after it; `None` if it is given up.
     fn make<T>(
         &self,
         job: &Job,
@@ -212,7 +214,7 @@ impl<'a> Course<'a> {
         Writer::new(ways, job.after.newest(), self.expanders.spacing(), given_up)
     }
 
-    /// The rows with line n, without those that no later line feels.
+    /// The rows after line n, without those that are out of reach of all later lines.
     fn after(&self, n: usize, rows: &Rows) -> Rows {
         let y = self.plan.track(n).y;
         let healed = self.plan.law.model.wider().left_after(self.plan.duration(n));
@@ -248,8 +250,8 @@ impl<'a> Course<'a> {
         InitialSurface::flat().with(Relief::expanded(earlier, along))
     }
 
-    /// The run of a line. Each step goes to the writer and then to `made`, with whether it leads on to positions that no line
-    /// has read; `None` if the run is given up.
+    /// Runs a line. Each step is added to the writer, which `made` then receives, with whether the step avoids all positions
+    /// that later lines may have read. `None` if the run is given up.
     fn run(
         &self,
         job: &Job,
@@ -289,7 +291,7 @@ impl<T> Shared<T> {
         self.ended || stop::is_asked()
     }
 
-    /// The tip of this line has returned to where later lines have been: they are given up.
+    /// Gives up all later lines, because the tip of this line has returned to places that they have passed.
     fn returns(&mut self, job: &Job) {
         if job.given_up.load(Ordering::Relaxed) {
             return;
@@ -304,7 +306,7 @@ impl<T> Shared<T> {
         self.finished.split_off(&n);
     }
 
-    /// Takes a line that has been made, unless it was given up meanwhile.
+    /// Stores a finished line, unless it was given up meanwhile.
     fn take(&mut self, job: &Job, made: Result<Made<T>, RasterError>) {
         if job.given_up.load(Ordering::Relaxed) {
             return;

@@ -4,8 +4,8 @@
 //!     U(x) = -α Σ_l g_l * Σ_m h_l(y - y_m) ρ_m
 //! ```
 //!
-//! The densities ρ_m are added on their lattice where the tip comes, so that nothing is needed of those parts of earlier
-//! lines that are out of reach.
+//! with f(x,y) = Σ_l g_l(x) h_l(y). The residence densities ρ_m are added on their lattice near the tip only, so that the
+//! parts of earlier lines that are out of reach are not needed.
 
 use crate::plan::Plan;
 use crate::trace::{PIECE, Trace};
@@ -15,17 +15,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_convolution::{Expander, PowerSeries, TERMS};
 use stickslip_tip::Ground;
 
-/// Largest number of cells that the series about one point takes, over all layers: beyond, transforms of whole lines
-/// cost less.
+/// Largest number of cells that the series about one point needs, over all layers. With more cells, transforms of whole
+/// lines cost less.
 const MOST_CELLS: usize = 600;
 /// Number of pieces and of series that are kept.
 const KEPT: usize = 32;
 
-/// What the series of all lines are made with.
+/// The expanders of all layers, which compute the series of all lines.
 pub(crate) struct Expanders(Vec<Expander>);
 
 impl Expanders {
-    /// `None` for footprints of which transforms of whole lines cost less.
+    /// `None` for footprints for which transforms of whole lines cost less.
     pub(crate) fn new(plan: &Plan) -> Option<Arc<Self>> {
         let expander = |layer: &stickslip_tip::Layer| {
             let transform = |k| layer.along.transform(k);
@@ -42,7 +42,7 @@ impl Expanders {
         layers.iter().map(expander).collect::<Option<_>>().map(|all| Arc::new(Self(all)))
     }
 
-    /// The spacing of densities.
+    /// The spacing of the lattice of densities.
     pub(crate) fn spacing(&self) -> f64 {
         self.0[0].spacing()
     }
@@ -57,9 +57,9 @@ pub(crate) struct Earlier {
     kept: Mutex<Kept>,
 }
 
-/// What was computed last, each at its number modulo the size.
+/// The latest pieces and series, each with its number, stored at this number modulo [`KEPT`].
 struct Kept {
-    /// Σ_m of each layer.
+    /// Σ_m h_l(y - y_m) ρ_m of each layer.
     pieces: Vec<Option<(i64, Vec<f64>)>>,
     series: Vec<Option<(i64, PowerSeries)>>,
     cells: Vec<f64>,
@@ -81,7 +81,7 @@ impl Earlier {
         Self { expanders, rows, given_up, kept: Mutex::new(kept) }
     }
 
-    /// Σ_m of all layers on one piece. If the line is given up it may be anything.
+    /// Σ_m h_l(y - y_m) ρ_m of all layers on one piece; incomplete if the line is given up.
     fn piece(&self, n: i64) -> Vec<f64> {
         let mut sums = vec![0.0; PIECE * self.expanders.0.len()];
         for (factors, trace) in &self.rows {
@@ -136,7 +136,7 @@ impl Ground for Earlier {
     }
 }
 
-/// Where what has this number is kept.
+/// The place in [`Kept`] of the piece or series with this number.
 fn slot(n: i64) -> usize {
     usize::try_from(n.rem_euclid(KEPT as i64)).unwrap_or(0)
 }

@@ -85,7 +85,7 @@ pub enum RasterError {
     /// A footprint without decay.
     #[error("a raster needs a footprint that decays along the lines, which J0 does not")]
     NeverFades,
-    /// The tip is not f(x,0).
+    /// The tip function of the model is not f(x,0).
     #[error("the tip function of the law is not the footprint's section y = 0")]
     Section,
     /// A line could not be run.
@@ -116,5 +116,5 @@ impl RasterError {
     }
 }
 
-/// Largest number of lines; their histories take about 20 kB each at 100 widths.
+/// Largest number of lines; the history of a line of 100 widths takes about 20 kB.
 pub const MOST_LINES: usize = 1_000_000;

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Here ρ_m is the residence density of line m, the time that the tip spent at each x, weighted by the depth limit
-//! and reduced by healing. Only ρ̂_m is stored, up to the band of f: about three complex numbers for each width of
-//! length.
+//! and reduced by healing. Only ρ̂_m is stored, up to the band of f: about three complex numbers per tip width of the
+//! length of a line.
 
 use crate::line::Line;
 use crate::path::Track;
@@ -21,7 +21,7 @@ use stickslip_convolution::{Density, Spectra};
 use stickslip_tip::planar::{EarlierGrooves, GrooveRows, RowLattice};
 use stickslip_tip::{Across, Footprint, Layer, Relief, Wider};
 
-/// ρ̂ of all lines at one y; for a tip that is free to move across, what all lines leave on one row of a lattice.
+/// ρ̂ of all lines at one y; for a tip that is free to move across, the part of all lines on one row of a lattice.
 struct Row {
     y: f64,
     spectrum: Vec<Complex64>,
@@ -38,16 +38,16 @@ struct Stretch {
 /// Initial distance from a line, in widths of the footprint, up to which the surface is prepared for a tip that is
 /// free to move across.
 const WIDE: f64 = 5.0;
-/// Number of lines whose transforms are made side by side: those of a tip that is free to move across are large.
+/// Number of lines whose transforms are computed in parallel; for a tip that is free to move across they are large.
 const AT_A_TIME: usize = 64;
 
 /// ρ̂ of all lines that are still within reach.
 pub(crate) struct Grooves {
     footprint: Footprint,
     alpha: f64,
-    /// The rows on which a tip that is free to move across leaves its grooves, and the largest distance from its line
-    /// at which all of them are present.
+    /// The rows of the grooves of a tip that is free to move across.
     lattice: Option<RowLattice>,
+    /// The largest distance of this tip from its line for which all rows are present.
     wide: f64,
     /// Law of healing, by which a groove is reduced after another line.
     wider: Wider,
@@ -56,8 +56,9 @@ pub(crate) struct Grooves {
     /// Distance along x over which a groove extends beyond the tip's positions.
     reach_along: f64,
     band: f64,
-    /// Range of the supports, and the largest distance of a tip from it.
+    /// Range of x of the supports.
     supports: (f64, f64),
+    /// Largest distance of a tip from this range.
     spare: f64,
     /// Range of y of the remaining lines after each line; empty if no row is dropped.
     ahead: Vec<(f64, f64)>,
@@ -162,8 +163,8 @@ impl Grooves {
         }
     }
 
-    /// Extends the range for a tip this far outside. All transforms are to be recomputed from the lines, so that they do
-    /// not depend on the time of the extension.
+    /// Extends the range for a tip this far outside. All transforms must then be recomputed from the lines, so that they
+    /// do not depend on the time of the extension.
     fn widen(&mut self, farthest: f64) {
         while self.spare < farthest {
             self.spare *= 2.0;
@@ -270,7 +271,7 @@ impl Grooves {
         })
     }
 
-    /// A row for each of these places, at every x: S(x) from the Ŝ of a place, or 0.
+    /// For each place a row of S(x) at every x, where `of` returns Ŝ of the place; 0 where it returns `None`.
     fn table<P: Sync>(
         &self,
         x: &[f64],
@@ -328,7 +329,7 @@ impl Grooves {
     }
 }
 
-/// The rows on which a line leaves anything.
+/// The rows of the groove of a line.
 fn rows_of(line: &Line, lattice: Option<&RowLattice>, spectra: &mut Spectra) -> Vec<Row> {
     match lattice {
         None => vec![row_of(line, spectra)],
@@ -344,7 +345,7 @@ fn row_of(line: &Line, spectra: &mut Spectra) -> Row {
     Row { y: line.track().y, spectrum: spectra.of(&density) }
 }
 
-/// The rows of a lattice on which a tip that is free to move across leaves anything.
+/// The rows of a lattice for the groove of a line of a tip that is free to move across.
 fn rows_of_free(line: &Line, lattice: &RowLattice, spectra: &mut Spectra) -> Vec<Row> {
     let visits = line.visits();
     let ends = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), visit| {
@@ -368,7 +369,7 @@ fn rows_of_free(line: &Line, lattice: &RowLattice, spectra: &mut Spectra) -> Vec
     (0..densities.count()).map(&mut row).collect()
 }
 
-/// S at every x from these Ŝ, and 0 outside of the range.
+/// Writes S at every x, with the transform `heights`, to `at`; 0 outside the range of the lattice.
 fn read(spectra: &mut Spectra, heights: &[Complex64], x: &[f64], at: &mut [f64]) {
     let field = spectra.field(heights);
     let range = field.range();

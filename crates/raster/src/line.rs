@@ -55,12 +55,12 @@ impl Line {
         !self.across.is_empty()
     }
 
-    /// y0 on the surface: that of the line if the tip is held on it.
+    /// y0 on the surface: y of the line if the tip is held on it.
     pub fn y0(&self, t: f64) -> f64 {
         self.track.y + self.planar_step(t).map_or(0.0, |step| step.y0(t))
     }
 
-    /// y0'
+    /// y0' on the surface: 0 if the tip is held on the line.
     pub fn velocity_y(&self, t: f64) -> f64 {
         self.planar_step(t).map_or(0.0, |step| step.velocity(t)[1])
     }
@@ -81,7 +81,7 @@ impl Line {
         &self.trajectory
     }
 
-    /// Counts of the integrator.
+    /// Numbers of steps and iterations of the integrator.
     pub fn work(&self) -> Work {
         self.work
     }
@@ -125,8 +125,8 @@ impl Line {
         self.velocity(self.trajectory.end())
     }
 
-    /// The residence of the tip on the surface: positions and weights such that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ
-    /// `w_j` g(`x_j`) at the end of the line, with w and T of the extended model.
+    /// The residence of the tip on the surface at the end of the line, t = X/r: positions `x_j` and weights `w_j` such
+    /// that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ `w_j` g(`x_j`), with w and T of the extended model.
     pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());
         positions.iter_mut().for_each(|x| *x = self.track.x(*x));

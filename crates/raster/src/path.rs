@@ -11,12 +11,12 @@ pub enum Path {
     Repeat,
 }
 
-/// The path of the support along one line.
+/// The path of the support along one line. Lengths in σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track {
     /// y of the line.
     pub y: f64,
-    /// Start position of the support.
+    /// x of the support at the start.
     pub start: f64,
     /// Length of the path.
     pub length: f64,

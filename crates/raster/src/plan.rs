@@ -18,19 +18,21 @@ pub struct Plan {
     pub area: Area,
     /// Motion across the lines; `None` for a tip that is held on its line.
     pub free: Option<Free>,
-    /// External force on the first line, against the time since its start; it disturbs all later lines.
+    /// External force on the first line, against the time since its start; the groove of this line disturbs all later
+    /// ones.
     pub disturbance: Force,
     /// The law, the tolerance and the memory of every line; start, end, kick and force are set for each line.
     pub law: Scenario,
 }
 
-/// Largest number of lines within reach of one.
+/// Largest number of lines within reach of one line.
 const MOST_WITHIN_REACH: f64 = 1e4;
-/// Memory per wave number, in bytes: of each line one complex amplitude is stored; the lattice, four cells per wave
-/// number, has sums, transforms and their workspace.
+/// Memory of a line per wave number, in bytes: one complex amplitude.
 const BYTES_OF_A_WAVE: f64 = 16.0;
+/// Memory of the lattice per wave number, in bytes: sums, transforms and workspace of four cells.
 const BYTES_OF_THE_LATTICE: f64 = 320.0;
-/// The same of the surface about a line of a tip that is free to move across: heights and slopes on some sixty rows.
+/// Memory, per wave number and layer, of the surface around a line if the tip is free to move across: heights and
+/// slopes on some sixty rows, in bytes.
 const BYTES_OF_ROWS: f64 = 4000.0;
 const MOST_MEMORY: f64 = 1e9;
 /// Largest number of lattice points of a line.
@@ -57,14 +59,14 @@ impl Plan {
         Self { footprint, path, area, free: None, disturbance: Force::default(), law }
     }
 
-    /// The same for a tip that is free to move across the lines.
+    /// The same plan for a tip that is free to move across the lines.
     #[must_use]
     pub fn with_free(self, free: Free) -> Self {
         Self { free: Some(free), ..self }
     }
 
     /// # Errors
-    /// The first parameter out of range.
+    /// The first parameter that is out of range.
     pub fn validate(&self) -> Result<(), RasterError> {
         if !self.law.model.wider().spring {
             return Err(RasterError::NoSpring);
@@ -125,7 +127,7 @@ impl Plan {
         Err(RasterError::Memory { lines: rows, extent: high - low + 2.0 * outside, bytes })
     }
 
-    /// Number of rows on which a tip that is free to move across leaves anything, if it remains near its lines.
+    /// Number of rows that the grooves of a tip that is free to move across occupy, if it remains near its lines.
     fn rows(&self) -> f64 {
         let y = (0..self.lines()).map(|n| self.track(n).y);
         let ends =
@@ -154,7 +156,7 @@ impl Plan {
         length / self.law.model.r()
     }
 
-    /// The run of line n in its frame, where the support moves to larger x and the footprint of a way back is mirrored; the
+    /// The run of line n in its frame, where the support moves to larger x, and the footprint of a retrace is mirrored. The
     /// tip starts `ahead` of the support, with this velocity if it has inertia.
     pub(crate) fn line(&self, n: usize, (ahead, velocity): (f64, f64)) -> Scenario {
         let has_inertia = self.law.model.wider().inertia.is_some();

@@ -17,11 +17,11 @@ pub struct Scanning<'a> {
     lines: Vec<Line>,
 }
 
-/// What lines leave for later ones.
+/// The grooves of earlier lines.
 enum Past<'a> {
-    /// Of a tip that is held on its lines: as power series.
+    /// As power series, for a tip that is held on its lines.
     Traces(Course<'a>, Rows),
-    /// Of other tips, and of footprints with many layers: as transforms of whole lines.
+    /// As transforms of whole lines, for other tips and for footprints with many layers.
     Grooves(Box<Grooves>),
 }
 

@@ -24,8 +24,8 @@ impl Scanned {
     }
 }
 
-/// ∫∫ u dx dy after these lines: -α ∫∫f times the time that the tip was there, weighted by the depth limit and
-/// reduced by healing. In the basic model it is -α (X/r) ∫∫f for each line.
+/// ∫∫ u dx dy after these lines: -α ∫∫f times the total time of the scan, weighted by the depth limit and reduced by
+/// healing. In the basic model it is -α (X/r) ∫∫f for each line, of length X.
 pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
     let left =
         |line: &Line| plan.law.model.wider().left_after(plan.duration_of(line.track().length));
@@ -34,9 +34,9 @@ pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
     -plan.law.model.alpha() * plan.footprint.integral() * all
 }
 
-/// Mean depth carved by lines one pitch apart, with material heaped up beside a groove counted like removed material:
-/// (α/(X d)) ∫w dt ∫∫|f|, in kσ²/a. For a footprint without side lobes it is the mean depth; for β = 1, which only
-/// moves material and has mean depth 0, it has the size of overlapping grooves.
+/// Mean depth carved by lines of length X at the pitch d, with material heaped up beside a groove counted like removed
+/// material: (α/(X d)) ∫w dt ∫∫|f|, in kσ²/a. For a footprint without side lobes it is the mean depth. For β = 1 the mean
+/// depth is 0, as material is only moved, but this depth has the size of overlapping grooves.
 pub(crate) fn carved_depth(plan: &Plan, lines: &[Line], pitch: f64) -> f64 {
     let rates = lines.iter().zip(times(lines)).map(|(line, time)| time / line.track().length);
     let mean = rates.sum::<f64>() / lines.len() as f64;

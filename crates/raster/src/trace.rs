@@ -12,11 +12,11 @@ use stickslip_tip::{Step, Support, Wider, stop};
 pub(crate) const PIECE: usize = 32;
 pub(crate) type Piece = [f64; PIECE];
 
-/// Cells that a source changes below its own, and cells by which a tip may retreat without touching known pieces: three
-/// widths of a Gaussian.
+/// Number of cells below its own that a source changes.
 const BELOW: i64 = 8;
+/// Number of cells by which a tip may retreat without changing known pieces: three widths of a Gaussian.
 const RETREAT: i64 = 16;
-/// Number of pieces by which a line that had to wait falls back, so that it need not wait at each of them.
+/// Number of pieces by which a line that had to wait falls back, so that it need not wait again at each piece.
 const LEAD: i64 = 2;
 /// Longest time until a waiting line notices that the work is cancelled.
 const PATIENCE: Duration = Duration::from_millis(20);
@@ -31,17 +31,16 @@ pub(crate) struct Trace {
 
 #[derive(Debug, Default)]
 struct Known {
-    /// Those that are missing are 0.
+    /// Pieces by their number; missing ones are 0.
     pieces: BTreeMap<i64, Arc<Piece>>,
-    /// All pieces below this one are known; `None`: not one. The largest number after the end of the line.
+    /// All pieces below this one are known; `None` if none is known, and the largest number after the end of the line.
     to: Option<i64>,
-    /// Where the trace is to be known before those who wait for it go on.
+    /// The piece up to which the trace must be known before waiting lines continue.
     wanted: Option<i64>,
 }
 
 impl Trace {
-    /// The pieces from one to before another, once all of them are known; `None` if the line that asks is given up
-    /// before.
+    /// The pieces `from`..`to`, once all of them are known; `None` if the line that needs them is given up before.
     pub(crate) fn pieces(
         &self,
         (from, to): (i64, i64),
@@ -77,14 +76,14 @@ impl Trace {
     }
 }
 
-/// What the trace of a line begins with.
+/// The data of a line that its trace depends on, except its steps.
 pub(crate) struct Ways {
     pub(crate) track: Track,
     pub(crate) support: Support,
     pub(crate) wider: Wider,
     /// Duration of the line.
     pub(crate) duration: f64,
-    /// Trace of the earlier lines at the same y, and the part of it that is left at the end of this line.
+    /// Trace of the earlier lines at the same y, and the fraction of it that has not healed at the end of this line.
     pub(crate) before: Option<(Arc<Trace>, f64)>,
 }
 
@@ -111,7 +110,7 @@ impl Writer {
         Self { ways, trace, density: Density::new(spacing), given_up, farthest, to }
     }
 
-    /// Adds a step; false if it leads back to where others have already read.
+    /// Adds a step; false if it leads back to pieces that are published already.
     pub(crate) fn add(&mut self, step: &Step) -> bool {
         let Ways { track, support, wider, duration, .. } = &self.ways;
         let origin = support.position(step.t) - step.extension;
@@ -127,7 +126,7 @@ impl Writer {
         is_ahead
     }
 
-    /// Publishes what the tip has left behind, on a line towards larger x.
+    /// Publishes the pieces that the tip has left behind, if the line runs towards larger x.
     pub(crate) fn publish(&mut self) {
         let to = (self.farthest - BELOW - RETREAT).div_euclid(PIECE as i64);
         if !self.ways.track.backward && to > self.to {
@@ -135,12 +134,12 @@ impl Writer {
         }
     }
 
-    /// Publishes all that is left.
+    /// Publishes all remaining pieces.
     pub(crate) fn finish(mut self) {
         self.publish_to(i64::MAX);
     }
 
-    /// The same in a trace that no line has read so far.
+    /// Publishes all pieces in a trace that no line has read so far.
     pub(crate) fn finish_anew(self, trace: Arc<Trace>) {
         Self { trace, to: i64::MIN, ..self }.finish();
     }

@@ -1,8 +1,8 @@
 //! Trenches along the scan, and pairs of lines: the pattern of a tip that is free to move across.
 //!
-//! Trenches are the same all along the lines, so that they are looked for on the surface minus a plane, and not minus
-//! the mean of each line. Lines in pairs lie equally far from the trench that they share: their pattern appears between
-//! the lines. Therefore the surface is evaluated on the lines and halfway between them.
+//! Trenches are uniform along the lines. Therefore they are sought on the surface minus a plane, and not minus the mean of
+//! each line. Lines in pairs lie equally far from the trench that they share: their pattern appears between the lines.
+//! Therefore the surface is evaluated on the lines and halfway between them.
 
 use super::doubt::Doubt;
 use super::estimate::Estimate;
@@ -20,9 +20,9 @@ use crate::surface::{Scanned, carved_depth};
 use ndarray::Array2;
 use std::f64::consts::PI;
 
-/// Rows on a line and from it to the next.
+/// Number of rows per line: one on the line, and one halfway to the next.
 const ROWS: usize = 2;
-/// Largest wave number across, in units of π/d: that of pairs, and half of what rows of even lines have.
+/// Largest wave number across the lines, in units of π/d: pairs have 1, the rows of equal lines have 2.
 const WIDEST: f64 = 1.25;
 /// Smallest straightness of trenches.
 const STRAIGHT: f64 = 0.6;
@@ -49,7 +49,7 @@ pub(super) fn bunched(plan: &Plan, lines: &[Line], window: &Window) -> Option<Wr
     Some(Written { regime: Regime::Bunched, pattern: Some(pattern), doubts })
 }
 
-/// Growth of what differs between lines and is the same all along them, on a surface that is steady so far.
+/// Growth of the relief across the lines, on a surface that is steady so far.
 pub(super) fn growing(plan: &Plan, lines: &[Line]) -> Option<Doubt> {
     let window = Window::of(plan, lines.len()).ok()?;
     let (sheet, _) = sheet(plan, lines, &window);
@@ -110,8 +110,8 @@ impl Measured {
     }
 }
 
-/// The surface in the window, on the lines and between them, each row averaged with its neighbours: what even lines leave
-/// on each of them is thereby the same on all rows. And half peak-to-peak before.
+/// The surface in the window, on the lines and between them, and half its peak-to-peak value. Each row is then averaged with
+/// its neighbours, so that the grooves of equal lines have the same height on all rows.
 fn sheet(plan: &Plan, lines: &[Line], window: &Window) -> (Sheet, f64) {
     let Window { first, end, from, to, pitch } = *window;
     let points = (POINTS * (to - from) * plan.band() / 8.7) as usize;

@@ -24,8 +24,9 @@ pub(super) struct Extent {
 }
 
 /// Standard deviation of the average, in wavelengths along the line; it is limited so that the average covers at most
-/// half of the line. Second constant: its cutoff, in standard deviations.
+/// half of the line.
 const AVERAGED: f64 = 0.6;
+/// Cutoff of the average, in standard deviations.
 const ENDS: f64 = 3.5;
 /// Magnitude of ψ relative to its mean below which its phase is undetermined.
 const WEAK: f64 = 0.02;
@@ -66,7 +67,7 @@ impl Local {
         Estimate::of_quarters(of(coherence(&self.psi.view(), after)), &quarters)
     }
 
-    /// The same with x and y exchanged: of pairs of points at this distance along the lines.
+    /// As [`Self::coherence`], for pairs of points at this distance along the lines.
     pub(super) fn coherence_along(&self, after: usize) -> Estimate {
         let quarters = self.quarters().map(|quarter| coherence(&quarter.t(), after));
         Estimate::of_quarters(coherence(&self.psi.t(), after).0, &quarters)
@@ -150,7 +151,7 @@ impl Local {
     }
 }
 
-/// The coherence of these lines, and their power.
+/// The coherence of lines at the distance `after`, and their power.
 fn coherence(psi: &ArrayView2<Complex64>, after: usize) -> (f64, f64) {
     let (rows, columns) = psi.dim();
     let pairs = rows.saturating_sub(after);

@@ -33,7 +33,7 @@ use window::{ALONG, FEWEST_ROWS, Window};
 pub struct Written {
     /// The regime of the surface.
     pub regime: Regime,
-    /// The ripple; `None` where there is none.
+    /// The ripple; `None` if there is none.
     pub pattern: Option<Pattern>,
     /// Reasons why a result is not reported, or may differ after more lines.
     pub doubts: Vec<Doubt>,
@@ -44,16 +44,16 @@ pub struct Written {
 /// lines do not determine is `None`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pattern {
-    /// Wave number along the lines, 0 or above; `None` if several waves have about the same power.
+    /// Wave number along the lines, 0 or above; `None` if the wavelength is `None`.
     pub q: Option<f64>,
-    /// Wave number across the lines, between -π/d and π/d; `None` if q is, and close to ±π/d, where its sign is
-    /// undefined.
+    /// Wave number across the lines, between -π/d and π/d; `None` if the wavelength or the crest angle is `None`.
     pub kappa: Option<f64>,
-    /// Wavelength, 2π/√(q² + κ²).
+    /// Wavelength, 2π/√(q² + κ²); `None` if its error is above 25 %, or if the wave still grows or decays.
     pub wavelength: Option<f64>,
     /// Error of the wavelength.
     pub wavelength_error: Option<f64>,
-    /// Angle between crests and scan axis, in degrees: atan(q/|κ|).
+    /// Angle between crests and scan axis, in degrees: atan(q/|κ|). `None` if its error is above 15°, or if κ is ±π/d
+    /// within its error, so that its sign is undefined.
     pub crest_angle: Option<f64>,
     /// Error of the crest angle, in degrees.
     pub crest_angle_error: Option<f64>,
@@ -117,16 +117,17 @@ pub enum LineRegime {
 const POINTS: f64 = 4.0;
 /// Smallest number of wavelengths along the window that count as ripples.
 const FEWEST_WAVES: f64 = 2.0;
-/// Smallest fraction of the relief common to all lines at which they count as alike.
+/// Lines count as alike if the part of the relief that differs between them is below this fraction of it.
 const ALIKE: f64 = 0.5;
-/// Relative error of half peak-to-peak.
+/// Relative error of the amplitude.
 const AMPLITUDE_ERROR: f64 = 0.2;
 /// Error of the fraction of a wave that remains away from the edges.
 const KEPT_ERROR: f64 = 0.1;
 /// Largest change of the logarithm of the relief, between the two halves of the lines, of a settled pattern.
 const SETTLED: f64 = 0.1;
-/// Smallest growth factor of differences between lines that counts as growth, and their smallest size in tolerances.
+/// Smallest factor of differences between lines, from one half of the lines to the other, that counts as growth.
 const GROWS: f64 = 1.02;
+/// Smallest size of these differences, in units of the tolerance times the carved depth.
 const SEEN: f64 = 10.0;
 /// Largest relative change of a steady lag.
 const SAME_LAG: f64 = 0.02;
@@ -317,7 +318,7 @@ impl Seen {
     }
 }
 
-/// Root mean square of the part of the relief that differs between lines.
+/// Root mean square of the part of the relief that differs between lines, relative to that of the relief.
 fn unlike(sheet: &Sheet) -> f64 {
     let square = |u: &ndarray::Array2<f64>| u.iter().map(|u| u * u).sum::<f64>();
     (square(&sheet.unlike()) / square(&sheet.u)).sqrt()

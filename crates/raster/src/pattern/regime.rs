@@ -40,12 +40,14 @@ impl fmt::Display for Regime {
 pub(super) const FLAT: f64 = 0.01;
 /// Largest remaining fraction, away from the edges of the lines, of a wave that is an effect of the edges.
 const FADED: f64 = 0.5;
-/// Smallest coherence of ripples, and of a lattice of pits.
+/// Smallest coherence of ripples.
 const ORDERED: f64 = 0.95;
+/// Smallest coherence of a lattice of pits.
 const LATTICE: f64 = 0.4;
 /// Smallest straightness of ripples. Crests count as broken into pits if more than a twentieth of the power of slopes
-/// lies along them, a straightness of 1 - 2/20, and the surface is also rough relative to its depth.
+/// lies along them, a straightness of 1 - 2/20, and the surface is also rough.
 const STRAIGHT: f64 = 0.9;
+/// Smallest amplitude of a rough surface, relative to the carved depth.
 pub(super) const PITTED: f64 = 0.12;
 
 /// The measures that determine the regime.

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// Heights on evenly spaced points of evenly spaced lines, minus the mean and slope of each line.
+/// Heights on evenly spaced points of evenly spaced lines, minus the mean and slope of each line or minus a plane.
 pub(super) struct Sheet {
     pub(super) u: Array2<f64>,
     pub(super) from: f64,
@@ -50,7 +50,7 @@ impl Sheet {
         Self::of(u, (from, spacing), pitch, band)
     }
 
-    /// Heights minus a plane: what is the same all along a line remains.
+    /// Heights minus a plane: a relief that is uniform along the lines remains.
     pub(super) fn about_a_plane(mut u: Array2<f64>, at: (f64, f64), pitch: f64, band: f64) -> Self {
         let middle = |count: usize| 0.5 * (count as f64 - 1.0);
         let (rows, columns) = u.dim();
@@ -158,7 +158,7 @@ impl Sheet {
         self.u.rows().into_iter().map(line).collect()
     }
 
-    /// The sum over the lines, as a squared modulus.
+    /// |Σ_n window a_n e^{-iκy_n}|² over all lines n, where `along` contains a_n.
     pub(super) fn across(&self, along: &Array1<Complex64>, kappa: f64) -> f64 {
         let turn = Complex64::from_polar(1.0, -kappa * self.pitch);
         let (mut phase, mut sum) = (Complex64::new(1.0, 0.0), Complex64::default());

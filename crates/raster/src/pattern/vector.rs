@@ -22,10 +22,11 @@ pub(super) struct Vector {
     edge: f64,
 }
 
-/// Largest error of an angle in degrees, and largest relative error of a wavelength, that are reported.
+/// Largest error of an angle that is reported, in degrees.
 pub(super) const MOST_ANGLE: f64 = 15.0;
+/// Largest relative error of a wavelength that is reported.
 const MOST_LENGTH: f64 = 0.25;
-/// Largest relative error of a wave number.
+/// Largest relative error of a significant wave number.
 const NO_WAVE: f64 = 0.5;
 /// Largest order of harmonics that are distinguished from other waves.
 const MOST_HARMONIC: f64 = 8.0;
@@ -75,7 +76,7 @@ impl Vector {
             && kappa.abs() <= order * self.kappa.error
     }
 
-    /// Whether its wave number along the lines is significant.
+    /// Whether the wave number along the lines is significant, or much smaller than that across them.
     pub(super) fn is_wave(&self) -> bool {
         self.q.error <= NO_WAVE * self.wave.q || self.wave.q < NO_WAVE * self.wave.kappa.abs()
     }

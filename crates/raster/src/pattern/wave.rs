@@ -15,7 +15,7 @@ pub(super) struct Wave {
 
 /// Smallest number of waves along a line in the search: lower wave numbers were removed with mean and slope.
 const FEWEST_SEEN: f64 = 1.0;
-/// Samples in the width of a peak.
+/// Number of samples in the width of a peak.
 const PER_PEAK: f64 = 2.0;
 /// Largest wave number of the search, as a fraction of the bandwidth. The groove of a sharp pit has less than e^{-6}
 /// of its power beyond.
@@ -56,7 +56,7 @@ impl Wave {
     }
 
     /// The strongest wave with at least `fewest` wavelengths along the lines, followed by its rivals, which may be
-    /// longer: all with at least half of its power, or with more power of slopes.
+    /// longer: all with at least half of its power, or whose slopes have more power.
     pub(super) fn strongest(sheet: &Sheet, fewest: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let peaks = Self::peaks(sheet, (FEWEST_SEEN * PER_PEAK) as i64);
@@ -78,15 +78,14 @@ impl Wave {
         others
     }
 
-    /// Whether the wave has half of the power of another, or more power of slopes, times a factor.
+    /// Whether the wave has at least `factor` times half of the power of another, or its slopes `factor` times the power.
     fn rivals(&self, other: &Self, factor: f64) -> bool {
         let slopes = |wave: &Self| (wave.q.powi(2) + wave.kappa.powi(2)) * wave.power;
         self.power >= factor * RIVAL * other.power || slopes(self) >= factor * slopes(other)
     }
 
-    /// The strongest wave of all, those that are the same all along the lines included, with at least `fewest`
-    /// wavelengths in one of the two directions and at most the wave number `most` across the lines; followed by its
-    /// rivals.
+    /// The strongest wave, including those that are uniform along the lines, followed by its rivals. It has at least
+    /// `fewest` wavelengths in one of the two directions, and a wave number across the lines of at most `most`.
     pub(super) fn strongest_of_all(sheet: &Sheet, fewest: f64, most: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let mut peaks = Self::peaks(sheet, 0);

@@ -7,15 +7,17 @@ use crate::plan::{Plan, WIDTHS};
 
 /// Evaluated part of the length, without the pit at the beginning and without the end.
 pub(super) const ALONG: (f64, f64) = (0.2, 0.85);
-/// Evaluated fraction of the lines, from the last one backwards, and their largest number.
+/// Evaluated fraction of the lines, from the last one backwards.
 const LAST: f64 = 0.5;
+/// Largest number of evaluated lines.
 const MOST_ROWS: usize = 256;
-/// Largest number of lines of a shape that are tried.
+/// Largest number of lines among which a window is sought.
 const MOST_TRIED: usize = 2048;
-/// Distance in widths within which later lines would still change the last ones.
+/// Distance, in widths, within which later lines would still change a line.
 const UNFINISHED: f64 = 3.5;
-/// Smallest number of rows, and smallest length in wavelengths of the footprint, that show a wave vector.
+/// Smallest number of lines for a wave vector.
 pub(super) const FEWEST_ROWS: usize = 8;
+/// Smallest extent of a window for a wave vector, along and across the lines, in widths of the footprint.
 const SHORTEST: f64 = 12.0;
 
 /// Lines first..end, over a range of x.

@@ -9,9 +9,9 @@
 //!     (r - α Q(p)) Φ(p) = -p Ĥ(p),   Φ = ∫ e^{-pξ} θ'(X + ξ)dξ,   Ĥ = ∫ e^{-pξ} H(ξ)dξ,
 //! ```
 //!
-//! so that θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p) with c = p Ĥ(p)/(α Q'(p)): the present surface
-//! determines the later motion. If this sum stays positive the tip is held permanently; it slips where the sum reaches
-//! 0.
+//! with Q(p) = p ∫_0^∞ e^{-px}(-f'(x))dx. So θ'(X + ξ) = Σ c e^{pξ} over the roots of r = α Q(p), c = p Ĥ(p)/(α Q'(p)): the
+//! present surface determines the later motion. If this sum stays positive, the tip is held permanently; it slips where
+//! the sum reaches 0.
 
 use crate::ahead::Ahead;
 use crate::thinned::Thinned;
@@ -181,7 +181,8 @@ const LONGEST_LOOK: usize = 100_000;
 const LONGEST_PANEL: f64 = 8.0;
 const POINTS: usize = 10;
 
-/// Nodes and weights of Gauss-Legendre panels over the reach, the first as narrow as the exponentials ask for.
+/// Nodes and weights of Gauss-Legendre panels over the reach. The first is as narrow as the exponentials require, and
+/// later ones are wider.
 fn nodes(reach: f64, longest: f64, first: f64) -> Vec<(f64, f64)> {
     let rule = GaussLegendre::new(const { NonZeroUsize::new(POINTS).unwrap() });
     let (mut nodes, mut from, mut width) = (vec![], 0.0, first.min(longest));
@@ -200,8 +201,8 @@ const MEASURED_SHARE: f64 = 0.5;
 /// Largest relative difference between the measured rate and the attracting one.
 const WITHIN: f64 = 0.1;
 
-/// For a footprint that never fades, of whose past the tail is only a part: l has only risen for the last half of
-/// the run, and 1/x0' = p (t - const) grows at the rate p that attracts.
+/// The creep of a tip whose footprint never fades, so that the last steps are only a part of its history. `None` unless l
+/// has only risen in the last half of the run, and 1/x0' = p (t - const) with nearly the attracting p.
 pub(crate) fn measured(
     model: &Model,
     (start, since): (f64, f64),

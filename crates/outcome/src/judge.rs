@@ -27,11 +27,11 @@ const BESIDE: f64 = 0.3;
 /// A motion counts as not approaching its cycle if it approaches by less than this fraction of what the multiplier
 /// predicts.
 const STANDS_STILL: f64 = 0.2;
-/// Displacement of a cycle that the tolerance may cause, times the gap of the multiplier, in units of the tolerance.
+/// Displacement of a cycle that the tolerance may cause, times 1 - |μ| of the multiplier μ, in units of the tolerance.
 const DISPLACED: f64 = 300.0;
-/// Oscillations below this amplitude, in widths, are compared with linear theory,
+/// Oscillations below this amplitude, in widths, are compared with linear theory.
 const SMALL: f64 = 0.3;
-/// and follow it if they grow or decay at its rate within this fraction.
+/// They follow linear theory if they grow or decay at its rate within this fraction.
 const AS_FORETOLD: f64 = 0.2;
 /// Changes from period to period below this many tolerances are attributed to step errors.
 const NOISE: f64 = 30.0;
@@ -61,7 +61,7 @@ struct End<'a> {
     observer: &'a Observer,
     last: Step,
     tail: Trajectory,
-    /// Latest first.
+    /// Extrema of l, latest first.
     extrema: Vec<Extremum>,
     linear: OnceCell<Linear>,
 }

@@ -70,7 +70,8 @@ pub struct Outcome {
 pub struct Drift {
     /// x0' at the end, in kσ/Γ.
     pub velocity: f64,
-    /// Distance of this velocity from that of the steady walk that the run approaches, with the errors of both.
+    /// Error of this velocity, in kσ/Γ: its distance from that of the steady walk that the run approaches, plus the errors
+    /// of both. Where this walk cannot be computed: twice the largest change of the velocity in the last fifth of the run.
     pub velocity_error: f64,
 }
 

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use stickslip_tip::elementary::sin_cos;
 
-/// Length of a cell in widths of a Gaussian, and the number of nodes in it. The error of the polynomial through f' at
-/// these nodes is at most 2 (h/4)^m/m! max|f^(m+1)|: some 1e-18 for a Gaussian of width 1.
+/// Length of a cell in widths of a Gaussian.
 const CELL: f64 = 2.0;
+/// Number of nodes in a cell. In a cell of length h the error of the polynomial through f' at m nodes is at most
+/// 2 (h/4)^m/m! max|f^(m+1)|: some 1e-18 for a Gaussian of width 1.
 const PLACES: usize = 24;
 
 /// Weights at few nodes that give the same sum of f' as these visits (position, duration) at all distances. In each

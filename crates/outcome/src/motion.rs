@@ -7,7 +7,7 @@ use stickslip_tip::Model;
 /// The motion that a tip settles into after a small disturbance of steady motion.
 #[derive(Debug, Clone)]
 pub enum Motion {
-    /// Steady motion is stable. (A large cycle may be too, where onset is subcritical.)
+    /// Steady motion is stable. (If onset is subcritical, a large cycle may also be stable.)
     Steady,
     /// A stable cycle.
     Cycle(Box<Cycle>),

@@ -6,10 +6,11 @@ use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
 
-/// Largest distance of l from l0 in steady motion, in σ;
+/// Largest distance of l from l0 in steady motion, in σ, for small tolerances.
 const STEADY_WITHIN: f64 = 1e-6;
-/// for larger tolerances a hundred tolerances, up to this fraction of the width of the tip.
+/// This distance for larger tolerances, in units of the tolerance.
 const STEADY_TOLERANCES: f64 = 100.0;
+/// Upper limit of the distance for larger tolerances, in widths of the tip.
 const STEADY_AT_MOST: f64 = 0.03;
 /// Largest number of steps kept at the end. A slip takes some fifty; on noise of a fine grid a thousand.
 const LONGEST_TAIL: usize = 1 << 15;
@@ -102,7 +103,7 @@ impl Observer {
         self.far
     }
 
-    /// Time since which l has been within this distance of l0.
+    /// Time since which l has been within [`near_steady`](Self::near_steady) of l0.
     pub(crate) fn steady_since(&self) -> f64 {
         self.unsteady
     }

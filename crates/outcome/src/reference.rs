@@ -4,9 +4,11 @@ use stickslip_cycles::{Cycle, CycleError, ROUGHEST_RESIDUAL, cycle_near, cycle_w
 use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
-/// Residuals of the reference cycles, and the tolerance below which a run needs the finer one.
+/// Residual of a reference cycle.
 const RESIDUAL: f64 = 1e-9;
+/// Residual of the finer reference cycle for a run of small tolerance.
 const FINE_RESIDUAL: f64 = 1e-11;
+/// Largest tolerance of a run that needs the finer cycle.
 const FINE_RUN: f64 = 1e-10;
 
 /// A limit cycle close to a motion.
@@ -21,7 +23,8 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// The cycle that Newton's method reaches from this number of last slips of a motion, or else from those before.
+    /// The cycle that Newton's method finds from the last period of a motion, of this number of slips, or else from one of
+    /// the `tries` - 1 periods before.
     pub(crate) fn of(
         model: &Model,
         tolerance: f64,
@@ -43,7 +46,7 @@ impl Reference {
         finer.and_then(|finer| Self::beside(finer, tail, extrema)).or(Some(near))
     }
 
-    /// A cycle close to a motion.
+    /// The comparison of a cycle with a motion close to it; `None` if the motion has too few extrema.
     pub(crate) fn beside(cycle: Cycle, tail: &Trajectory, extrema: &[Extremum]) -> Option<Self> {
         let measured = Oscillation::with_slips(tail, extrema, cycle.slips())?;
         let off = difference(&cycle, extrema)?;
@@ -81,7 +84,7 @@ fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
     }
 }
 
-/// Two maxima a period apart: the highest of the last period and the one before it.
+/// Times of two maxima a period apart: the second is the highest of the last period.
 fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
     let maxima: Vec<_> = extrema.iter().filter(|e| e.is_maximum).collect();
     let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
@@ -89,7 +92,7 @@ fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
     Some((start.t, end.t))
 }
 
-/// A maximum within this fraction of a period of the seam counts as that of the seam.
+/// A maximum closer than this fraction of a period to the seam, the start and end of the period, counts as lying on it.
 const AT_THE_SEAM: f64 = 1e-6;
 
 /// Largest difference between the extrema of the last period of a motion and those of the cycle, in the order that

@@ -52,7 +52,7 @@ pub enum Remark {
     OnAPath,
     /// The surface ahead of the tip is not flat.
     UnevenAhead {
-        /// Position of its end, in σ.
+        /// Position at which the uneven surface ends, in σ.
         until: f64,
     },
 }

@@ -1,13 +1,13 @@
 //! A tip without a spring at rest: whether a small displacement grows, and by which factor until a given time.
 //!
-//! A tip that has been at rest since t = 0 sits in its own groove, -αθ(t) f(x), θ' = w - θ/T. With I = ∫ w (x(t) -
-//! x(t')) e^{-(t-t')/T}dt' and v = x', a small displacement obeys
+//! A tip that has been at rest since t = 0 sits in its own groove -αθ(t) f(x), θ' = w - θ/T, with the weight w of the
+//! depth limit and the healing time T. With I = ∫ w (x(t) - x(t')) e^{-(t-t')/T}dt' and v = x', a small displacement obeys
 //!
 //! ```text
 //!     M v' + v = α f''(0) I,   I' = θ v - I/T,
 //! ```
 //!
-//! so that deviations grow at the rate λ(t) that solves (Mλ + 1)(λ + 1/T) = α f''(0) θ(t), the larger root.
+//! so that deviations grow at the rate λ(t), the larger root of (Mλ + 1)(λ + 1/T) = α f''(0) θ(t).
 
 use stickslip_tip::{Model, Wider};
 

@@ -8,7 +8,7 @@ pub(crate) struct Sequence<'a>(pub(crate) &'a [Extremum]);
 /// Number of periods over which the changes are compared.
 const PERIODS: usize = 6;
 const FEWEST: usize = 4;
-/// A change that falls by a smaller factor from period to period may not fall at all.
+/// If the ratio of successive changes is above this, they may not decrease at all.
 const FALLS: f64 = 0.95;
 /// Largest number of maxima of l in a period.
 pub(crate) const MOST_SLIPS: usize = 8;
@@ -28,8 +28,8 @@ impl Sequence<'_> {
         Some(here.iter().zip(before).map(|(a, b)| a.l - b.l))
     }
 
-    /// The largest factor by which these changes fall from one period to the next, over at least four; `None` unless
-    /// all of them fall.
+    /// The largest ratio of a change to that one period before, over at least four changes; `None` unless it is below
+    /// [`FALLS`].
     pub(crate) fn slowest_factor(&self, slips: usize) -> Option<f64> {
         let sizes: Vec<f64> = (0..PERIODS).map_while(|back| self.change(slips, back)).collect();
         let factors = sizes.windows(2).map(|pair| pair[0] / pair[1]);
@@ -38,8 +38,7 @@ impl Sequence<'_> {
     }
 
     /// The candidate numbers of maxima in a period, the likeliest first: the smallest number with which the motion
-    /// repeats itself within `near`; else those with the best repetition, one, and two where every other slip is
-    /// alike.
+    /// repeats itself within `near`, or else best within a factor of 2; then 1; then 2 if every other slip is alike.
     pub(crate) fn likely_slips(&self, near: f64) -> Vec<usize> {
         let changes: Vec<(usize, f64)> = (1..=MOST_SLIPS)
             .map_while(|slips| self.change(slips, 0).map(|change| (slips, change)))

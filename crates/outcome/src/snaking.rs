@@ -11,9 +11,9 @@ use stickslip_tip::state::{Damaged, Reader, State};
 const REPEATS: f64 = 1e-3;
 /// Evaluations of the velocity within a step: between two of them it changes sign at most once.
 const LOOKS: u32 = 8;
-/// Changes below this many tolerances are errors of steps, whose decay
+/// Changes below this many tolerances count as errors of steps.
 const ERRORS: f64 = 10.0;
-/// is taken to be this factor per period.
+/// Largest factor per period by which such errors are assumed to decay.
 const SLOWEST: f64 = 0.98;
 /// Squared sine of the angle between changes and those before them, below which they are one geometric series.
 const GEOMETRIC: f64 = 1e-12;
@@ -50,26 +50,29 @@ struct Turn {
 #[derive(Debug, Clone, Copy)]
 struct Cycle {
     period: f64,
-    /// y0 at the maximum at its end, and at the minimum within.
+    /// y0 at the maximum that ends the period.
     highest: f64,
+    /// y0 at the minimum within it.
     lowest: f64,
     /// Half the peak-to-peak value of R - x0.
     along: f64,
 }
 
-/// Number of periods kept, and that below which an oscillation is not judged.
+/// Largest number of periods that are kept.
 const CYCLES: usize = 13;
+/// Smallest number of periods of an oscillation that is classified.
 const FEWEST_CYCLES: usize = 4;
 
 /// The latest periods of y0.
 #[derive(Debug, Clone, Default)]
 struct Cycles {
-    /// The last at the end.
+    /// The periods, oldest first.
     all: VecDeque<Cycle>,
     /// The time of the last maximum of y0.
     maximum: Option<f64>,
-    /// Since then: the last minimum of y0, and the range of R - x0 at its turning points.
+    /// The last minimum of y0 since then.
     lowest: Option<f64>,
+    /// The range of R - x0 at its turning points since then.
     lags: Option<(f64, f64)>,
 }
 
@@ -165,7 +168,7 @@ impl SnakingObserver {
     }
 
     /// The periodic motion of y0 at the end of a run with this tolerance; `None` if the amplitude of y0 is not above
-    /// the tolerance, y0 has oscillated less than five times, or the motion is not periodic.
+    /// ten tolerances, y0 had fewer than five maxima, or the motion is not periodic.
     pub fn snaking(&self, tolerance: f64) -> Option<Snaking> {
         let cycles = &self.cycles;
         let last = *cycles.all.back().filter(|_| cycles.all.len() >= FEWEST_CYCLES)?;
@@ -198,7 +201,7 @@ impl SnakingObserver {
         })
     }
 
-    /// The largest |y0| at the ends of steps in about the last part of the run, given as a fraction of it.
+    /// The largest |y0| at the ends of steps in about the last fraction `part` of the run.
     pub fn largest_late(&self, part: f64) -> f64 {
         self.span.map_or(0.0, |(start, end)| self.deviations.since((1.0 - part) * (end - start)))
     }
@@ -242,7 +245,7 @@ pub fn snaking(trajectory: &Trajectory, tolerance: f64) -> Option<Snaking> {
     observer.snaking(tolerance)
 }
 
-/// The largest of values in bins of time since the start, of equal width; the width doubles as time goes on.
+/// The largest value in each of many equal bins of the time since the start; their width doubles as time goes on.
 #[derive(Debug, Clone, Default)]
 struct Largest {
     width: f64,
@@ -270,7 +273,7 @@ impl Largest {
         self.bins[bin] = self.bins[bin].max(value);
     }
 
-    /// The largest since a time, or since shortly before it.
+    /// The largest value since a time, or since shortly before it.
     fn since(&self, time: f64) -> f64 {
         let late = self.bins.iter().skip(self.bin(time));
         late.copied().fold(0.0, f64::max)
@@ -286,12 +289,12 @@ impl Largest {
     }
 }
 
-/// How changes of several numbers from period to period go on.
+/// Extrapolation of the changes of several numbers from period to period.
 #[derive(Debug, Clone, Copy)]
 struct Remains {
     /// The factor by which they decay per period.
     fading: f64,
-    /// The multiplier of changes that ring, as they decay.
+    /// The complex multiplier of changes that oscillate as they decay; `None` if they do not oscillate.
     ringing: Option<Complex<f64>>,
 }
 
@@ -314,8 +317,8 @@ impl Remains {
         decays.then_some(Self { fading, ringing })
     }
 
-    /// Twice what later changes can add up to: for the largest geometric series that touches the later half of these,
-    /// and for the ringing that has the last two.
+    /// Twice the largest sum of all later changes: of the largest geometric series through one change of the later half,
+    /// or of the oscillation through the last two changes.
     fn after(&self, changes: &[f64]) -> f64 {
         let later = changes[changes.len() / 2..].iter().rev();
         let faded = later.scan(1.0, |factor, change| {
@@ -338,7 +341,7 @@ impl Remains {
 }
 
 /// The complex multiplier of changes that obey `c_n = p c_{n-1} + q c_{n-2}`, by least squares over all numbers; `None`
-/// if they do not ring.
+/// if they do not oscillate.
 fn multiplier(changes: &[&[f64]]) -> Option<Complex<f64>> {
     let mut sums = [0.0; 5];
     for triple in changes.iter().flat_map(|changes| changes.windows(3)) {

@@ -1,4 +1,4 @@
-//! Steps of a stretch of the run of any length, in decreasing number.
+//! A bounded number of steps from a part of the run of any length.
 
 use stickslip_tip::Step;
 use stickslip_tip::state::{Damaged, Reader, State};

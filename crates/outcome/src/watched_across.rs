@@ -47,12 +47,12 @@ impl<'a> WatchedAcross<'a> {
         self.scenario
     }
 
-    /// The motion along the scan.
+    /// The observer of the motion along the scan.
     pub fn along(&self) -> &Observer {
         &self.along
     }
 
-    /// The motion across it.
+    /// The observer of the motion across the scan.
     pub fn across(&self) -> &SnakingObserver {
         &self.across
     }

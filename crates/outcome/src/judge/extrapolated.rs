@@ -44,7 +44,7 @@ impl End<'_> {
         Some(Outcome { oscillation, ..Outcome::settled(Regime::StickSlip) })
     }
 
-    /// A small cycle has the amplitude that the leading order at onset gives it.
+    /// Whether a cycle may have this amplitude: a small cycle has that of the leading order at onset.
     fn may_be_a_cycle(&self, amplitude: f64) -> bool {
         let model = &self.scenario.model;
         if amplitude > self.small() || !model.wider().is_papers() {

@@ -8,15 +8,15 @@ use stickslip_tip::TipFunction;
 
 /// A tip drifts if its velocity is within this relative distance of that of a steady walk.
 const DRIFTS: f64 = 1e-3;
-/// Without theory it drifts where its velocity has changed by less than this part in the last of its run.
+/// Without theory a tip drifts if its velocity changes by less than this fraction in the last fifth of the run.
 const UNCHANGED: f64 = 1e-4;
-/// Velocities are one order less accurate than positions: an error of the tolerance is this many times as much.
+/// Error of a velocity in units of the tolerance: velocities are one order less accurate than positions.
 const VELOCITY_ERROR: f64 = 10.0;
-/// Times at which the velocity is evaluated.
+/// Number of times at which the velocity is evaluated.
 const LOOKS: u32 = 1000;
 /// Relative error of the speed of a steady walk.
 const SPEED_ERROR: f64 = 1e-12;
-/// Of the leading growth exponents one is that of a shift, two may be a pair.
+/// Number of leading growth exponents: one is that of a shift, and two may be a pair.
 const ROOTS: usize = 3;
 
 /// Stability of the steady motions of a tip without a spring.
@@ -29,7 +29,7 @@ enum Theory {
     Unknown,
 }
 
-/// A steady motion without a spring that deviations decay to, and how fast.
+/// A stable steady motion without a spring, with the rate at which deviations from it decay.
 struct Attractor {
     velocity: f64,
     rate: f64,
@@ -65,7 +65,8 @@ impl End<'_> {
         Outcome::transient(Some(towards), Some(time))
     }
 
-    /// The largest distance of the velocity from `from` in the last fifth of the run, as far as it is kept, and the last.
+    /// The largest distance of the velocity from `from` in the last fifth of the run, as far as its steps are kept, and the
+    /// distance at the end.
     fn off(&self, from: f64) -> (f64, f64) {
         let end = self.last.end();
         let begin = (end - STEADY_SHARE * (end - self.start())).max(self.tail.start());
@@ -76,7 +77,7 @@ impl End<'_> {
         (off.max(now), now)
     }
 
-    /// On a walk whose velocity is that at the end but for an error.
+    /// A walk with the velocity at the end of the run, which has this error.
     fn drifts(&self, error: f64) -> Outcome {
         let velocity = self.last.velocity(self.last.end());
         let velocity_error = error + VELOCITY_ERROR * self.scenario.tolerance;
@@ -84,7 +85,7 @@ impl End<'_> {
         Outcome { drifting, ..Outcome::settled(Regime::Drifting) }
     }
 
-    /// Where there is no theory: a velocity that no longer changes.
+    /// Without theory: a walk if the velocity no longer changes.
     fn unchanged(&self) -> Outcome {
         let now = self.last.velocity(self.last.end());
         let (change, _) = self.off(now);
@@ -122,7 +123,7 @@ impl End<'_> {
     }
 }
 
-/// The rate at which deviations from a walk decay, but for a shift along the way; `None` where one grows.
+/// The rate at which deviations from a walk decay, except a shift along the scan; `None` if one of them grows.
 fn decay(spectrum: &Spectrum) -> Option<f64> {
     let error = spectrum.certificate.largest_error;
     let shift = spectrum.roots.iter().map(|z| z.norm()).fold(f64::INFINITY, f64::min);

@@ -3,9 +3,9 @@
 use super::*;
 use crate::rest::Rest;
 
-/// Times at which a force is looked for.
+/// Number of times at which the force is evaluated.
 const LOOKS: u32 = 20_000;
-/// ln of the growth that takes the errors of the sum over the past, a fortieth of the tolerance, to the tolerance.
+/// ln of the factor by which the errors of the history, a fortieth of the tolerance, grow to the tolerance.
 const MOST_GROWTH: f64 = 3.7;
 
 impl End<'_> {
@@ -46,7 +46,7 @@ impl End<'_> {
         remarks
     }
 
-    /// Of a tip without a spring that was at rest longer than its errors allow: rest is unstable.
+    /// A warning for a tip without a spring that was at rest, although rest is unstable, for longer than its errors allow.
     fn rest_remark(&self) -> Option<Remark> {
         let Scenario { model, force, tolerance, .. } = self.scenario;
         let coasts =
@@ -68,8 +68,8 @@ impl End<'_> {
         (growth > MOST_GROWTH).then_some(Remark::ErrorsGrowAtRest { growth: growth.exp() })
     }
 
-    /// Whether the run began in steady motion, and nothing disturbed it before errors, of the order of the tolerance
-    /// and growing at this rate, had become as large as a width.
+    /// Whether the run began in steady motion and was not disturbed until errors of the order of the tolerance,
+    /// growing at this rate, had become as large as a width.
     fn is_undisturbed(&self, rate: f64) -> bool {
         let Scenario { start, kick, noise, profile, force, tolerance, .. } = self.scenario;
         let smooth = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();

@@ -4,16 +4,16 @@ use super::*;
 use stickslip_stability::critical;
 use stickslip_tip::{Model, TipFunction};
 
-/// Errors of steps push l away from steady motion by this part of the tolerance in a period.
+/// Errors of steps push l away from steady motion by this fraction of the tolerance in a period.
 const PUSHED: f64 = 0.6;
-/// Below this part of the tolerance l is steady motion itself, where that is stable: what steps by series leave of it hovers
-/// at up to 0.24.
+/// A deviation from stable steady motion below this fraction of the tolerance counts as none: Taylor steps maintain
+/// deviations of up to 0.24.
 const UNDISTURBED: f64 = 0.5;
 
 /// Relative distance from αc below which the roots decide.
 const BESIDE_ONSET: f64 = 1e-6;
 
-/// In the basic model steady motion is stable up to αc, and nowhere beyond it.
+/// Whether steady motion is stable because α is below αc, in the basic model; `None` if this does not decide.
 fn by_alpha(model: &Model) -> Option<bool> {
     let is_sum = matches!(model.tip(), TipFunction::Gaussians(_));
     if !(is_sum && model.wider().is_papers()) || stop::is_asked() {
@@ -37,7 +37,7 @@ impl End<'_> {
         known.unwrap_or_else(|| matches!(self.linear(), Linear::Stable(_)))
     }
 
-    /// Whether the tip stays at l0.
+    /// Whether l stays at l0.
     pub(super) fn is_steady(&self) -> bool {
         let (start, end) = (self.start(), self.last.end());
         let share = self.observer.steady_since() < end - STEADY_SHARE * (end - start);
@@ -49,7 +49,7 @@ impl End<'_> {
         share && near && kept() && !self.grows()
     }
 
-    /// Whether steady motion is stable, and attracts by more than the errors of steps push away.
+    /// Whether steady motion is stable, and attracts l more strongly than the errors of steps push it away.
     pub(super) fn is_kept_steady(&self) -> bool {
         let Linear::Stable(Slowest { rate, period }) = self.linear() else { return false };
         PUSHED * self.scenario.tolerance / (rate * period).min(1.0) < self.observer.near_steady()

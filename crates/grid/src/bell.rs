@@ -17,7 +17,7 @@ pub(crate) struct Bell {
     steepness: f64,
     /// e^{-i²h²/2s²}, i = 1, 2, …, until below 1e-17; a multiple of four long
     right: Vec<f64>,
-    /// The same backwards
+    /// `right` backwards
     left: Vec<f64>,
 }
 

@@ -31,7 +31,7 @@ pub enum GridError {
     /// The spacing must be finite and > 0.
     #[error("the grid spacing is {0}: it must be a finite number > 0")]
     Spacing(f64),
-    /// No cell lies between the two ends.
+    /// Too few or too many cells lie between the two ends.
     #[error(
         "the grid runs from {from} to {to}: it must contain at least four cells and at most 2^31"
     )]
@@ -50,7 +50,7 @@ pub enum GridError {
     /// A Gaussian needs finite amplitude and center, and a width > 0; there must be one.
     #[error("a lattice of Gaussians needs at least one, with finite numbers and width > 0")]
     Gaussians,
-    /// The interpolation must reach over at least one cell.
+    /// The interpolation must reach over 1 to 10000 cells.
     #[error("the interpolation reaches over {0} cells: it must be between 1 and 10000")]
     HalfWidth(usize),
     /// Reading after writing does not reproduce the footprint.

@@ -12,7 +12,7 @@
 //! |---|---|---|---|
 //! | [`Method::Uniform`] | all N + 1, as in the paper | differences, O(Δx²) | Dormand–Prince 5(4) |
 //! | [`Method::Windowed`] | the cells within reach of the tip | the same | the same |
-//! | [`Method::Spectral`], [`Method::Sinc`] | the same, 8.7/π to a tip width | round-off | Dormand–Prince 8(5,3) |
+//! | [`Method::Spectral`], [`Method::Sinc`] | the same, 8.7/π per tip width | round-off | Dormand–Prince 8(5,3) |
 //!
 //! Every sum over cells ends at the [`Footprint::reach`], where f is below round-off: nodes are neglected by
 //! distance, never by time. The methods are explicit: a deep groove (a trapped tip) makes the problem stiff, u_xx ~

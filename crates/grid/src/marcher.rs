@@ -87,7 +87,7 @@ impl<'a> Marcher<'a> {
         }
     }
 
-    /// The same with a callback for the positions of the tip in every accepted step.
+    /// Adds a callback for the positions of the tip in every accepted step.
     pub(crate) fn telling(self, visited: &'a mut Visited<'a>) -> Self {
         Self { visited: Some(visited), ..self }
     }
@@ -97,7 +97,7 @@ impl<'a> Marcher<'a> {
         self.run_to_velocity(request, observe).map(|(run, _)| run)
     }
 
-    /// The same, and returns the final x0' with inertia.
+    /// As [`run`](Self::run), and returns the final x0' with inertia.
     pub(crate) fn run_to_velocity(
         mut self,
         request: &Request,

@@ -28,16 +28,16 @@ pub enum Method {
         /// Δx
         spacing: f64,
     },
-    /// For a footprint that is a sum of Gaussians: a lattice with narrower Gaussians for writing and reading; order
-    /// 8. With `spacing` ≤ 0.36 the time integration is the only error.
+    /// For a footprint that is a sum of Gaussians: a lattice with narrower Gaussians for writing and reading; order 8 in
+    /// time. With `spacing` ≤ 0.36 the time integration is the only error.
     Spectral {
         /// The terms of the footprint
         gaussians: Vec<Gaussian>,
-        /// Spacing in units of the smallest width; π/8.7 gives round-off
+        /// Spacing in units of the smallest width; π/8.7 reduces its error to round-off
         spacing: f64,
     },
-    /// For any smooth footprint: samples and a regularised sinc; order 8. For Gaussians about 3 times the work of
-    /// [`Method::Spectral`].
+    /// For any smooth footprint: samples and a regularised sinc; order 8 in time. For Gaussians about 3 times the work
+    /// of [`Method::Spectral`].
     Sinc {
         /// Spacing of the samples, in units of x: at most π over the largest wave number in f
         spacing: f64,
@@ -98,7 +98,7 @@ pub fn solve_observed(
     }
 }
 
-/// A run that ends with [`GridError::LeftGrid`] where the tip is not inside of the grid at the end of a step.
+/// A run that ends with [`GridError::LeftGrid`] if the tip is outside the grid at the end of a step.
 pub(crate) fn run_within<T>(
     is_inside: impl Fn(f64) -> bool,
     observe: &mut Observer,
@@ -115,7 +115,7 @@ pub(crate) fn run_within<T>(
     ran.map_err(|error| left.unwrap_or(error))
 }
 
-/// Cells that contain the heights themselves.
+/// A run on cells that contain the heights themselves.
 fn second_order(
     problem: &Problem,
     scheme: Box<dyn Scheme + '_>,
@@ -129,7 +129,7 @@ fn second_order(
         .run(request, observe)
 }
 
-/// A lattice that contains only u - u0; u0 and its slope are evaluated on request.
+/// A run on a lattice that contains only u - u0; u0 and its slope are evaluated on request.
 fn spectral(
     problem: &Problem,
     scheme: Box<dyn Scheme + '_>,

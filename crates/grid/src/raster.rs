@@ -31,9 +31,9 @@ pub struct Layer<'a> {
 pub struct ScanLine {
     /// y of the line.
     pub y: f64,
-    /// Start of the support.
+    /// x of the support at the start.
     pub from: f64,
-    /// End of the support.
+    /// x of the support at the end.
     pub to: f64,
 }
 
@@ -41,7 +41,8 @@ pub struct ScanLine {
 pub struct Scan<'a> {
     /// α and r.
     pub model: (f64, f64),
-    /// b, T and M. The initial velocity with inertia is that of the line before on a zigzag, and otherwise 0.
+    /// Depth limit b, healing time T and inertia M. The initial velocity with inertia is that at the end of the line
+    /// before on a zigzag, and otherwise 0.
     pub law: (Option<f64>, Option<f64>, Option<f64>),
     /// The terms of f(x,y).
     pub layers: &'a [Layer<'a>],
@@ -78,8 +79,8 @@ const OUTSIDE: f64 = 2.0;
 /// scan.
 pub type LineObserver<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
-/// Scans all lines on a flat surface; `spacing` is that of the cells. Times are those of every line, ascending from
-/// its start, each reached exactly by a step; those after its end are ignored.
+/// Scans all lines on a flat surface; `spacing` is that of the cells. The `times` count from the start of each line and
+/// are ascending. A step ends at each of them; times after the end of a line are ignored.
 ///
 /// # Errors
 /// Invalid input; a tip that leaves the grid; a step lost in round-off; [`GridError::Stopped`].
@@ -222,7 +223,7 @@ impl Plane {
     }
 }
 
-/// A row with its state before the line.
+/// Interpolation of the heights of a row before the line is scanned.
 struct Reader<'a> {
     scheme: Box<dyn Scheme + 'a>,
     first: i64,

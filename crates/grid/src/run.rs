@@ -53,7 +53,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// The work of both.
+    /// The sum of both.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             steps: self.steps + other.steps,

@@ -27,7 +27,7 @@ impl<'a> Sinc<'a> {
         Self { footprint, spacing, steepness: width.powi(-2), bell: Bell::new(width, spacing) }
     }
 
-    /// The same for numbers that a user gives.
+    /// As [`Self::new`], for numbers that may be invalid.
     ///
     /// # Errors
     /// A width or a spacing out of range.

@@ -12,7 +12,7 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// A general initial condition. `slope` must be the derivative of `height`; only the spectral grid uses it.
+    /// A general initial condition. `slope` must be the derivative of `height`; the second-order grids do not use it.
     pub fn new(
         time: f64,
         x0: f64,
@@ -43,8 +43,8 @@ impl<'a> Start<'a> {
         )
     }
 
-    /// The same for the extended model: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the weight at
-    /// this depth, and l0 the slope under the tip. On a path the start is at t = 0.
+    /// As [`steady`](Self::steady) in the extended model: u0(x) = -(α w0/r) ∫_0^∞ f(x - X + y) e^{-y/(rT)}dy, with w0 the
+    /// weight at this depth, and l0 the slope under the tip. On a path the start is at t = 0.
     pub fn steady_under(
         wider: &Wider,
         (alpha, r): (f64, f64),

@@ -2,7 +2,7 @@
 
 use crate::GridError;
 
-/// Local error allowed per step, in every unknown y: `atol` + `rtol` |y|, in the largest norm.
+/// Local error allowed per step: `atol` + `rtol` |y| in every unknown y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
     /// Relative part. It also applies to x0, which grows indefinitely.

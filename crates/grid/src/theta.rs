@@ -23,8 +23,8 @@ pub struct Gaussian {
 /// exp(-(x-y)²/2) = √(2/π) h Σ_j exp(-(x-x_j)²) exp(-(x_j-y)²) (1 + ε),  |ε| ≤ 2 exp(-π²/2h²).
 ///
 /// Cells contain w_j with w_j' = -α g(x_j - x0), g the sum of the writing Gaussians; then u(x) = u0(x) + h Σ_j G(x -
-/// x_j) w_j. Samples of u would need interpolation over tens of cells for round-off; these are read within 6.3 W. h =
-/// W π/8.7 gives 7e-17.
+/// x_j) w_j with the reading Gaussian G. For an error at round-off, samples of u would need interpolation over tens of
+/// cells, but w_j only within 6.3 W. h = W π/8.7 gives 7e-17.
 pub(crate) struct Theta {
     spacing: f64,
     read: Bell,
@@ -48,8 +48,8 @@ impl Theta {
         Ok(Self::read_by(width, gaussians, spacing))
     }
 
-    /// The scheme that reads with a Gaussian of W²/2 for this W, at most the smallest width; `spacing` is in units of
-    /// it.
+    /// The scheme that reads with a Gaussian of variance W²/2 for W = `width`, at most the smallest width; `spacing` is in
+    /// units of W.
     pub(crate) fn read_by(width: f64, gaussians: &[Gaussian], spacing: f64) -> Self {
         let half = 0.5 * width * width;
         let spacing = spacing * width;

@@ -46,7 +46,7 @@ impl Scheme for ThreePoint<'_> {
     }
 }
 
-/// The same with all N + 1 cells of a fixed grid written at every stage, as in the paper.
+/// [`ThreePoint`] with all N + 1 cells of a fixed grid written at every stage, as in the paper.
 pub(crate) struct WholeGrid<'a> {
     grid: ThreePoint<'a>,
     first: i64,

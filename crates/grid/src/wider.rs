@@ -20,11 +20,11 @@ pub struct Path<'a> {
 
 /// b, T, M and κ; by default the basic model (10), (11).
 pub struct Wider<'a> {
-    /// b
+    /// Depth limit b.
     pub depth_limit: Option<f64>,
-    /// T
+    /// Healing time T.
     pub healing_time: Option<f64>,
-    /// M, and the initial velocity.
+    /// Inertia M, and the initial velocity.
     pub inertia: Option<(f64, f64)>,
     /// Whether there is a spring: κ = 1, or 0 without.
     pub spring: bool,

@@ -20,7 +20,7 @@ pub(super) struct Marcher<'a> {
     tableau: &'static Tableau,
     stepping: Stepping,
     control: Control,
-    /// e^{(t - s)/T} (u - u0), with u0 the initial surface as far as it remains.
+    /// e^{(t - s)/T} (u - u0), with u0 the remaining part of the initial surface.
     sheet: &'a mut Sheet,
     t: f64,
     position: [f64; 2],
@@ -179,7 +179,7 @@ impl<'a> Marcher<'a> {
         self.work.cells_updated += stage.imprint.iter().map(cells).sum::<usize>() as u64;
     }
 
-    /// The sheet at stage `i`, seen through two stencils.
+    /// The value of the product of two stencils on the sheet at stage `i`.
     fn read(&self, i: usize, h: f64, along: &Patch, across: &Patch) -> f64 {
         let own = |(a, stage): (&f64, &Stage)| {
             let each = stage.imprint.iter();

@@ -14,7 +14,7 @@ use crate::{GridError, Wider};
 pub struct PlaneProblem<'a> {
     /// α and r. Without a spring α may be below 0, and r is ignored.
     pub model: (f64, f64),
-    /// κ_y
+    /// Stiffness κ_y of the spring across the line.
     pub stiffness_across: f64,
     /// Y, the y of the line.
     pub line: f64,

@@ -26,7 +26,7 @@ pub(super) fn value(terms: &[Gaussian], x: f64) -> f64 {
     terms.iter().map(|term| term_and_z(term, x).0).sum()
 }
 
-/// Its derivative.
+/// The derivative of [`value`].
 pub(super) fn slope(terms: &[Gaussian], x: f64) -> f64 {
     let one = |term| {
         let (value, z) = term_and_z(term, x);

@@ -12,9 +12,10 @@ use crate::{GridError, LineObserver, Path, Request, ScanLine, Stepping, Wider, W
 pub struct PlaneScan<'a> {
     /// α and r.
     pub model: (f64, f64),
-    /// b, T and M. The initial velocity with inertia is that of the line before on a zigzag, and otherwise 0.
+    /// Depth limit b, healing time T and inertia M. The initial velocity with inertia is that at the end of the line
+    /// before on a zigzag, and otherwise 0.
     pub law: (Option<f64>, Option<f64>, Option<f64>),
-    /// κ_y
+    /// Stiffness κ_y of the spring across the lines.
     pub stiffness_across: f64,
     /// The terms of f(x,y).
     pub products: &'a [Product],
@@ -22,7 +23,7 @@ pub struct PlaneScan<'a> {
     pub lines: &'a [ScanLine],
     /// Whether the tip starts a line where the one before has ended, instead of at the start of the line.
     pub zigzag: bool,
-    /// y0 minus the y of the first line at its start.
+    /// y0 minus the y of the first line, at the start of this line.
     pub kick: f64,
     /// (F_x, F_y) on the first line, against the time since its start.
     pub force: &'a dyn Fn(f64) -> [f64; 2],
@@ -44,8 +45,8 @@ pub struct PlaneScanned {
 /// (x0, y0) and x0' at the end of a line.
 type State = ([f64; 2], f64);
 
-/// Scans all lines on a flat surface. Times are those of every line, ascending from its start, each reached exactly by
-/// a step; those after its end are ignored.
+/// Scans all lines on a flat surface. The `times` count from the start of each line and are ascending. A step ends at
+/// each of them; times after the end of a line are ignored.
 ///
 /// # Errors
 /// Invalid input; a step lost in round-off; [`GridError::Stopped`].
@@ -94,7 +95,7 @@ pub fn scan_plane(
     Ok(scanned)
 }
 
-/// The problem of one line, on what the lines before it left.
+/// The problem of one line, without the surface that earlier lines left.
 fn problem<'a>(
     scan: &PlaneScan<'a>,
     (n, line): (usize, &ScanLine),

@@ -3,8 +3,7 @@
 use crate::patch::Patch;
 use std::collections::VecDeque;
 
-/// Values at the cells (i, j), column by column: each column i has the cells j that were written, and all others are 0.
-/// It is extended on demand.
+/// Values at the cells (i, j), column by column. Each column i has the cells j that were written; all others are 0.
 #[derive(Debug, Default)]
 pub(super) struct Sheet {
     first: i64,

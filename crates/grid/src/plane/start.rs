@@ -29,8 +29,8 @@ impl<'a> PlaneStart<'a> {
     ///
     /// u0(x, y) = -(α w0/r) Σ h(y) ∫_0^∞ g(x - X + y') e^{-y'/(rT)}dy'
     ///
-    /// with w0 the weight at this depth. The spring is stretched by r and the slope under the tip; the start is at the
-    /// time at which R = rt is there, or at 0 on a path.
+    /// with w0 the weight at this depth. The spring is stretched by r plus the slope under the tip. The start is at the
+    /// time at which R = rt stretches it so far, or at 0 on a path.
     pub fn steady(
         wider: &Wider,
         (alpha, r): (f64, f64),

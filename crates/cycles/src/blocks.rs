@@ -7,7 +7,7 @@ pub(super) type Square = SMatrix<f64, STAGES, STAGES>;
 pub(super) type Vector = SVector<f64, STAGES>;
 
 /// The inverse, by Gauss-Jordan elimination in place with the largest entry of each column as pivot; `None` for a
-/// singular matrix. A fifth of the instructions of a general inverse.
+/// singular matrix. It takes a fifth of the instructions of a general inverse.
 pub(super) fn inverted(matrix: Square) -> Option<Square> {
     let mut rows: [[f64; STAGES]; STAGES] = matrix.transpose().into();
     let mut pivots = [0; STAGES];

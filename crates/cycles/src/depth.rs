@@ -23,8 +23,9 @@ pub(super) struct LinearHeights {
     by_displacement: Square,
     /// ∂v/∂η
     pull: Square,
-    /// g, and its derivative with respect to the step length.
+    /// g
     groove: Vector,
+    /// Derivative of g with respect to the step length.
     groove_rate: Vector,
     /// Residual η + α g.
     missed: Vector,

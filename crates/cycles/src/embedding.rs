@@ -9,8 +9,8 @@ use stickslip_tip::{Model, TipFunction, Wider, tip_function};
 /// (18) with f'(ξ) = `Σ_j Re(w_j e^{s_j ξ})` behind the tip.
 ///
 /// The state of the tip and its history is X = (e, Re ζ, Im ζ), where e = rt - x0 is the extension of the spring and
-/// `ζ_j = w_j ∫ e^{s_j (x0(t) - x0(t'))}dt'`. It is a vector of fixed length, and a cycle is a periodic solution of
-/// its equation. With inertia its last component is the velocity. Under a depth limit the height under the tip is no
+/// `ζ_j = w_j ∫ e^{s_j (x0(t) - x0(t'))}dt'`. X is a vector of fixed length, and a cycle is a periodic solution of the
+/// equation for X. With inertia its last component is the velocity. Under a depth limit the height under the tip is no
 /// further component, but -α `Σ_j Re(ζ_j/s_j)`.
 ///
 /// Three sums represent f'. The equations are solved in the `fine` one. They are linearised in the `short` one for
@@ -121,12 +121,12 @@ impl Embedding {
         Ok(Self { tip, alpha, r, wider, fine, short, rough, short_is_precise, band })
     }
 
-    /// Whether f is fitted by exponents on a lattice.
+    /// Whether f' is fitted by exponents on a lattice.
     pub(super) fn is_on_lattice(&self) -> bool {
         self.fine.terms().len() > FEW
     }
 
-    /// Half the width of a peak of f, for the step length: the width of a Gaussian.
+    /// The width of a Gaussian with this bandwidth: the scale of the peaks of f.
     pub(super) fn width(&self) -> f64 {
         tip_function::widths(1.0, self.band)
     }

@@ -85,7 +85,7 @@ pub enum CycleError {
         /// The requested r.
         r: f64,
     },
-    /// The tip moves back farther than the sum of exponentials is valid.
+    /// The tip moves back farther than the range in which the sum of exponentials is valid.
     #[error("the tip moves back by {retreat:.3}, more than the {most:.3} that cycles can have")]
     Retreat {
         /// Largest backward motion, in σ.

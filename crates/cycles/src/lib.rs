@@ -275,7 +275,7 @@ impl Cycle {
         self.closed.equation.work((self.iterations() * self.steps()) as f64)
     }
 
-    /// Number of linearisations in the solution.
+    /// Number of linearisations that the solution took.
     pub fn iterations(&self) -> usize {
         self.closed.iterations
     }

@@ -87,8 +87,8 @@ pub(super) struct Aim {
     pub(super) sharper: f64,
     /// Whether no step may become longer.
     pub(super) only_finer: bool,
-    /// Whether the motion may be resonant: where its leading derivative passes through zero a step shows no residual,
-    /// and on the next mesh this happens elsewhere.
+    /// Whether the motion may be resonant: a step shows no residual where the leading derivative of the motion passes
+    /// through zero, and on the next mesh this is another step.
     pub(super) may_ring: bool,
 }
 

@@ -67,7 +67,7 @@ pub(super) fn largest_multiplier(linearisation: &Linearisation) -> f64 {
     others.map(|(_, m)| m.norm()).fold(0.0, f64::max)
 }
 
-/// The multipliers in the short sum; under a depth limit in the fine one, because heights decay more slowly than
+/// The monodromy matrix in the short sum; under a depth limit in the fine one, because heights decay more slowly than
 /// slopes.
 fn monodromy(closed: &Closed) -> Option<DMatrix<f64>> {
     let Embedding { wider, fine, .. } = &closed.equation;

@@ -66,8 +66,8 @@ pub(super) struct PastOfStep<'a> {
 }
 
 impl<'a> Past<'a> {
-    /// `None` after a request to stop. `carved` contains the weights and the decay of each step; `numbers` are those of an
-    /// earlier history, whose memory is used again.
+    /// The history of a periodic orbit; `None` after a request to stop. `carved` contains the weights and the decay of each
+    /// step; `numbers` are those of an earlier history, whose memory is used again.
     ///
     /// Over a step of length h ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`, with the healing time T; after a
     /// period it must be the same again.

@@ -111,7 +111,7 @@ impl Ripple {
         heights
     }
 
-    /// Largest `sign` · u close to the best of points at this spacing: Newton's method for zero slope.
+    /// Largest `sign` · u close to `start`, the best of points at this spacing: Newton's method for zero slope.
     fn extremum(&self, sign: f64, start: f64, spacing: f64) -> f64 {
         let height = |x: f64| sign * self.at(x).0;
         let mut x = start;

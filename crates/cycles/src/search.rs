@@ -54,8 +54,8 @@ pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
 /// Newton's method finds it from its leading order, it is returned; otherwise the cycle that a run settles into. If
 /// neither is stable, an unstable cycle is returned.
 ///
-/// The residual of (18) on it is at most `tolerance` at all times. Its period and amplitudes are more accurate than
-/// that, as collocation converges faster at the ends of steps.
+/// The residual of (18) on this cycle is at most `tolerance` at all times. The period and the amplitudes are more
+/// accurate, as collocation converges faster at the ends of steps.
 ///
 /// # Errors
 /// A tolerance out of range, a footprint that never fades, or no cycle close to any guess.
@@ -305,7 +305,7 @@ fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit
     from_onset(equation, &onset).filter(|_| small_cycle_exists(equation, &onset))
 }
 
-/// Cycles that a search is for.
+/// The cycles that a search is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sought {
     /// All cycles.
@@ -315,7 +315,7 @@ enum Sought {
 }
 
 /// A cycle is clearly unstable if a multiplier of its first solution, on the mesh of its guess and in the rough sum, is
-/// above this. Over a map of 14 × 14 these multipliers were within 1e-5 of those of the cycle.
+/// above this. In a phase diagram of 14 × 14 points these multipliers were within 1e-5 of those of the cycle.
 const CLEARLY_UNSTABLE: f64 = 1.01;
 
 impl Sought {

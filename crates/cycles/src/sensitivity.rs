@@ -6,7 +6,7 @@ use num_complex::Complex;
 use stickslip_tip::collocation::{STAGES, Stages};
 
 /// Rows of derivatives with respect to the state X at t = 0, the period and the free parameter, and last the change
-/// that solves the stage equations. Row by row in memory.
+/// that solves the stage equations. They are stored row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Sensitivity {
     columns: usize,
@@ -98,7 +98,7 @@ impl Sensitivity {
         turn(re, im, stride, factors);
     }
 
-    /// Row i times the changes of the unknowns, 1 for the correction.
+    /// Row i times the changes of the unknowns, with 1 for the correction.
     pub(super) fn change(&self, i: usize, unknowns: &[f64]) -> f64 {
         self.row(i).iter().zip(unknowns).map(|(s, u)| s * u).sum()
     }

@@ -19,7 +19,7 @@ pub(super) struct Closed {
     pub(super) linearisation: Arc<Linearisation>,
     /// Estimate of the largest residual of (18).
     pub(super) residual: f64,
-    /// Number of linearisations in the solution.
+    /// Number of linearisations that the solution took.
     pub(super) iterations: usize,
 }
 

@@ -47,7 +47,7 @@ pub enum GridError {
     /// Requested times must be finite, ascending, at or after the start.
     #[error("requested time {0}: times must be finite, ascending and not before the start")]
     Time(f64),
-    /// A Gaussian needs finite amplitude and center, and a width > 0; there must be one.
+    /// A Gaussian needs finite amplitude and center, and a width > 0; there must be at least one Gaussian.
     #[error("a lattice of Gaussians needs at least one, with finite numbers and width > 0")]
     Gaussians,
     /// The interpolation must reach over 1 to 10000 cells.

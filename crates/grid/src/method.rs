@@ -23,7 +23,7 @@ pub enum Method {
         /// Right end
         to: f64,
     },
-    /// The same scheme and pair, but a step updates only the cells within reach of the tip. Order 2.
+    /// As [`Method::Uniform`], but a step updates only the cells within reach of the tip. Order 2.
     Windowed {
         /// Δx
         spacing: f64,

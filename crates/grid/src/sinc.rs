@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 ///
 /// S(d) = sin(πd/h)/(πd/h) · exp(-d²/2s²),  s = m h/8.85,
 ///
-/// with m cells on either side (L. Qian, Proc. Amer. Math. Soc. 131 (2003) 1169). The error for a wave of number k is
-/// about erfc((π/h - k) s/√2). With f̂ ∝ exp(-k²/2) its maximum is exp(-(π/h)² s²/2(1+s²)): h = 0.36 and m = 80 (s =
-/// 3.25) give 1e-15, m = 25 only 2e-9.
+/// with m cells on either side (L. Qian, Proc. Amer. Math. Soc. 131 (2003) 1169). The error for a wave number k is about
+/// erfc((π/h - k) s/√2). For f̂ ∝ exp(-k²/2) the largest error is exp(-(π/h)² s²/2(1+s²)): h = 0.36 and m = 80 (s = 3.25)
+/// yield 1e-15, m = 25 only 2e-9.
 pub(crate) struct Sinc<'a> {
     footprint: Footprint<'a>,
     spacing: f64,

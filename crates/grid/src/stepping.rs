@@ -96,7 +96,7 @@ pub(crate) fn too_small(step: f64, t: f64) -> bool {
     step <= 4.0 * f64::EPSILON * t.abs().max(1e-3)
 }
 
-/// Hairer, Nørsett and Wanner's e5²/√(e5² + 0.01 e3²); without a second estimate e5.
+/// The error e5²/√(e5² + 0.01 e3²) of Hairer, Nørsett and Wanner from two estimates; e5 if there is no second one.
 pub(crate) fn blend(fifth: f64, third: f64) -> f64 {
     if third > 0.0 { fifth * fifth / fifth.hypot(0.1 * third) } else { fifth }
 }

@@ -38,7 +38,7 @@ pub(crate) enum Fate {
     Held(Creeping),
     /// The tip slips after this time.
     Slips(f64),
-    /// Neither can be decided.
+    /// It cannot be decided which of these.
     Open,
 }
 

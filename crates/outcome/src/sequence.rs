@@ -8,7 +8,7 @@ pub(crate) struct Sequence<'a>(pub(crate) &'a [Extremum]);
 /// Number of periods over which the changes are compared.
 const PERIODS: usize = 6;
 const FEWEST: usize = 4;
-/// If the ratio of successive changes is above this, they may not decrease at all.
+/// Successive changes with a larger ratio possibly do not decrease at all.
 const FALLS: f64 = 0.95;
 /// Largest number of maxima of l in a period.
 pub(crate) const MOST_SLIPS: usize = 8;

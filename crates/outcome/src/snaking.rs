@@ -9,7 +9,7 @@ use stickslip_tip::state::{Damaged, Reader, State};
 
 /// A motion is periodic if the changes that remain add up to at most this fraction of its amplitude, and of its period.
 const REPEATS: f64 = 1e-3;
-/// Evaluations of the velocity within a step: between two of them it changes sign at most once.
+/// Number of evaluations of a velocity within a step: between two of them it changes its sign at most once.
 const LOOKS: u32 = 8;
 /// Changes below this many tolerances count as errors of steps.
 const ERRORS: f64 = 10.0;

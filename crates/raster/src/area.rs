@@ -9,7 +9,7 @@ use stickslip_tip::sorting::sort_numbers;
 pub enum Area {
     /// Lines of equal length, one pitch apart, from x = 0 and y = 0.
     Rectangle {
-        /// Distance of the lines; ignored by [`Path::Repeat`].
+        /// Distance between the lines; ignored by [`Path::Repeat`].
         pitch: f64,
         /// Number of lines.
         lines: usize,
@@ -20,7 +20,7 @@ pub enum Area {
     Lines(Vec<AreaLine>),
 }
 
-/// Largest |y|; beyond it lines at usual distances would be lost in round-off.
+/// Largest |y|; beyond it the usual distances between lines would be lost in round-off.
 const FARTHEST: f64 = 1e9;
 /// Largest relative difference of distances that count as equal.
 const EVEN: f64 = 1e-9;

@@ -6,10 +6,10 @@
 //!     U_n(x) = -α Σ_{m<n} ∫ f(x - x0_m(t), y_n - y_m) dt
 //! ```
 //!
-//! so that a line is an ordinary run with U_n as its initial surface. Of each line only the residence density ρ_m is
-//! stored, the time that the tip spent at each x, as ρ̂_m(k) up to the band of f. Cost and memory of a line do not
-//! depend on the number of earlier lines, because lines out of reach are dropped. `docs/explanation/rasters.md` derives
-//! the threshold, and `docs/findings/README.md` has the results.
+//! so that a line is an ordinary run with U_n as its initial surface. Each line is represented by its residence density
+//! ρ_m, the time that the tip spent at each x, up to the bandwidth of f. Cost and memory of a line do not depend on the
+//! number of earlier lines, because lines out of reach are dropped. `docs/explanation/rasters.md` derives the threshold
+//! of ripples, and `docs/findings/README.md` has the results.
 //!
 //! ```
 //! use stickslip_raster::{Path, Plan, Scanned, Scanning};

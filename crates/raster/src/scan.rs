@@ -1,4 +1,4 @@
-//! Scan of the lines one after the other; it can be stopped and resumed between any two.
+//! Scan of the lines one after the other; it can be stopped and resumed between any two lines.
 
 use crate::course::{Course, Rows};
 use crate::error::RasterError;

@@ -1,6 +1,6 @@
 //! The imaginary axis Λ = iΩ, on which (42) and (43) hold.
 //!
-//! With c(Ω) = -∫f'' cos = Ω² f̂(Ω)/2 and s(Ω) = (1/Ω)∫f'' sin they read r = s/c and αc = r/c.
+//! With c(Ω) = -∫f'' cos = Ω² f̂(Ω)/2 and s(Ω) = (1/Ω)∫f'' sin, (42) is r = s/c and (43) is αc = r/c.
 
 use super::kept::Kept;
 use super::transform::CurvatureTransform;
@@ -35,7 +35,7 @@ impl AxisPoint {
         (r * self.cosine - self.sine, r * self.cosine_slope - self.sine_slope)
     }
 
-    /// αc² - s, which vanishes where (43) holds for given α, and its derivative.
+    /// α c² - s, which vanishes where (43) holds for given α, and its derivative.
     fn alpha_mismatch(&self, alpha: f64) -> (f64, f64) {
         (
             alpha * self.cosine * self.cosine - self.sine,

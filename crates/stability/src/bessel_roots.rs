@@ -1,4 +1,4 @@
-//! Roots for f = J0: (44), squared to a quartic, without the roots of the other branch.
+//! Roots for f = J0: (44), squared to a quartic, without the roots of the other branch of the square root.
 //!
 //! With s = √(Λ²+1), κ = α/r: p(Λ) = s((r - κ)Λ + 1) + κΛ² = 0, (45). Squared, and divided by Λ⁴
 //! (Λ = 0 is no root), μ = 1/Λ solves μ⁴ + 2aμ³ + (1+a²)μ² + 2aμ + a² - κ² = 0, a = r - κ.
@@ -126,7 +126,7 @@ impl Branch {
         roots
     }
 
-    /// Roots right of `left` by the argument principle on the upper half of the cut plane.
+    /// Number of roots right of `left` by the argument principle on the upper half of the cut plane.
     fn counted(&self, left: f64) -> Result<(Region, usize, f64), StabilityError> {
         let shift = |n: i32| 1e-6 * (4.0_f64.powi(n) - 1.0);
         let counted = (0..8).find_map(|n| self.counted_at(left - shift(n)).ok());

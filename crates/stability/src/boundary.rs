@@ -11,13 +11,13 @@ use stickslip_tip::{TipFunction, Wider};
 /// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below αc.
 ///
 /// Several Ω can belong to one r. All are found by a scan of Ω over the band of the tip function, and the one with the
-/// smallest α is returned. For J0 in the basic model, αc = r² and Ω of (47) are exact. The ω of (46), (47) is Ω of
+/// smallest α is returned. For J0 in the basic model, αc = r² and Ω of (47) are exact. The ω of (46), (47) is the Ω of
 /// section IV.B, so that the frequency in time is rΩ.
 ///
 /// If the height of the surface under the steady tip is 0, steady motion lies on the kink of |h| in the depth limit (β
 /// = 1 without healing). Small deviations then obey an equation that is homogeneous but not linear. The returned α is
 /// the one at which a small oscillation of any amplitude neither grows nor decays, marked [`OnsetKind::NonSmooth`].
-/// There are no roots there.
+/// No roots λ exist at this point.
 ///
 /// # Errors
 /// r is not a positive finite number, a parameter of the model is out of range, or there is no spring;

@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use stickslip_tip::{Gaussian, TipFunction};
 
-/// Samples of f over its reach, from which its integrals are bounded.
+/// Number of samples of f over its reach, from which its integrals are bounded.
 const SAMPLES: u32 = 1000;
-/// Safety factor between these sums and the bounds.
+/// Safety factor between sums over the samples and the bounds.
 const MARGIN: f64 = 1.1;
 /// Factor between successive distances in the search for a bound.
 const STEP: f64 = 1.1;

@@ -7,9 +7,9 @@ use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Rectangles smaller than this, in units of 1/`length`, contain one multiple zero.
+/// Zeros in a rectangle smaller than this, in units of 1/`length`, count as one multiple zero.
 const SMALLEST: f64 = 1e-6;
-/// Rectangles smaller than this fraction of their distance from the origin also contain one multiple zero.
+/// So do zeros in a rectangle smaller than this fraction of its distance from the origin.
 const SMALLEST_PART: f64 = 1e-12;
 /// Two zeros in a rectangle smaller than this, in units of 1/`length`, are sought as a pair: lines between them would
 /// pass too close to them.

@@ -10,7 +10,7 @@ use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::{Model, TipFunction};
 
-/// Largest distance to the left in which roots are sought, in inverse widths.
+/// Largest distance left of the imaginary axis at which roots are sought, in inverse widths.
 const WIDENINGS: f64 = 60.0;
 /// Exponent of the amplification at which round-off of 1e-16 in f, or 1e-11 in f'' of a dense table, is no longer
 /// small.
@@ -102,7 +102,7 @@ impl Characteristic {
         matches!(self.law.footprint.tip(), TipFunction::Gaussians(_))
     }
 
-    /// A line left of all zeros, if there is no indentation and they are few.
+    /// Re Λ of a line left of all zeros, if there is no indentation; else `None`.
     pub(super) fn left_of_all(&self) -> Option<f64> {
         let Law { drag, spring, inertia, .. } = self.law;
         let zeros =

@@ -1,16 +1,16 @@
 //! Non-smooth onset: the height under the steady tip is 0, on the kink of |h| of a depth limit.
 //!
 //! w - 1 = -|h|/b is of first order in a small deviation, but not linear. The equation of small deviations is
-//! nevertheless homogeneous: any positive multiple of a solution is a solution. So there is one α, for any (small)
-//! amplitude, at which an oscillation neither grows nor decays; it contains the harmonics of |h|. With p_n = inΩ + s,
-//! the deviation ξ = Σξ_n e^{inθ}, W = -|h|/b and bare(Λ) = Mr²Λ² + rΛ + 1,
+//! nevertheless homogeneous: any positive multiple of a solution is a solution. So there is one α at which an
+//! oscillation of any (small) amplitude neither grows nor decays. This oscillation contains the harmonics of |h|. With
+//! p_n = inΩ + s, the deviation ξ = Σξ_n e^{inθ}, W = -|h|/b and bare(Λ) = Mr²Λ² + rΛ + 1 it satisfies
 //!
 //! ```text
 //!     (bare(inΩ) + A(G(p_n) - G(s))) ξ_n = A φ1(p_n) W_n,    h_n = -A(φ1(s) - φ1(p_n)) ξ_n - A φ(p_n) W_n
 //! ```
 //!
-//! solved for A, Ω and the harmonics with ξ_1 = 1, by fixed-point iteration of W. The iteration diverges if b is so
-//! small that the harmonics of |h| are large: for β = 1, r = 1 between b = 1 and 0.7.
+//! These equations are solved for A, Ω and the harmonics with ξ_1 = 1, by fixed-point iteration of W. The iteration
+//! diverges if b is so small that the harmonics of |h| are large: for β = 1, r = 1 below a b between 1 and 0.7.
 
 use super::crossings::Crossing;
 use super::law::Law;

@@ -23,7 +23,7 @@ pub struct Critical {
     pub kind: OnsetKind,
     /// A = αw0/r, the indentation of the steady tip per length.
     pub density: f64,
-    /// w0, its rate of indentation relative to α: below 1 under a depth limit.
+    /// w0, the rate of indentation in steady motion relative to α: below 1 under a depth limit.
     pub weight: f64,
 }
 

@@ -82,7 +82,7 @@ impl Scan {
         Law::on(wider, &self.footprint, r, 1.0)
     }
 
-    /// Ω, with the transforms there if they do not depend on r.
+    /// Each sampled Ω, with the transforms there if they do not depend on r.
     pub(super) fn samples(&self) -> impl Iterator<Item = (f64, Option<&Transforms>)> {
         self.samples.iter().map(|sample| (sample.wave_number, sample.kept.as_ref()))
     }

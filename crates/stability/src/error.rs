@@ -27,7 +27,7 @@ pub enum StabilityError {
         /// The requested support velocity.
         r: f64,
     },
-    /// No support velocity loses stability at this α.
+    /// Steady motion does not lose its stability at any r for this α.
     #[error("no r makes alpha = {alpha:?} critical for this tip function")]
     NoCriticalR {
         /// The requested indentation rate.
@@ -52,7 +52,7 @@ pub enum StabilityError {
         /// The requested support velocity.
         r: f64,
     },
-    /// Fewer roots found than counted.
+    /// Fewer roots were found than counted.
     #[error(
         "{counted} roots were counted but {found} found: they lie too close together, move the bound"
     )]

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::stop;
 
-/// Largest size of a contour, in units of 1/width: |Λ| < √(10 α/r²) or so on the right.
+/// Largest size of a contour, in units of 1/width; on the right |Λ| is below about √(10 α/r²).
 const FARTHEST: f64 = 1e9;
 /// A root with a relative error above this has another root close to it.
 const BESIDE: f64 = 1e-10;
@@ -77,7 +77,7 @@ impl HalfPlane {
         self.spectrum_with(h, &[])
     }
 
-    /// All zeros, of which some may be known.
+    /// All zeros, some of which may be `known`.
     fn spectrum_with(
         &self,
         h: &Characteristic,
@@ -99,9 +99,9 @@ impl HalfPlane {
         Ok(Spectrum { roots, certificate })
     }
 
-    /// Zeros with Im Λ ≥ 0 from starts, until their number equals the count: along the chain that they form, then from a
-    /// grid. Most starts that lead to a zero do so in a few steps: the iterations are continued only if zeros are
-    /// missing after that.
+    /// Zeros with Im Λ ≥ 0 by Newton's method, until their number equals the count: from starts along the chain that they
+    /// form, then from a grid of starts. Most starts that lead to a zero do so in a few steps: only if zeros are missing
+    /// after these, further steps are made.
     fn by_deflation(&self, h: &Characteristic, known: &[Complex64]) -> Vec<Complex64> {
         let mut upper: Vec<_> = known.iter().copied().filter(|z| self.contains(*z)).collect();
         self.add_first(h, &mut upper, self.count);
@@ -205,7 +205,7 @@ impl HalfPlane {
     }
 }
 
-/// The half-plane right of a line, with at least `count` zeros if they exist.
+/// All zeros right of a line that is chosen so that there are at least `count` of them, if so many exist.
 pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if let Some(left) = h.left_of_all() {
         return HalfPlane::counted(h, left)?.spectrum(h);

@@ -137,10 +137,10 @@ fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
 /// The memory length rT below which steady motion is stable at every α, r and M, on a surface that heals without
 /// a depth limit.
 ///
-/// On the axis the imaginary part of N = 0 is rΩ + A Im G(s + iΩ) = 0, s = 1/(rT), so that there is no root
-/// if Im G(s + iΩ) ≥ 0 for all Ω. Beyond the memory length this condition no longer holds. If it first fails at Ω → 0,
-/// where G'(s) and with it d l0/dr change their sign, the length is exact for each r. If it first fails at some Ω > 0,
-/// the length is exact for some r only.
+/// On the axis the imaginary part of the characteristic equation is rΩ + (α/r) Im G(s + iΩ) = 0, s = 1/(rT), with
+/// G(p) = ∫_0^∞ f''(y) e^{-py}dy. There is no root if Im G(s + iΩ) ≥ 0 for all Ω. Beyond the memory length this condition
+/// no longer holds. If it first fails at Ω → 0, where G'(s) and with it d l0/dr change their sign, the length is exact
+/// for each r. If it first fails at some Ω > 0, the length is exact for some r only.
 ///
 /// # Errors
 /// [`StabilityError::NoLimit`] if the condition holds for all lengths.

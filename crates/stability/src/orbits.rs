@@ -22,12 +22,12 @@ use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::tip_function::bessel_orders;
 use stickslip_tip::walker::{WalkerScenario, directions};
 
-/// A circular orbit about the origin.
+/// A circular orbit about the origin, in the units of its [`WalkerScenario`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
-    /// ρ
+    /// Radius ρ.
     pub radius: f64,
-    /// ω, above 0 if the orbit is counterclockwise.
+    /// Angular frequency ω, above 0 if the orbit is counterclockwise.
     pub frequency: f64,
     /// Growth exponents of small deviations, by falling real part; `None` if the memory is too long for them. 0 belongs to
     /// a shift along the orbit, and without a trap ±iω to a shift of its center.

@@ -21,9 +21,10 @@
 //! ```
 //!
 //! Each line affects the later ones by one number, v·(A, B), so that ripples change from line to line by a recurrence:
-//! A_n ∝ zⁿ grows if |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}. Its crests qx + κy =
-//! const., κ = φ/d, are oblique to the scan lines. On the retrace of a zigzag q changes its sign: the coefficients of
-//! a line alone become the complex conjugates of those for the mirrored footprint. α = a e^{|u0|/b} increases with a. `docs/explanation/rasters.md` derives it.
+//! A_n ∝ zⁿ grows if |z| > 1. The threshold is the smallest α with a root on |z| = 1, z = e^{iφ}. The crests of its wave,
+//! qx + κy = const., κ = φ/d, are oblique to the scan lines. On the retrace of a zigzag q changes its sign: the
+//! coefficients of a line alone become the complex conjugates of those for the mirrored footprint. α = a e^{|u0|/b}
+//! increases with a. `docs/explanation/rasters.md` derives these equations.
 //!
 //! If the tip is flexible across the lines, y' = -u_y + κ_y (Y_n - y), it also deviates by C_n e^{iωt} in y. Steady
 //! motion is then displaced by (a/(κ_y r)) Σ_j Σ_l c^j h_l'(jd) ĝ_l(s) on all lines alike, so that they stay jd apart.
@@ -150,7 +151,7 @@ impl Raster {
     /// Inertia acts along the lines only.
     ///
     /// # Errors
-    /// κ_y is not a positive finite number; J0 and cos x; a footprint whose sides differ.
+    /// κ_y is not a positive finite number, or the footprint is J0, cos x or not even.
     pub fn with_stiffness_across(mut self, stiffness: f64) -> Result<Self, StabilityError> {
         judge_stiffness(stiffness, self.r)?;
         if !is_gaussian(&self.footprint) {
@@ -176,8 +177,8 @@ impl Raster {
     ///
     /// # Errors
     /// [`StabilityError::NoCrossing`] if no wave grows at any α; [`StabilityError::HealingZigzag`];
-    /// [`StabilityError::EvenOnly`] for a zigzag under a depth limit; [`StabilityError::NoRipples`] for J0 and cos x;
-    /// [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
+    /// [`StabilityError::EvenOnly`] for a zigzag under a depth limit if the footprint is not even;
+    /// [`StabilityError::NoRipples`] for J0 and cos x; [`StabilityError::Uncertified`], [`StabilityError::Stopped`].
     pub fn critical(&self, path: RasterPath) -> Result<RasterCritical, StabilityError> {
         let lines = self.lines(path)?;
         let none = StabilityError::NoCrossing { r: self.r };
@@ -366,7 +367,7 @@ fn is_gaussian(footprint: &Footprint) -> bool {
     footprint.layers().iter().all(|layer| of_gaussians(&layer.along))
 }
 
-/// The same phase between -π and π.
+/// The phase, shifted by turns to between -π and π.
 fn wrapped(phase: f64) -> f64 {
     phase - 2.0 * PI * (phase / (2.0 * PI)).round()
 }

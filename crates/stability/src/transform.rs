@@ -211,7 +211,7 @@ fn exponent_size(g: &Gaussian, lambda: Complex64) -> f64 {
     0.5 * lambda.norm_sqr() * g.width * g.width + lambda.norm() * g.center.abs()
 }
 
-/// Re z < 0
+/// Whether Re z < 0, with z of [`closed_forms`].
 fn is_left(g: &Gaussian, lambda: Complex64) -> bool {
     lambda.re * g.width * g.width < g.center
 }

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use stickslip_tip::TipFunction;
 use stickslip_tip::roots::bisected;
 
-/// Samples of ln p in the search for the largest Q.
+/// Number of samples of ln p in the search for the largest Q.
 const SAMPLES: u32 = 400;
 
 /// Trapping threshold r/max_p Q(p), Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds: the smallest α with a creep x0 ~ (1/p) ln t. For a

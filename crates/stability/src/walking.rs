@@ -14,7 +14,7 @@ use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Lower end of the search for speeds, as a fraction of the largest possible one.
 const SLOWEST: f64 = 1e-7;
-/// Samples per decade in this search.
+/// Number of samples per decade in this search.
 const PER_DECADE: u32 = 60;
 /// Largest round-off, relative to 1 + v, of the root 0 of a shift of the walk, if the certificate has no larger error.
 const NEUTRAL: f64 = 1e-9;
@@ -45,7 +45,7 @@ impl Walk {
     }
 }
 
-/// All speeds v > 0 of steady walks, ascending, from 1e-7 of the largest possible speed up to this speed.
+/// All speeds v of steady walks, ascending, above 1e-7 of the largest possible speed.
 ///
 /// # Errors
 /// [`StabilityError::Dragged`] if the model has a spring.

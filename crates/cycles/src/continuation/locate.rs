@@ -61,7 +61,7 @@ impl Continuation {
         Located::OnTheWay
     }
 
-    /// A cycle that is linearised along this branch, as a place of it.
+    /// A cycle that is linearised along this branch, as a place of the branch.
     fn place_of(&self, place: &Place, next: &Cycle) -> Option<Place> {
         Place::new(next.closed.clone(), self.over, &place.along)
     }

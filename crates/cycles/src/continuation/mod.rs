@@ -85,7 +85,7 @@ pub enum End {
     ManyPoints,
     /// No cycle was found after a step of the smallest length.
     Lost,
-    /// The observer ended the continuation.
+    /// The observer, or a request to stop, ended the continuation.
     Interrupted,
 }
 

@@ -37,7 +37,7 @@ pub enum Doubt {
         /// Approximate total number of lines after which ripples would be visible.
         lines: usize,
     },
-    /// A measure is, within its error, at the boundary between the reported regime and this other one.
+    /// A measure is, within its error, at the boundary between the reported regime and another, the second one.
     Between(Regime, Regime),
     /// Waves with at least half the power of the strongest, wavelength in σ and crest angle in degrees.
     Rivals(Vec<(f64, f64)>),

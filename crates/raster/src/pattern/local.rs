@@ -121,7 +121,7 @@ impl Local {
         }
     }
 
-    /// Root mean square of ψ in the first, the middle and the last third of the lines.
+    /// Root mean square of ψ in the first, the middle and the last third of the length of the lines.
     pub(super) fn thirds(&self) -> [f64; 3] {
         let (rows, columns) = self.psi.dim();
         let third = columns / 3;

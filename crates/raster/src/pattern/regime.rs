@@ -38,7 +38,7 @@ impl fmt::Display for Regime {
 
 /// Largest amplitude relative to the depth that counts as no ripples.
 pub(super) const FLAT: f64 = 0.01;
-/// Largest remaining fraction, away from the edges of the lines, of a wave that is an effect of the edges.
+/// A wave is an effect of the edges if less than this fraction of it remains away from the edges of the lines.
 const FADED: f64 = 0.5;
 /// Smallest coherence of ripples.
 const ORDERED: f64 = 0.95;

@@ -87,7 +87,7 @@ impl Sheet {
         Self::of(u, (from, self.spacing), self.pitch, self.band)
     }
 
-    /// The first and the last half of its lines.
+    /// The first and the last half of the lines.
     pub(super) fn halves(&self) -> [Self; 2] {
         let (rows, columns) = self.u.dim();
         [0..rows / 2, rows / 2..rows].map(|half| self.part(half, 0..columns))
@@ -111,7 +111,7 @@ impl Sheet {
         0.5 * (high - low)
     }
 
-    /// Root mean square in the first, the middle and the last third of the lines.
+    /// Root mean square in the first, the middle and the last third of the length of the lines.
     pub(super) fn thirds(&self) -> [f64; 3] {
         let (rows, columns) = self.u.dim();
         let third = columns / 3;

@@ -28,7 +28,7 @@ pub(super) const MOST_ANGLE: f64 = 15.0;
 const MOST_LENGTH: f64 = 0.25;
 /// Largest relative error of a significant wave number.
 const NO_WAVE: f64 = 0.5;
-/// Largest order of harmonics that are distinguished from other waves.
+/// Largest order of harmonics that are recognised as such.
 const MOST_HARMONIC: f64 = 8.0;
 
 impl Vector {

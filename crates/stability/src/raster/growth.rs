@@ -17,7 +17,7 @@ type Matrix = [[Complex64; 3]; 3];
 struct At {
     /// det P
     own: Quadratic,
-    /// v·adj(P)u/r, of which the last is 0.
+    /// v·adj(P)u/r; its last coefficient is 0.
     felt: Quadratic,
     /// ĝ_l(p)
     layers: Vec<Complex64>,
@@ -44,8 +44,8 @@ impl Raster {
         settled(&self.answers(alpha, q))
     }
 
-    /// Coefficients c_j, j = 1, 2, …, of the recurrence from line to line: the deviation of the density that line n
-    /// leaves is Σ_j c_j times that of line n - j.
+    /// Coefficients c_j, j = 1, 2, …, of the recurrence from line to line: the deviation of the indentation density of
+    /// line n is Σ_j c_j times that of line n - j.
     pub fn answers(&self, alpha: f64, q: f64) -> Vec<Complex64> {
         let a = self.density(alpha);
         let at = self.at(q);

@@ -17,7 +17,7 @@ pub(super) struct Determinant {
 }
 
 impl Determinant {
-    /// Q = T - A, given its value.
+    /// Q = T - A, given its value at this T.
     pub(super) fn linear(value: Patch) -> Self {
         let slope = Patch::constant(1.0);
         Self { value, slope, curved: false, factors: None, plane: None }

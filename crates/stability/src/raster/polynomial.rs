@@ -1,5 +1,5 @@
-//! Q as a polynomial in T on a cell of wave numbers and phases. A wave is marginal at a T that is a real zero of Q: tests
-//! that a cell has no such zero, and estimates of those near its centre.
+//! Q as a polynomial in T on a cell of wave numbers and phases. A wave is marginal at a T that is a real zero of Q. This
+//! module shows that a cell has no such zero, or estimates those near its centre.
 
 use super::patch::Patch;
 use crate::newton::zeros_of;

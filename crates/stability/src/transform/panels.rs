@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use stickslip_tip::Gaussian;
 use stickslip_tip::sorting::sort_by_number;
 
-/// Nodes on each quadrature panel.
+/// Number of nodes on each quadrature panel.
 const PANEL_NODES: usize = 32;
 /// Largest |Λ + band| times half a panel's width for which 32 nodes integrate to round-off.
 const PANEL_PHASE: f64 = 17.0;
@@ -20,7 +20,7 @@ const BANDS_SERVED: f64 = 1.5;
 /// Half-range of the quadrature, in widths of each Gaussian: exp(-13²/2) = 2e-37.
 const WIDTHS_INTEGRATED: f64 = 13.0;
 
-/// Terms by their centers, and the largest width.
+/// Terms in the order of their centers, and the largest width.
 struct Sorted(Vec<Gaussian>, f64);
 
 impl Sorted {
@@ -90,8 +90,8 @@ struct Starts {
 
 type AllStarts = [Starts; PANELS_PER_EXPONENTIAL / LANES];
 
-/// Σg e^{-Λx} and Σx g e^{-Λx} of each [`PANELS_PER_EXPONENTIAL`] panels, with x from the start of the first of them.
-/// `within` contains e^{-Λx} at the nodes `offsets` of a panel.
+/// Σg e^{-Λx} and Σx g e^{-Λx} of each group of [`PANELS_PER_EXPONENTIAL`] panels, with x from the start of the first of
+/// them. `within` contains e^{-Λx} at the nodes `offsets` of a panel.
 ///
 /// Wider vectors yield the same bits, because lanes do not depend on each other.
 #[multiversion(targets("x86_64+avx2"))]

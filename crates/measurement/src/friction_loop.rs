@@ -1,12 +1,12 @@
-//! Numbers of a friction loop: lateral force on the way there and back over the same positions.
+//! Numbers of a friction loop: lateral force on the way there (trace) and back (retrace) over the same positions.
 //!
 //! ```text
 //! friction = mean of (F_there - F_back)/2,   offset = mean of (F_there + F_back)/2,   work = ∮ F dx
 //! ```
 //!
 //! Each way begins with sticking: the force rises to the static peak. Beyond it the tip slides, or sticks and slips, about
-//! the kinetic force. Errors of means come from batches of the force, whose number follows from its correlation length;
-//! that of the peak from the noise of the rows near it.
+//! the kinetic force. Errors of means come from batches of the force, whose number follows from its correlation length.
+//! The error of the peak comes from the noise of the rows near it.
 
 use crate::interval::{Estimate, student};
 use crate::profile::MEDIAN_OF_NORMAL;
@@ -37,7 +37,7 @@ pub struct LoopNumbers {
     pub peak_ratio: f64,
     /// ∮ F dx: the work done in a cycle, the area of the loop.
     pub work: Estimate,
-    /// Half of the width of the loop along x where the force reverses: the distance from one sliding state to the other.
+    /// Distance in x from the reversal to the static peak, over which the force changes sign; mean of both ways.
     pub reversal: f64,
     /// Slope of the force on the way from the reversal to the static peak: stiffness of lever and contact in series, if
     /// x is the position of the support.
@@ -67,7 +67,7 @@ pub enum LoopError {
 const FEWEST: usize = 24;
 /// Fall below the largest force so far, in standard deviations of the noise, that ends a peak.
 const FALL: f64 = 6.0;
-/// Half of the number of rows through which a parabola determines the height of a peak.
+/// A parabola through 2 (`BESIDE` + 1) rows determines the height of a peak.
 const BESIDE: usize = 3;
 /// Number of batches for the error of a mean: at most, and at least.
 const BATCHES: (usize, usize) = (16, 4);
@@ -225,8 +225,8 @@ struct Peak {
 }
 
 impl Way {
-    /// The first maximum that the force falls below by more than the noise explains; the first row that reaches the sliding
-    /// force if it never falls.
+    /// The first maximum after which the force falls by more than the noise explains; if it never falls, the first row that
+    /// reaches the sliding force.
     fn peak(&self, noise: f64) -> Result<Peak, LoopError> {
         let last = self.force.len() - 1;
         let mut at = 0;
@@ -253,8 +253,8 @@ impl Way {
         Ok(Peak { at, height, error, way: self.x[at] - self.x[0] })
     }
 
-    /// Height at the end of a parabola through the rows up to a peak, which may be sharp, and its standard deviation: noise, and
-    /// the rise between two rows.
+    /// Height of a peak, and its standard deviation from the noise and from the rise between two rows. The height is the end
+    /// of a parabola through the rows up to the peak, which may be sharp.
     fn height(&self, at: usize, noise: f64) -> (f64, f64) {
         let rows = at.saturating_sub(2 * BESIDE + 1)..at + 1;
         let scale = self.x[at] - self.x[rows.start];
@@ -295,7 +295,7 @@ impl Way {
     }
 }
 
-/// Mean with its interval, by batches: half as many as the series has correlation lengths, within limits.
+/// Mean with its interval, from the scatter of [`batches`].
 fn mean(values: &[f64]) -> Estimate {
     let count = values.len() as f64;
     let value = values.iter().sum::<f64>() / count;
@@ -310,8 +310,8 @@ fn mean(values: &[f64]) -> Estimate {
     Estimate { value, low: value - error, high: value + error }
 }
 
-/// Number of batches: each is longer than the distance at which the correlation has changed sign twice (a period of
-/// stick-slip).
+/// Number of batches, within limits: each is twice as long as the distance at which the correlation has changed sign
+/// twice (a period of stick-slip).
 fn batches(values: &[f64], mean: f64) -> usize {
     let off: Vec<f64> = values.iter().map(|v| v - mean).collect();
     let correlation =

@@ -27,7 +27,7 @@ pub struct Image {
 /// The reason why an image gives no footprint.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ImageError {
-    /// Too few rows or columns, or a different number than that of positions.
+    /// Too few rows or columns, or not one for each position.
     #[error(
         "{columns} × {rows} pixels: at least {FEWEST} in each direction are needed, in rows of equal length"
     )]
@@ -107,7 +107,7 @@ impl Image {
         &self.rows
     }
 
-    /// Whether the pixels of both lie at the same positions, within a thousandth of their distance.
+    /// Whether the pixels of both images lie at the same positions, within a thousandth of their distance.
     pub(crate) fn is_alike(&self, other: &Self) -> bool {
         let near = |a: &[f64], b: &[f64]| {
             let close = 1e-3 * (a[1] - a[0]).abs();
@@ -116,10 +116,10 @@ impl Image {
         near(&self.x, &other.x) && near(&self.y, &other.y)
     }
 
-    /// These columns and rows.
+    /// The part of the image in these columns and rows.
     ///
     /// # Errors
-    /// Too few.
+    /// [`ImageError::Size`] if these are too few.
     pub(crate) fn part(
         &self,
         columns: Range<usize>,

@@ -5,8 +5,8 @@ const MOST_POINTS: usize = 7;
 /// Tolerance of the root at the end of an interval.
 const MET: f64 = 0.02;
 
-/// The offset at which `root`, 0 at an offset of 0, reaches `wanted`, and the points on the way there; `None` for an offset that is
-/// not below `most`. The search starts from a guess.
+/// The offset at which `root` reaches `wanted`, and the points evaluated on the way there. The root is 0 at an offset of 0.
+/// The search starts from a guess; the offset is `None` if it is not below `most`.
 pub(crate) fn crossing(
     root: impl Fn(f64) -> Option<f64>,
     wanted: f64,

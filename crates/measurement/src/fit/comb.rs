@@ -94,7 +94,7 @@ const ROWS_OF_A_WAVE: f64 = 4.0;
 const ROWS_IN_ALL: f64 = 6.0;
 /// Largest correction of the wavelength, in turns at the ends.
 const OFF: f64 = 0.4;
-/// Largest difference between counts of wavelengths that count as the same wave.
+/// Largest difference in the number of wavelengths along a line between two fits of one wave.
 const NEXT: f64 = 0.15;
 
 impl Comb {
@@ -121,7 +121,7 @@ impl Comb {
         Self::at(rows, 0.5 * (low + high), harmonics)
     }
 
-    /// The fit at this wavelength, if it is close to the current one: waves of two lengths would differ by a drift.
+    /// The fit at this wavelength if it is close to the current one, otherwise the current fit.
     pub(super) fn moved(self, rows: &Rows, length: f64) -> Self {
         if (rows.extent() / length - self.count).abs() > NEXT {
             return self;
@@ -264,7 +264,7 @@ fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The probability that noise alone contains a wave as strong as the strongest of the track, whose length was chosen
-/// among `trials`; 1 if there are too few rows.
+/// among `trials`; `None` if there are too few rows.
 pub(super) fn by_chance(rows: &Rows, length: f64, trials: f64) -> Option<f64> {
     let comb = Comb::near(rows, length)?;
     let besides = comb.besides(rows);

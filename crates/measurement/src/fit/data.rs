@@ -60,12 +60,12 @@ const MOST_ROWS: usize = 5_000_000;
 /// their noise.
 const KEPT_ROWS: usize = 2048;
 
-/// Measured data of one motion or of a series of motions.
+/// Measured data of one motion or of a series of motions; ℓ is the width σ of the tip in the unit of the positions.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Data {
     /// Heights of the surface far behind the tip, along its path: `gain` ℓ² u(x/ℓ).
     Ripple(Track),
-    /// Lateral force against the position of the support: `gain` ℓ (lag).
+    /// Lateral force against the position of the support: `gain` ℓ times the lag.
     Friction(Track),
     /// A loop: `y` is the force on the trace, the second column that on the retrace over the same positions.
     Loop(Track, Vec<f64>),

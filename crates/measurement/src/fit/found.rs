@@ -36,7 +36,7 @@ pub struct Fit {
 /// The fit of one data set, in its units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// The model at every row; for a loop trace, then retrace. For a series loads at onset, or wavelengths.
+    /// The model at every row; for a loop, the trace and then the retrace; for a series, loads at onset or wavelengths.
     pub model: Vec<f64>,
     /// Standard deviation of the residuals; relative for a series.
     pub residual: f64,
@@ -44,7 +44,7 @@ pub struct Part {
     pub offset: Option<f64>,
     /// Slope per length, if fitted.
     pub slope: Option<f64>,
-    /// Fitted gain, over σ² for heights and over σ for forces.
+    /// Fitted gain, defined as in [`Track::gain`](super::Track::gain).
     pub gain: Option<f64>,
     /// The direction of the scan; `None` for a series.
     pub scan: Option<Scan>,

@@ -107,7 +107,7 @@ impl<'a> Around<'a> {
         self
     }
 
-    /// Factor of the standard deviation of this parameter by correlation of the noise.
+    /// Factor by which correlations of the noise change the standard deviation of this parameter.
     fn factor(&self, i: usize) -> f64 {
         let ratio = self.covariance[(i, i)] / self.independent[(i, i)];
         if ratio.is_finite() && ratio > 0.0 { ratio.sqrt() } else { 1.0 }

@@ -93,7 +93,7 @@ const HUBER: f64 = 1.345;
 /// Fits the parameters that are not known.
 ///
 /// # Errors
-/// Unusable data, nothing to fit, no start, or [`FitError::Stopped`].
+/// Unusable data, nothing to fit, ripples no stronger than noise, no start, or [`FitError::Stopped`].
 pub fn fit(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     let found = best(data, request);
     // Searches that are asked to stop end as if there were nothing to find.
@@ -142,7 +142,7 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     settled(&problem, best, others, request)
 }
 
-/// Checks that there are enough rows, and enough different places.
+/// Checks that there are enough rows, and enough different velocities and loads.
 fn judge_counts(problem: &Problem) -> Result<(), DataError> {
     let (rows, parameters) = (problem.rows(), problem.parameters());
     if rows <= parameters {

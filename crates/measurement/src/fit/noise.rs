@@ -27,8 +27,8 @@ const NOTHING: f64 = 1e-3;
 
 impl Noise {
     /// The noise from residuals of a regression on periodic columns: `removed` parameters were fitted, out of the
-    /// `within` degrees of freedom at these wave numbers. The estimated spectrum is raised to compensate for the
-    /// regression.
+    /// `within` degrees of freedom at the wave numbers of the columns. The estimated spectrum is raised to compensate for
+    /// the regression.
     pub(super) fn of(
         residuals: &[f64],
         lines: &[Range<usize>],
@@ -80,7 +80,7 @@ impl Noise {
         (rows / length).clamp(1.0, rows)
     }
 
-    /// The product Σ v.
+    /// The product of the covariance matrix with `v`.
     pub(super) fn times(&self, v: &[f64]) -> Vec<f64> {
         let mut product: Vec<f64> = v.iter().map(|v| self.covariances[0] * v).collect();
         for line in &self.lines {

@@ -57,8 +57,8 @@ impl Problem<'_> {
         Some(values)
     }
 
-    /// Whether σ is searched by the resulting wavelength: the data determine that directly, and α and r then change
-    /// only the shape of the wave.
+    /// Whether σ is searched by the resulting wavelength, which the data determine directly; α and r then change only the
+    /// shape of the wave.
     fn by_wavelength(&self) -> bool {
         let tracks = self.data.iter().any(|data| !data.is_series());
         self.by_excess && tracks && self.free.contains(&Name::Width)
@@ -78,7 +78,7 @@ impl Problem<'_> {
         Some(self.cycles.waves(&values.model(self.shape, alpha, r)?)?.ripple.wavelength)
     }
 
-    /// The search variables for these values, without phases; `None` if one is missing, or below onset.
+    /// The search variables for these values, without phases; `None` if a value is missing, or α is below onset.
     pub(super) fn searched_for(&self, values: &Values) -> Option<Vec<f64>> {
         let of = |name: &Name| {
             let value = values.get(*name)?;

@@ -31,7 +31,7 @@ const MOST: usize = 3;
 const SAME: f64 = 0.3;
 const EQUAL: f64 = 5e-3;
 
-/// All different minima with about the same residual as the best, with their directions and positions.
+/// All different minima with about the same residual as the best, with their scan directions.
 pub(super) fn found(
     problem: &Problem,
     best: &Minimum,

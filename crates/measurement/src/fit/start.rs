@@ -87,7 +87,7 @@ fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
     found
 }
 
-/// The wavelength of the first track, and the number of wavelengths among which it is the strongest.
+/// The wavelength of the first track that has one.
 pub(super) fn measured(data: &[Data]) -> Option<f64> {
     data.iter().filter_map(Data::track).find_map(wavelength)
 }
@@ -213,7 +213,7 @@ fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
     moved.min_by(|a, b| left(a).total_cmp(&left(b)))
 }
 
-/// The residual of a wave of one harmonic with this many turns per length, and the position of its crest in turns
+/// The residual of the fit of one harmonic with this number of turns per length, and the position of its crest in turns
 /// from the middle.
 fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
     let (first, last) = ends(x);

@@ -36,8 +36,9 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The mean square along orthonormal directions in units of its expectation: d'(Q'ΣQ + mean of s s')⁻¹d/m, d = Q'r.
-/// `times` is the product with the covariance Σ of the noise; the s are samples of a further error of the model.
+/// The mean square of the residuals r along m orthonormal directions Q, in units of its expectation:
+/// d'(Q'ΣQ + mean of s s')⁻¹d/m, d = Q'r. `times` is the product with the covariance Σ of the noise; the `shifts`,
+/// s = Q'shift, are samples of a further error of the model.
 pub(super) fn size(
     directions: &[Vec<f64>],
     residuals: &[f64],

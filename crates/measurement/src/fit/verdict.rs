@@ -59,7 +59,7 @@ pub(super) struct Verdict {
     pub(super) each: Vec<Judged>,
     /// Probability by chance of the residual of one model for all data.
     pub(super) joint: Option<f64>,
-    /// Noise of each data set, in units of its noise in the problem.
+    /// Noise of each data set, in units of [`Problem::noise`].
     noises: Vec<Noise>,
     ranges: Vec<Range<usize>>,
     /// Degrees of freedom of the estimate of the noise.
@@ -83,8 +83,9 @@ struct Part {
     judged: Judged,
     noise: Noise,
     freedom: f64,
-    /// Columns of arbitrary waves, and below the linear columns of the model, on these rows alone.
+    /// Columns of arbitrary waves, on these rows alone.
     tests: Vec<Vec<f64>>,
+    /// Linear columns of the model, on these rows alone.
     linear: Vec<Vec<f64>>,
     residuals: Vec<f64>,
 }
@@ -265,7 +266,7 @@ fn size_of(rows: &Rows) -> f64 {
 }
 
 impl Verdict {
-    /// The product J'ΣJ.
+    /// The product J'ΣJ of the derivatives J with the covariance Σ of the noise.
     pub(super) fn between(&self, slopes: &[Vec<f64>]) -> nalgebra::DMatrix<f64> {
         let times = |v: &Vec<f64>| -> Vec<f64> {
             let each = self.noises.iter().zip(&self.ranges);

@@ -43,7 +43,7 @@ impl Wave {
         Self { wavelength, mean, coefficients }
     }
 
-    /// The means of `count` values of the wave at this distance, in σ, centred at every place.
+    /// The wave averaged, about each position, over `count` positions at this distance from each other, in σ.
     pub(super) fn averaged(mut self, count: usize, distance: f64) -> Self {
         if count < 2 {
             return self;

@@ -1,17 +1,17 @@
 //! Settled ripples of a one-way raster whose tip gives way across the lines.
 //!
 //! As in `travelling`, every line repeats the one before it, shifted along the scan: s(φ) = θ' and the distance Y(φ) of the tip
-//! from its line are functions of the phase φ = qx + κdn. With f(x,y) = g(x) h(y) the force balances at the tip are
+//! from its line are functions of the phase φ = qx + κdn on line n. With f(x,y) = g(x) h(y) the force balances at the tip are
 //!
 //! ```text
 //! 1/s      = α Σ_{j≥0} ∫ g'(x-x') h (jd + Y(φ) - Y_j(x')) s_j(x') dx' + rθ - x
 //! qY'(φ)/s = α Σ_{j≥0} ∫ g (x-x') h'(jd + Y(φ) - Y_j(x')) s_j(x') dx' - κ_y Y
 //! ```
 //!
-//! where s_j and Y_j are those of the line j before, at the phase φ' - κdj, and j = 0 is the line itself up to the tip. At
-//! given φ each integrand is a kernel in x - x' times a periodic function, so that the integrals are sums over points of a
-//! wavelength with weights from the transform of the kernel: exact for what the points resolve. Sums of products f have a sum
-//! of such terms.
+//! where s_j and Y_j belong to the j-th earlier line, at the phase φ' - κdj with φ' = qx' + κdn, and j = 0 is the line itself
+//! up to the tip. At given φ each integrand is a kernel in x - x' times a periodic function. Therefore the integrals are sums
+//! over points of a wavelength, with weights from the transform of the kernel: exact for the harmonics that the points resolve.
+//! If f is a sum of products g h, so are the integrals.
 
 use super::travelling::{HARMONICS_ACROSS as HARMONICS, Lines, POINTS_ACROSS as POINTS, Unknowns};
 use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
@@ -26,7 +26,7 @@ const ITERATIONS: usize = 30;
 const ENOUGH: f64 = 1e-10;
 /// Step of q for a derivative.
 const STEP: f64 = 1e-6;
-/// Values of 1/κ_y between a rigid tip and one that gives way, over which a neutral wave is followed.
+/// Number of steps of 1/κ_y, from 0 for a rigid tip, over which a neutral wave is followed.
 const SOFTER: u32 = 8;
 /// α and r from which a neutral wave is sought where a rigid tip has none, and the largest logarithm of either.
 const STARTS: [f64; 3] = [0.3, 0.8, 2.0];
@@ -43,9 +43,9 @@ fn derivatives(across: &Across, y: f64) -> [f64; 3] {
     })
 }
 
-/// Weights of the integrals over g' and g, of a line and of its earlier ones, by the distance of two points.
+/// Weights of the integrals over g' and g by the distance of two points: an entry for each layer and, within it, for the line
+/// itself and each earlier one.
 struct Weights {
-    /// Of a layer and of the number of lines in between.
     slope: Vec<[f64; POINTS]>,
     value: Vec<[f64; POINTS]>,
 }
@@ -69,7 +69,7 @@ fn at_points(transform: impl Fn(usize) -> Complex64) -> [f64; POINTS] {
     })
 }
 
-/// Kernels of the integral, less that of the mean, and of the derivative by x.
+/// Kernels of the integral over x of a function without its mean, and of the derivative by x.
 fn calculus(q: f64) -> [[f64; POINTS]; 2] {
     let number = |k: usize| Complex64::new(0.0, k as f64 * q);
     let integral = at_points(|k| if k == 0 { Complex64::new(0.0, 0.0) } else { 1.0 / number(k) });
@@ -90,8 +90,8 @@ struct Values {
 }
 
 impl Lines {
-    /// α and r of the neutral wave (q, κ) where the tip gives way across the lines, by linear theory: both follow from those of
-    /// a rigid tip as κ_y falls. `None` if there is none with α, r > 0.
+    /// α and r of the neutral wave (q, κ) by linear theory if the tip gives way across the lines: both are followed from those
+    /// of a rigid tip as κ_y decreases. `None` if there is no such wave with α, r > 0.
     pub(super) fn neutral_across(&self, q: f64, kappa: f64, stiffness: f64) -> Option<(f64, f64)> {
         let sums = self.neutral_sums(q, kappa);
         let near = |at, softness| neutral_near(at, q, softness, &sums);
@@ -141,7 +141,7 @@ impl Lines {
         self.nodes.iter().map(term).sum()
     }
 
-    /// A step of Newton's method; none where the force balances are met.
+    /// A step of Newton's method: `Some(None)` if the force balances are met, `None` if there is no step.
     pub(super) fn newton_across(
         &self,
         (r, kappa, stiffness): (f64, f64, f64),

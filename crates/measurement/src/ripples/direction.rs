@@ -7,18 +7,19 @@
 //! R = N <(m_{i+1} - 2 m_i + m_{i-1})²> / (6 s²),   s² = <(z_{i+1,j+1} - z_{i+1,j} - z_{i,j+1} + z_{i,j})²> / 4
 //! ```
 //!
-//! with the means m of N pixels. For independent noise R is 1; it is large for lines with heights of their own, and 0 for levelled
-//! ones. Second differences of ripples, which are smooth, do not alternate as those of noise do.
+//! with the heights z and the mean m_i of the N pixels of line i. For independent noise R is 1; it is large for lines with
+//! heights of their own, and 0 for levelled ones. Second differences of ripples, which are smooth, do not alternate as those of
+//! noise do.
 
 use crate::image::Image;
 
-/// R of lines with heights of their own is above this,
+/// R of lines with heights of their own is above this limit.
 const UNEVEN: f64 = 10.0;
-/// that of levelled lines below this,
+/// R of levelled lines is below this limit.
 const LEVELLED: f64 = 1e-3;
-/// and that of noise between these: ripples of few pixels enlarge s.
+/// R of noise is between these limits; ripples only a few pixels long enlarge s.
 const NOISE: [f64; 2] = [1e-2, 3.0];
-/// Largest correlation of neighbouring second differences: -2/3 of noise, -1/2 of a random walk, positive of ripples.
+/// Largest correlation of neighbouring second differences: -2/3 for noise, -1/2 for a random walk, positive for ripples.
 const ALTERNATING: f64 = -0.3;
 
 /// Whether the scan lines seem to lie along y, as in a transposed image.

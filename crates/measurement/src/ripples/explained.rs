@@ -16,7 +16,7 @@ use stickslip_tip::sorting::sort_by_number;
 
 /// Degrees of freedom of the errors: those of the blocks of the image.
 const BLOCK_FREEDOM: f64 = 15.0;
-/// Stiffnesses across the lines from which the search for it starts, and the logarithms within which it stays.
+/// First values of the stiffness κ_y across the lines in a search for it, and the range of ln κ_y.
 const STIFFNESSES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 30.0, 100.0];
 const STIFFNESS_LOGS: RangeInclusive<f64> = -0.7..=6.9;
 /// Weight of a known number: it then deviates by 1e-5 for a residual of 1.
@@ -25,23 +25,25 @@ const EXACT: f64 = 1e5;
 const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
 /// Step of the parameters, which are of order 1.
 const STEP: f64 = 1e-5;
-/// Weight of a quantity that is held, in terms of its standard deviation: it then deviates by 1e-4 of that.
+/// Weight of a quantity that is held, times its standard deviation: the quantity then deviates by 1e-4 of the latter.
 const HELD: f64 = 100.0;
-/// Largest part of its offset by which a held quantity may miss it, and least part of the quantile up to which a profile must be known.
+/// Largest deviation of a held quantity from its goal, as a fraction of the distance from the best value to the goal.
 const MISSED: f64 = 0.05;
+/// Least fraction of the quantile up to which a profile must be known.
 const NEAR: f64 = 0.8;
 /// Largest logarithm of the ratio of an end of an interval to the value.
 const FARTHEST: f64 = 3.0;
 
-/// The wave of the image against that of the model. Parameters: swing, ln r, κσ, ln gain and phase, relative to a start, and
-/// ln κ_y if it is free.
+/// The wave of the image against that of the model. Parameters: swing (the relative variation of θ'), ln r, κσ, the logarithm
+/// of the gain of the heights, phase and, if it is free, ln κ_y.
 pub(super) struct Problem<'a> {
     lines: &'a Lines,
     wave: &'a Wave,
     known: Known,
     sigma: f64,
+    /// Whether the tip moved towards larger x, and whether the lines followed each other towards larger y.
     way: (bool, bool),
-    /// The wave as the scan saw it, in σ: q, κ, Re B_k, Im B_k.
+    /// The wave in coordinates along the directions of the scan, q and κ in 1/σ: q, κ, Re B_k, Im B_k.
     data: DVector<f64>,
     /// L⁻¹ of the covariance LLᵀ of the data.
     whitening: DMatrix<f64>,
@@ -52,10 +54,10 @@ pub(super) struct Problem<'a> {
     last: RefCell<Option<Travelling>>,
 }
 
-/// What is known beside the wave.
+/// Quantities that are known besides the wave.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Known {
-    /// α and r.
+    /// α and r; `None` where unknown.
     pub(super) numbers: [Option<f64>; 2],
     /// Whether κ_y is free.
     pub(super) frees_stiffness: bool,
@@ -126,7 +128,7 @@ impl<'a> Problem<'a> {
         (UNKNOWNS + self.known.count() - self.start.len()) as f64
     }
 
-    /// The pattern, from the last one nearby or grown from linear theory to the swing.
+    /// The pattern, found from the last one if that is near, otherwise from linear theory by increasing the swing.
     fn pattern(&self, at: &[f64]) -> Option<Travelling> {
         let (swing, r, kappa) = (at[0], at[1].exp(), at[2]);
         if !(swing > 0.0 && swing < 2.0 && r.is_finite()) {
@@ -225,7 +227,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The lag of the closest pattern, with its phase as the scan saw it.
+    /// The lag of the closest pattern, with its phase in the coordinates of the image.
     fn lag(&self, around: &Around) -> Option<Lag> {
         let size = around.estimate(|at| Some(self.pattern(at)?.lag().norm().ln()))?;
         let found = self.pattern(&around.best.parameters)?;
@@ -296,8 +298,9 @@ impl Residuals for Problem<'_> {
 struct Around<'a> {
     problem: &'a Problem<'a>,
     best: &'a Minimum,
-    /// Covariance of the parameters if all is linear. It is not multiplied by χ²: where that is larger than by chance there are no
-    /// intervals, and with it 99 % of the intervals of settled ripples held the truth.
+    /// Covariance of the parameters if the model is linear in them. It is not multiplied by the reduced χ²: where χ² is larger
+    /// than by chance there are no intervals, and with this factor 99 % of the intervals of settled ripples, not 95 %, contained
+    /// the true value.
     covariance: DMatrix<f64>,
     /// Half of a 95 % interval, in standard deviations.
     quantile: f64,
@@ -363,7 +366,7 @@ impl<'a> Around<'a> {
     }
 }
 
-/// The problem with the logarithm of a quantity held, by one more residual.
+/// The problem with one more residual, which holds the logarithm of a quantity at `goal`.
 struct Held<'a, F> {
     problem: &'a Problem<'a>,
     log: &'a F,

@@ -41,7 +41,7 @@ pub struct LateralFound {
     pub stiffness: Option<Estimate>,
     /// Phase of the lateral wave minus that of the heights, in degrees: in the image, and in the model.
     pub phase: [f64; 2],
-    /// Distance along the lines by which the lateral wave is ahead of that of the model.
+    /// Distance along the lines by which the lateral wave is ahead of that of the model, in the unit of the lengths.
     pub shift: f64,
     /// Standard deviation of the shift.
     pub shift_error: f64,
@@ -61,7 +61,7 @@ pub(super) struct Seen {
 const QUANTILE: f64 = 1.96;
 
 impl Seen {
-    /// The wave in the part of the image from which that of the heights is.
+    /// The lateral wave in the part of the image from which the wave of the heights was determined.
     pub(super) fn of(
         lateral: &Lateral,
         (heights, ends): (&Image, [[f64; 2]; 2]),
@@ -102,7 +102,7 @@ impl Seen {
         Some([(self.wave.harmonic(1).norm() * length / sigma).ln(), self.errors[0]])
     }
 
-    /// The wave beside the lag of a model, in units of σ, on lines in a direction.
+    /// Comparison with the lag of a model on lines in the given direction; `sigma` is σ in the unit of the lengths.
     pub(super) fn beside(&self, model: &Lag, forward: bool, sigma: f64) -> LateralFound {
         let size = 2.0 * self.wave.harmonic(1).norm();
         let error = (QUANTILE * self.errors[0]).exp();

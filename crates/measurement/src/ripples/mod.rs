@@ -28,7 +28,7 @@ use thiserror::Error;
 use travelling::{Lines, crest_angle};
 use wave::coarse_image;
 
-/// What is known of an image of ripples.
+/// Known quantities of an image of ripples, and options of the estimation.
 #[derive(Debug, Clone)]
 pub struct RippleRequest {
     /// f(x,y), in σ.
@@ -47,7 +47,7 @@ pub struct RippleRequest {
     pub stiffness: Option<f64>,
     /// Whether κ_y is estimated; α or r must be known then.
     pub frees_stiffness: bool,
-    /// α and r, as far as they are known.
+    /// α and r; `None` where unknown.
     pub known: [Option<f64>; 2],
     /// Lateral forces on the lines that made the ripples.
     pub lateral: Option<Lateral>,
@@ -90,7 +90,7 @@ pub struct Ripples {
     pub crest_angle: Estimate,
     /// Half of the peak-to-peak of the first harmonic.
     pub amplitude: Estimate,
-    /// Wave vector along x and y; q > 0.
+    /// Wave vector (q, κ) along x and y; q > 0.
     pub wave_vector: [f64; 2],
     /// φ: crests lie where qx + κy + φ is a multiple of 2π.
     pub phase: f64,
@@ -100,7 +100,7 @@ pub struct Ripples {
     pub height_gain: f64,
     /// Threshold of linear theory at this r and wave vector, as α.
     pub neutral_alpha: f64,
-    /// Whether the tip moved towards larger x, and the lines towards larger y.
+    /// Whether the tip moved towards larger x.
     pub forward: bool,
     /// Whether the lines followed each other towards larger y.
     pub upward: bool,
@@ -158,7 +158,7 @@ pub enum RippleError {
          the first lines and from the edge where the lines begin"
     )]
     NotUniform,
-    /// The model has no settled pattern like that.
+    /// The model has no settled pattern with this wave vector.
     #[error(
         "the model has no settled ripples with a wavelength of {wavelength:.4} σ and crests at {angle:.1}° for lines {pitch:.4} σ \
          apart: check σ, the pitch and the footprint"
@@ -246,7 +246,7 @@ impl Ripples {
 /// Estimates α and r from an image of settled ripples made by a one-way raster under the basic model.
 ///
 /// # Errors
-/// No ripples, or none that the model has.
+/// An unusable request or image, no uniform ripples above the noise, or ripples that the model does not have.
 pub fn ripples(image: &Image, request: &RippleRequest) -> Result<Ripples, RippleError> {
     let positive = [request.sigma, request.pitch].iter().all(|v| v.is_finite() && *v > 0.0);
     let lines = Lines::new(&request.footprint, request.pitch / request.sigma)

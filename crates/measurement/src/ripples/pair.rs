@@ -1,9 +1,9 @@
-//! Images of one area: of the way there and, perhaps, of the way back. Both show the same surface, each with offsets, slopes and noise of
-//! its own.
+//! Images of one area: trace and, optionally, retrace. Both show the same surface, each with offsets, slopes and noise of its
+//! own.
 
 use crate::image::{Image, ImageError};
 
-/// Images of the way there and, perhaps, of the way back.
+/// Images of the trace and, optionally, of the retrace.
 #[derive(Debug, Clone)]
 pub(super) struct Pair {
     pub(super) trace: Image,

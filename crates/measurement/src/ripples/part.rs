@@ -1,7 +1,7 @@
 //! The largest part of an image in which the ripples have settled.
 //!
-//! Ripples grow along the scan and from line to line, as in a wake: where the lines begin, and on the first of them, they are still
-//! growing, and beyond the wake they are those that the edge makes. Between them is the pattern that the model has.
+//! Ripples grow along the scan and from line to line, as in a wake. Where the lines begin, and on the first lines, they are still
+//! growing; beyond the wake the edge of the area determines them. Between these regions is the pattern of the model.
 
 use super::pair::Pair;
 use super::wave::{Wave, coarse_image};

@@ -1,5 +1,5 @@
-//! The retrace beside the trace: slack of the scanner, a twisted lever and a slow feedback move one along the lines, so that the ripples of the
-//! retrace are those of the trace by a shift.
+//! Comparison of the retrace with the trace. Slack of the scanner, a twisted lever and slow feedback shift the ripples of one
+//! along the lines relative to those of the other.
 
 use super::RippleError;
 use super::pair::Pair;
@@ -21,11 +21,12 @@ pub struct Retrace {
     pub agreement: f64,
 }
 
-/// Degrees of freedom of the errors, those of the blocks of both images, and of a difference that is no shift.
+/// Degrees of freedom of the errors: those of the blocks of both images.
 const BLOCK_FREEDOM: f64 = 30.0;
+/// Degrees of freedom of a difference between two waves besides a shift.
 const FREEDOM: f64 = (UNKNOWNS - 1) as f64;
 
-/// Both images with the shift between them, and what sets them apart.
+/// Both images with the shift between them, and their comparison.
 pub(super) fn pair(
     trace: &Image,
     retrace: Option<&Image>,
@@ -53,8 +54,8 @@ pub(super) fn pair(
     Ok((pair, Some(Retrace { shift, ratio, agreement })))
 }
 
-/// The shift between two waves, and the probability of an equally large difference beyond it by noise. Irregular ripples are in both images,
-/// but count as noise in the errors of each: the test errs towards agreement.
+/// The shift between two waves, and the probability that noise makes the rest of their difference as large. Irregularities of the
+/// ripples are the same in both images, but count as noise in the errors of each: the test errs towards agreement.
 fn compared(there: &Wave, back: &Wave) -> Option<(f64, f64)> {
     let q = 0.5 * (there.q() + back.q());
     let shift = -(back.harmonic(1) / there.harmonic(1)).arg() / q;

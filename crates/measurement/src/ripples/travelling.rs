@@ -13,9 +13,10 @@
 //! 1/θ' = α Σ_k c_k e^{ikqx} [∫_0^∞ f'(ξ) e^{-ikqξ} dξ + ikq f̂(kq) S_k] + rθ - x,  S_k = Σ_{j≥1} h(jd) e^{-ikκdj}
 //! ```
 //!
-//! The first term in brackets is the groove of the line itself, the second that of all earlier lines, for
-//! f(x,y) = f(x) h(y); a sum of such products has a sum of second terms. Its first order is the linear theory of rasters. For given r, κ and
-//! c_1 the equation determines α, q and the other harmonics. It holds as long as the tip only moves forward.
+//! with the pitch d and c_0 = 1/r. The first term in brackets is the groove of the line itself, the second that of all earlier
+//! lines, for f(x,y) = f(x) h(y); a sum of such products has a sum of second terms. To first order in the c_k the equation is
+//! the linear theory of rasters. For given r, κ and c_1 it determines α, q and the other harmonics. It holds as long as the tip
+//! only moves forward.
 
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
@@ -25,9 +26,9 @@ type Complex64 = Complex<f64>;
 
 /// Number of harmonics of θ'.
 const HARMONICS: usize = 16;
-/// Points of a wavelength: the product with θ' of 1/θ' is free of aliasing well beyond the harmonics kept.
+/// Points of a wavelength: so many that the harmonics of 1/θ' and 1/θ'² that are used have little aliasing.
 const POINTS: usize = 4 * HARMONICS;
-/// Harmonics of s and Y of a tip that gives way across the lines, and points of a wavelength.
+/// Harmonics of θ' and Y of a tip that gives way across the lines, and points of a wavelength.
 pub(super) const HARMONICS_ACROSS: usize = 10;
 pub(super) const POINTS_ACROSS: usize = 2 * HARMONICS_ACROSS + 1;
 /// Points of a wavelength for the lag as a function of the position of the support.
@@ -87,7 +88,7 @@ pub(crate) struct Travelling {
 pub(super) struct Unknowns {
     pub(super) alpha: f64,
     pub(super) q: f64,
-    /// rθ - x of zero order.
+    /// Mean of the lag rθ - x, divided by r.
     pub(super) mean: f64,
     /// 1/r
     pub(super) slowness: f64,
@@ -219,7 +220,7 @@ impl Lines {
         None
     }
 
-    /// A step of Newton's method; none where the force balance is met.
+    /// A step of Newton's method: `Some(None)` if the force balance is met, `None` if there is no step.
     fn newton_rigid(&self, r: f64, kappa: f64, at: &Unknowns) -> Option<Option<DVector<f64>>> {
         let (residual, jacobian) = self.linearised(r, kappa, at)?;
         if residual.amax() < ENOUGH * r.max(1.0) {
@@ -332,8 +333,8 @@ impl Lines {
 }
 
 impl Travelling {
-    /// Complex amplitude of the lag as a function of the position R of the support: 2 Re L e^{i(qR + κy)}, in σ, where crests
-    /// are at positions of the tip.
+    /// Complex amplitude L of the first harmonic 2 Re L e^{i(qR + κy)} of the lag, in σ. R is the position of the support,
+    /// whereas [`heights`](Self::heights) are a function of the position of the tip.
     pub(crate) fn lag(&self) -> Complex64 {
         let Unknowns { q, mean, slowness, c, .. } = &self.unknowns;
         let r = 1.0 / slowness;

@@ -69,7 +69,7 @@ struct Row {
 }
 
 impl Wave {
-    /// The strongest wave of a trace, and of its retrace.
+    /// The strongest wave of the trace, fitted to trace and retrace.
     pub(crate) fn of(pair: &Pair) -> Result<Self, RippleError> {
         let trace = Rows::of(&pair.trace);
         let mut at = [0.0; UNKNOWNS];
@@ -202,7 +202,7 @@ impl Rows {
         self.judged(at, &normal)
     }
 
-    /// Normal equations, of the whole image and the scores of each block.
+    /// Normal equations of the whole image, and the scores of each block.
     fn normal(&self, at: &[f64; UNKNOWNS]) -> Normal {
         let (q, kappa) = (at[0], at[1]);
         let b: [Complex64; HARMONICS] =

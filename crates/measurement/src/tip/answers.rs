@@ -18,7 +18,7 @@ pub(super) struct Answers {
 /// Smallest f(0), relative to the largest |f|, that can normalise f.
 const LEAST_APEX: f64 = 0.05;
 
-/// The terms in units of σ and f(0), and σ.
+/// The Gaussians in units of σ and f(0); σ; f(0).
 pub(super) fn normalised(
     candidate: &Candidate,
     sigma: Option<f64>,

@@ -51,7 +51,7 @@ pub struct MeasuredTip {
     pub apex: f64,
     /// Centre of symmetry of f.
     pub centre: f64,
-    /// Coefficients of 1, x and, for a curved background, x² and x³.
+    /// Coefficients of the background: of 1, x and, if it is curved, x² and x³.
     pub ground: Vec<f64>,
     /// Standard deviation of the noise from row to row.
     pub noise: f64,
@@ -61,7 +61,7 @@ pub struct MeasuredTip {
     pub correlation: f64,
     /// The fits with other numbers of Gaussians.
     pub candidates: Vec<Candidate>,
-    /// Index of the selected one among them.
+    /// Index of the selected fit in `candidates`.
     pub chosen: usize,
     /// αc(r), dimensionless.
     pub critical_alpha: Estimate,
@@ -75,7 +75,7 @@ pub struct MeasuredTip {
     pub draws: Vec<Vec<Gaussian>>,
     /// Fraction of draws without a footprint or without an onset.
     pub lost: f64,
-    /// Rows of the profile, the fit and the residuals.
+    /// Rows of the profile and of the fit.
     pub fitted: Fitted,
 }
 
@@ -127,12 +127,12 @@ pub enum TipError {
         /// The r requested.
         r: f64,
     },
-    /// The work was asked to [`stop`].
+    /// The work was [cancelled](stop).
     #[error("the fit was interrupted")]
     Stopped,
 }
 
-/// Largest excess of the criterion at which a sum is still plausible: its probability is e^-2 of the best.
+/// Largest excess of the criterion at which a sum is still plausible: its probability is e^-2 times that of the best.
 const PLAUSIBLE: f64 = 4.0;
 
 /// Largest number of footprints drawn to represent the error of the shape.

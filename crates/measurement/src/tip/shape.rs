@@ -110,7 +110,7 @@ impl<'a> Shape<'a> {
         (0..).take(self.order + 1).map(power).collect()
     }
 
-    /// Coefficients of 1, x, x², … of a background with these coefficients.
+    /// Coefficients of 1, x, x², … of a background with these coefficients of 1, z, z², ….
     pub(super) fn in_powers_of_x(&self, coefficients: &[f64]) -> Vec<f64> {
         // Horner's rule for polynomials: times (x - middle)/half, plus the next.
         coefficients.iter().rev().fold(vec![], |sum: Vec<f64>, c| {
@@ -125,7 +125,7 @@ impl<'a> Shape<'a> {
         })
     }
 
-    /// The linear part at these values.
+    /// The fit of the linear parameters for these centres and widths.
     pub(super) fn projected(&self, places: &Places) -> Option<Projected> {
         let x = self.profile.x();
         let mut columns = self.ground();

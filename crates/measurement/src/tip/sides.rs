@@ -1,9 +1,9 @@
 //! Footprints of a tip that is not symmetric, one for each direction of motion.
 //!
 //! A tip that moves forward meets only the surface before it: in the history integral f'(x0(t) - x0(t')) has an argument
-//! of one sign, and the leading half of f counts alone. So the motion forward is that of the even footprint
-//! f(|x|), and the motion backward that of f(-|x|). An even fit to the whole profile has the mean of both, which moves
-//! neither way. What earlier lines of a raster leave, and a tip that retreats, feel both halves.
+//! of one sign, so that only the leading half of f counts. Forward motion is therefore that of the even footprint f(|x|), and
+//! backward motion that of f(-|x|). An even fit to the whole profile is the mean of both, and right for neither. The grooves of
+//! earlier lines of a raster, and a tip that turns back, depend on both halves.
 
 use super::{MeasuredTip, Request, TipError, tip};
 use crate::Profile;
@@ -23,21 +23,24 @@ pub struct Sides {
     pub apex: f64,
 }
 
-/// Parts of the profile at either end that count as ground.
+/// Fraction of the profile, at either end, that counts as background.
 const ENDS: f64 = 0.15;
 /// Height relative to the apex above which rows determine its position.
 const HIGH: f64 = 0.5;
 /// Fewest rows for a fit of the apex, and the step of its parameters.
 const FEWEST: usize = 8;
 const STEP: f64 = 1e-6;
-/// Of the footprint of both halves: width of its Gaussians over the narrowest of the halves, and over their spacing; the
-/// distance at which a Gaussian has ended, in widths; the largest number of Gaussians on either side; weight of the rows
-/// that hold the apex; steps of Newton's method.
+/// Width of the Gaussians of [`Sides::footprint`] over that of the narrowest Gaussian of the halves.
 const NARROWED: f64 = 0.5;
+/// Width of these Gaussians over their spacing.
 const WIDTH_PER_SPACING: f64 = 1.2;
+/// Distance beyond which a Gaussian is negligible, in widths.
 const WIDTHS: f64 = 5.0;
+/// Largest number of these Gaussians on either side.
 const MOST_POINTS: f64 = 300.0;
+/// Weight of the rows that fix f(0) and f'(0).
 const APEX: f64 = 1e3;
+/// Steps of Newton's method.
 const NEWTON: usize = 4;
 
 /// Fits both halves of a profile, each as an even footprint about the apex.
@@ -81,7 +84,7 @@ impl Sides {
     /// σ: Gaussians on a lattice, half as wide as the narrowest of both halves. `None` if it cannot be determined.
     ///
     /// The halves meet with different curvatures, which no smooth function has. For Gaussian sides whose widths differ by a
-    /// factor of 1.6 the thresholds of its halves are those of the sides to 5e-4.
+    /// factor of 1.6 the halves of the function have the thresholds of the sides within 5e-4.
     pub fn footprint(&self) -> Option<Vec<Gaussian>> {
         let halves = [&self.forward.gaussians, &self.backward.gaussians];
         let all = || halves.into_iter().flatten();

@@ -44,7 +44,7 @@ pub(super) fn fig6() -> Result<FigureDocument, Failed> {
 /// log₁₀ of the r shown.
 const RANGE: (f64, f64) = (-1.5, 1.0);
 
-/// The small oscillation along the boundary: stable above it, or unstable below.
+/// Criticality along the boundary: small oscillations are stable above it, or unstable below it.
 pub(super) fn criticality() -> Result<FigureDocument, Failed> {
     let tips = [beta_1()?, beta_0()?];
     let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];

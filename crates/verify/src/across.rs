@@ -1,8 +1,7 @@
 //! Verification of a run in two coordinates: it is repeated with another memory, by collocation.
 //!
-//! `fft` repeats a run by `modes`. It shares neither exponentials nor Taylor series with it, but the layers across the scan,
-//! whose number follows from the tolerance and is larger at a tighter one. `direct`, which has no layers, repeats a run by
-//! `fft`.
+//! A run by `modes` is repeated by `fft`. The two share neither exponentials nor Taylor steps, only the layers across the
+//! scan, and a tighter tolerance requires more layers. A run by `fft` is repeated by `direct`, which has no layers.
 
 use super::compare::{AgainstSamples, Judgement, compare_all};
 use super::growth::{Probes, growth_within};
@@ -15,10 +14,10 @@ use std::ops::ControlFlow;
 use stickslip_tip::planar::{PlanarRunning, PlanarScenario, Step, Trajectory};
 use stickslip_tip::{MOST_STEPS, MemoryChoice, RunError, Scenario};
 
-/// Share of the second run in the work; the rest is that of the perturbed run, by series.
+/// Fraction of the work that the second run takes; the perturbed run, by Taylor steps, takes the rest.
 const SHARE: f64 = 0.9;
 
-/// Verifies a run in two coordinates from its dense history: l and y0 over the whole of it.
+/// Verifies l and y0 of a run in two coordinates over its whole dense history.
 ///
 /// `observe` is called with the fraction of the work done, and may stop it.
 ///
@@ -50,8 +49,8 @@ pub fn verify_across(
     Ok(second.verification([compare(l), compare(Trajectory::y0)], None, growth))
 }
 
-/// Verifies a run as [`verify_across`] does, from samples in the order of time, the last at `until`; samples beyond it
-/// are ignored. Neither the samples nor the second run are stored.
+/// Verifies a run as [`verify_across`] does, from samples in the order of time. Samples after `until` are ignored.
+/// Neither the samples nor the second run are stored.
 ///
 /// # Errors
 /// As [`verify_across`].
@@ -77,11 +76,11 @@ pub fn verify_samples_across<I: Iterator<Item = Sample>>(
 
 /// The second run and its perturbed copy.
 struct Second<O> {
-    /// The scenario with another memory and a tighter tolerance. Its end is that of the run, on which noise depends,
+    /// The scenario with another memory and a tighter tolerance, but the same end, on which the noise depends.
     scenario: PlanarScenario,
     /// Name of the memory.
     memory: &'static str,
-    /// and this the end of what is compared.
+    /// End of the comparison, in Γ/k.
     until: f64,
     observe: O,
 }
@@ -101,8 +100,8 @@ impl<O: FnMut(f64) -> ControlFlow<()>> Second<O> {
         Ok(Self { scenario: with(tolerance), memory: name, until, observe })
     }
 
-    /// Repeats the run, and measures the growth of errors by the perturbed run. `see` is called with each step, and the
-    /// time before which it is the step that holds.
+    /// Repeats the run, and measures the growth of errors by the perturbed run. `see` is called with each step and the
+    /// time up to which it is valid.
     fn run(
         &mut self,
         mut see: impl FnMut(&Step, f64) -> Result<(), RunError>,
@@ -193,7 +192,7 @@ impl ProbesAcross {
         self.y0.probe_before(before, |t| step.y0(t));
     }
 
-    /// The growth in the coordinate that errors grow in most.
+    /// The growth in the coordinate in which errors grow most.
     fn growth(&self, twin: &Self, shift: f64, tolerance: f64) -> Growth {
         let size = self.l.range().max(self.y0.range());
         let [along, across] = [(&self.l, &twin.l), (&self.y0, &twin.y0)]

@@ -7,16 +7,16 @@ use stickslip_tip::{
     InitialSurface, Model, RunError, Step, Support, TipFunction, Trajectory, planar,
 };
 
-/// Smallest absolute error that is allowed of l, and of heights of order one, at any tolerance.
+/// Absolute error of l, and of heights of order one, that is allowed at any tolerance.
 const ROUND_OFF: f64 = 1e-12;
-/// Smallest relative error that is allowed of a large l.
+/// Relative error of l that is allowed at any tolerance.
 const DIGITS: f64 = 8.0 * f64::EPSILON;
-/// Smallest error that is allowed of a height, relative to all that was carved there.
+/// Error of a height that is allowed at any tolerance, relative to the sum of all contributions to this height.
 const DIGITS_OF_SUM: f64 = 1e-13;
 /// Error of sums by FFT relative to the deepest groove, everywhere.
 const DIGITS_OF_FFT: f64 = f64::EPSILON;
 
-/// The largest difference of two runs; if limits are exceeded, the largest relative to its limit.
+/// The largest difference of two runs; if limits are exceeded, the difference that is largest relative to its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
     /// Absolute difference.
@@ -114,7 +114,7 @@ pub(super) fn compare_l(
     compare_all(steps, (reference.start(), end), values, allowed)
 }
 
-/// Comparison of a value of two runs with these steps: the claimed one and that of the second run.
+/// Comparison of two runs with these steps; `values` returns the claimed value and that of the second run.
 pub(super) fn compare_all<'a>(
     steps: impl Iterator<Item = &'a Step>,
     (start, end): (f64, f64),
@@ -147,7 +147,7 @@ pub(super) struct AgainstSamples<F, I: Iterator> {
     allowed: f64,
     ahead: Option<Peekable<I>>,
     judgement: Judgement,
-    /// That of y0.
+    /// Judgement of y0.
     across: Judgement,
     found: ComparedSamples,
 }

@@ -102,7 +102,7 @@ pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) ->
     growth_within(one, twin, shift, (tolerance, one.range()))
 }
 
-/// The same for a motion of this size.
+/// The [`growth`] for a motion of the given size, in σ.
 pub(super) fn growth_within(
     one: &Probes,
     twin: &Probes,

@@ -28,9 +28,9 @@ pub const TOLERANCES_ALLOWED: f64 = 10.0;
 
 /// Ratio of the two tolerances, if the smaller one is within reach of f64.
 const TIGHTER: f64 = 100.0;
-/// Shift of the perturbed run in its tolerances, far above its errors,
+/// Shift of the perturbed run, in tolerances: far above its errors.
 const SHIFT: f64 = 1e4;
-/// and the largest shift, far below the motion.
+/// Largest shift, in σ: far below the motion.
 const LARGEST_SHIFT: f64 = 1e-4;
 
 /// Result of a verification.
@@ -42,9 +42,9 @@ pub struct Verification {
     pub tolerance: f64,
     /// Difference in l, over the whole run.
     pub l: Difference,
-    /// Difference in y0, over the whole run; `None` of a run in one coordinate.
+    /// Difference in y0, over the whole run; `None` for a run in one coordinate.
     pub y: Option<Difference>,
-    /// Difference of the final surface; `None` without a dense history, and of a run in two coordinates.
+    /// Difference of the final surface; `None` without a dense history, and for a run in two coordinates.
     pub u: Option<Difference>,
     /// The first time at which the difference of l or y0 exceeds its limit.
     pub trusted_until: Option<f64>,
@@ -79,7 +79,7 @@ impl Verification {
     }
 }
 
-/// Repeats a run of `scenario` that was made with the memory `used`, and compares with its dense history.
+/// Repeats a run of `scenario` with a memory other than `memory`, that of the run, and compares the dense histories.
 ///
 /// The limit of l is [`TOLERANCES_ALLOWED`] tolerances ε. An error ε of the tip's position changes the surface by at
 /// most α ε ∫|f'(x - x0(t'))|dt', which is the limit of the surface.
@@ -107,10 +107,10 @@ pub fn verify(
     Ok(second.verification(by, &judgement, Some(u), None, growth))
 }
 
-/// Verifies a run as [`verify`] does, from samples in the order of time, the last at `until`.
+/// Verifies a run as [`verify`] does, from samples in the order of time.
 ///
 /// The samples are requested once for each memory that is tried, and compared as the second run proceeds. Neither the
-/// samples nor the second run are stored, unless the second run uses `direct`. Samples beyond `until` are ignored.
+/// samples nor the second run are stored, unless the second run uses `direct`. Samples after `until` are ignored.
 ///
 /// # Errors
 /// As [`verify`].
@@ -146,7 +146,7 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
         Self { scenario, surface, observe }
     }
 
-    /// Repeats the run with the first applicable memory, observed by a witness; and measures the growth of errors by
+    /// Repeats the run with the first applicable memory, observed by the witness, and measures the growth of errors by
     /// the perturbed run.
     fn run(
         &mut self,
@@ -180,17 +180,17 @@ impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
     }
 }
 
-/// Fraction of the run after which a tip without a spring is pushed,
+/// Fraction of the run after which a tip without a spring is pushed.
 const PUSHED_AFTER: f64 = 0.1;
-/// latest time of that push, in Γ/k,
+/// Latest time of this push after the start, in Γ/k.
 const PUSHED_BY: f64 = 1.0;
-/// and its duration relative to the time before it.
+/// Width of the pulse of force, relative to its time after the start.
 const PUSH_WIDTH: f64 = 0.1;
 
 /// The run with a small disturbance, which shifts the tip by `shift`.
 ///
-/// Behind a support the tip starts at a shifted position. Without one this would shift the whole run; therefore a
-/// short force displaces the tip relative to its groove.
+/// A tip on a spring starts at a shifted position. Without a spring this would shift the whole run; therefore a short
+/// force displaces the tip relative to its groove.
 fn twin(scenario: &Scenario, shift: f64) -> Scenario {
     if scenario.model.wider().spring {
         return Scenario { kick: scenario.kick + shift, ..scenario.clone() };
@@ -203,13 +203,13 @@ fn twin(scenario: &Scenario, shift: f64) -> Scenario {
     Scenario { force: scenario.force.clone().with_pulse(push), ..scenario.clone() }
 }
 
-/// The tightest tolerance that can be requested, at best a hundredth.
+/// The tightest tolerance that can be requested, at best a hundredth of that of the run.
 fn tighter(scenario: &Scenario) -> f64 {
     let can_be_met = |tolerance| Scenario { tolerance, ..scenario.clone() }.validate().is_ok();
     tightest(scenario.tolerance, can_be_met)
 }
 
-/// The tightest of some tolerances that can be met, at best a hundredth; the tolerance itself if there is none.
+/// The tightest tolerance that can be met among `asked` divided by 100, 30, 10 and 3; `asked` itself if none can.
 fn tightest(asked: f64, can_be_met: impl Fn(f64) -> bool) -> f64 {
     let factors = [TIGHTER, 30.0, 10.0, 3.0];
     let mut tried = factors.into_iter().map(|factor| (asked / factor).max(TOLERANCES.0));

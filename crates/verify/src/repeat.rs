@@ -105,7 +105,7 @@ impl Repetition<'_> {
         Err(last.map_or(VerificationError::Interrupted, VerificationError::Run))
     }
 
-    /// The final memory; `None` if the observer stopped the work.
+    /// Repeats the run with the memory of `scenario`, and returns the final one; `None` if the observer stopped the work.
     fn with(
         &self,
         scenario: &Scenario,

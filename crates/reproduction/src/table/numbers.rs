@@ -126,7 +126,7 @@ fn largest_steady(model: &Model) -> f64 {
     heights.fold(0.0, f64::max) * model.r() / model.alpha()
 }
 
-/// Section IV.C, for numbers given by formulas: at r = 1 and 2.
+/// The formulas of section IV.C, evaluated at r = 1 and 2.
 fn bessel() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     for (r, alpha, omega) in [(1.0, "1", "0.786151"), (2.0, "4", "0.624811")] {

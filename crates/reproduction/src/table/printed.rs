@@ -51,10 +51,10 @@ fn value(text: &str) -> f64 {
 
 /// Allowed difference of a whole number, which is exact.
 const EXACT: f64 = 1e-9;
-/// Allowed difference of an exponent, which is exact but measured at a finite distance from its limit.
+/// Allowed difference of a fraction: an exact exponent, which is measured at a finite distance from its limit.
 const EXPONENT: f64 = 5e-3;
 
-/// Half a unit of the last digit after the point.
+/// Allowed difference: half a unit of the last digit of a decimal, [`EXPONENT`] of a fraction, or [`EXACT`].
 fn precision(text: &str) -> f64 {
     match text.split_once('.') {
         Some((_, decimals)) => {

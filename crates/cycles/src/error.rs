@@ -111,7 +111,7 @@ impl From<FitError> for CycleError {
     }
 }
 
-/// Advice for a sum of exponentials that permits no smaller tolerance than this.
+/// The remedy in the message if the sum of exponentials permits no smaller tolerance than this.
 fn instead(reached: f64) -> String {
     // To one digit, up: what is less will not do.
     let unit = 10_f64.powf(reached.log10().floor());

@@ -1,10 +1,10 @@
 //! The leading Floquet multipliers for a history of hundreds of exponentials: the period map is applied to a few
 //! deviations instead of all.
 //!
-//! A block Krylov space is built from the effects, at the end of a period, of kicks at several times in it: these are
-//! deviations that correspond to a history of the tip. The projection of the period map on this space (Rayleigh-Ritz)
-//! has accurate leading multipliers long before the others. Multipliers on which two successive spaces agree are
-//! returned.
+//! The tip is kicked at several times of a period. A block Krylov space is built from the effects at its end, because
+//! these are deviations that correspond to a history of the tip. The projection of the period map on this space
+//! (Rayleigh-Ritz) has accurate leading multipliers long before the others. Multipliers on which two successive spaces
+//! agree are returned.
 
 use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};

@@ -1,7 +1,7 @@
 //! Limit cycles: periodic solutions of (18), their stability, and how they depend on α and r.
 //!
 //! A cycle is a motion x0(t + T) = x0(t) + rT. Behind the tip f' is fitted by a sum of few exponentials
-//! ([`stickslip_tip::memory::Fit`]), so that the tip with its past is a state of some twenty numbers, and a cycle is a
+//! ([`stickslip_tip::memory::Fit`]), so that the tip with its past is a state of some twenty numbers. A cycle is then a
 //! periodic solution of an ordinary differential equation. It is found by Radau collocation on a mesh that
 //! follows the motion, with Newton's method for all displacements, the period and, along a branch, a
 //! parameter. Elimination step by step reduces the equations to a matrix of the size of the state, whose
@@ -84,10 +84,10 @@ const ERROR_OVER_RESIDUAL: f64 = 0.1;
 const COARSE: f64 = 1e-7;
 const ERROR_PER_GAP: f64 = 0.01;
 const ERROR_OVER_DISPLACEMENT: f64 = 4.0;
-/// [`ERROR_OVER_DISPLACEMENT`] under a depth limit, where heights contribute a larger error than slopes: close to the
+/// [`ERROR_OVER_DISPLACEMENT`] under a depth limit, where heights contribute a larger error than slopes. Close to the
 /// non-smooth onset (β = 1, b = 5, α = 1.076), at residuals from 1e-4 to 1e-9, the error is at most a third of the estimate.
 const ERROR_OVER_DISPLACEMENT_LIMITED: f64 = 12.0;
-/// Amplitude, in widths of the tip, above which errors grow in proportion to the amplitude: a slip begins when a creeping
+/// Amplitude, in widths of the tip, above which errors grow in proportion to the amplitude. A slip begins when a creeping
 /// tip escapes from its groove, and the farther the tip lags behind, the more slowly it creeps.
 const SHORT_SLIPS: f64 = 2.0;
 /// Additional factor of the error if f' is fitted by a lattice of exponents.
@@ -239,8 +239,8 @@ impl Cycle {
     /// multiplier amplifies it. The residual of the sum of exponentials displaces the tip everywhere, and these
     /// displacements are amplified in the same way. For a table fitted by a lattice of exponents, the residual of the
     /// curvature is larger than that of the slope. The coefficients come from a comparison with cycles at a residual
-    /// of 1e-11, from αc + 1e-5 to relaxation oscillations, with a safety factor of ten, and of two and a half for the
-    /// contribution of the sum. Long slips increase both errors in proportion to their length: of 29 cycles with
+    /// of 1e-11, from αc + 1e-5 to relaxation oscillations. They include a safety factor of 10, or of 2.5 for the
+    /// contribution of the sum. Long slips increase both errors in proportion to their length. Of 29 cycles with
     /// amplitudes from 0.02 to 785 at residuals from 3e-10 to 1e-5, the largest error was two thirds of the estimate.
     pub fn error(&self) -> f64 {
         let gap = (1.0 - self.leading_multiplier()).abs().max(f64::EPSILON);

@@ -35,7 +35,7 @@ pub(super) struct OfStep {
     pub(super) missed: f64,
 }
 
-/// Largest residual of (18) within each step, estimated at the starts of its polynomial and of the next one, where the
+/// Largest residual of (18) within each step, estimated at the starts of its polynomial and of the next one. There the
 /// true velocity is that at the end of the step before. If the groove is stiff, an interpolation error of a polynomial
 /// causes an error of the force larger by the factor `stiffness`. The quadrature error at the nodes is not added to this
 /// estimate, but replaces it if larger.
@@ -87,8 +87,8 @@ pub(super) struct Aim {
     pub(super) sharper: f64,
     /// Whether no step may become longer.
     pub(super) only_finer: bool,
-    /// Whether the motion may be resonant: a step shows no residual where the leading derivative of the motion passes
-    /// through zero, and on the next mesh this is another step.
+    /// Whether the motion may be resonant. A step then shows no residual where the leading derivative passes through zero,
+    /// and on the next mesh this is another step.
     pub(super) may_ring: bool,
 }
 

@@ -50,9 +50,9 @@ pub fn settle(model: &Model, tolerance: f64) -> Result<Settled, CycleError> {
     })
 }
 
-/// The cycle at the parameters of the model, found without a guess. If the cycle that bifurcates at αc is stable and
-/// Newton's method finds it from its leading order, it is returned; otherwise the cycle that a run settles into. If
-/// neither is stable, an unstable cycle is returned.
+/// The cycle at the parameters of the model, found without a guess. The first choice is the cycle that bifurcates at αc,
+/// if it is stable and Newton's method finds it from its leading order; the second is the cycle that a run settles into.
+/// If neither is stable, an unstable cycle is returned.
 ///
 /// The residual of (18) on this cycle is at most `tolerance` at all times. The period and the amplitudes are more
 /// accurate, as collocation converges faster at the ends of steps.

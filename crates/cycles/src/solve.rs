@@ -77,8 +77,8 @@ const LARGEST_CHANGE_OF_HEIGHTS: f64 = 1.0;
 const TOO_FAR: usize = 3;
 /// Corrections longer than this many times all remaining ones together count as well, whatever their sizes.
 const FAR_BEYOND: f64 = 30.0;
-/// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it: the
-/// solution on it begins with the fine sum.
+/// If the residual of a mesh is below this many times the allowed one, the next mesh most probably meets it. The solution
+/// on the next mesh then begins with the fine sum.
 const NEARLY_MET: f64 = 100.0;
 /// Residual, relative to the allowed one, beyond which a mesh gives only a rough estimate of the necessary one.
 const FAR_OFF: f64 = 3000.0;

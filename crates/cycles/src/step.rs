@@ -8,8 +8,9 @@
 //!     e'  = e + r h - d_s,        ζ_j' = e^{s_j d_s} (ζ_j + w_j h Σ_k b_k e^{-s_j d_k})
 //! ```
 //!
-//! The extended model changes the weights and the decay of visits ([`Carved`]), the matrix hA between force and
-//! displacement ([`Carrying`]), or adds the [heights](LinearHeights) under the tip as unknowns.
+//! In the extended model healing changes the weights and the decay of visits ([`Carved`]). Inertia changes the matrix hA
+//! between force and displacement ([`Carrying`]). A depth limit adds the [heights](LinearHeights) under the tip as
+//! unknowns.
 
 use super::blocks::{Square, Vector, inverted};
 use super::carrying::Carrying;

@@ -23,7 +23,7 @@ pub enum GridError {
     /// Time and position of the start must be finite.
     #[error("the start is t = {time}, x0 = {x0}: both must be finite")]
     Start {
-        /// t1
+        /// Start time t1.
         time: f64,
         /// x0(t1)
         x0: f64,
@@ -80,7 +80,7 @@ pub enum GridError {
     /// The observer stopped the run.
     #[error("cancelled at t = {time}")]
     Stopped {
-        /// t
+        /// Time t.
         time: f64,
     },
 }

@@ -36,7 +36,7 @@
 //! let gaussians = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
 //! let method = Method::Spectral { gaussians, spacing: 0.36 };
 //! let run = solve(&problem, &method, &Stepping::absolute(1e-10), &request)?;
-//! // α < αc and no kick: steady motion, 10 further on; and the groove there is as deep as it gets.
+//! // α < αc and no kick: in steady motion the tip advances by 10, and the groove at x = 14 has its full depth.
 //! assert!((run.x0[0] - 24.0).abs() < 1e-9);
 //! assert!((run.u[0] + std::f64::consts::TAU.sqrt()).abs() < 1e-9);
 //! # Ok::<(), stickslip_grid::GridError>(())

@@ -7,9 +7,9 @@ use crate::stepping::{Control, blend, reached, too_small, towards};
 use crate::tableau::Tableau;
 use crate::{GridError, Observer, Problem, Request, Run, Start, Stepping, Work};
 
-/// An embedded Runge–Kutta step of the tip and of all cells, with three savings that change results by round-off
-/// only: f is evaluated only within its reach of the tip's stage position; stage values of cells are computed only
-/// where the tip reads the slope; all other cells are unchanged.
+/// An embedded Runge–Kutta step of the tip and of all cells. Three savings change results by round-off only: f is
+/// evaluated only within its reach around the tip. Stage values of cells are computed only where the tip reads the
+/// slope. All other cells are unchanged.
 pub(crate) struct Marcher<'a> {
     problem: &'a Problem<'a>,
     scheme: Box<dyn Scheme + 'a>,

@@ -79,22 +79,22 @@ impl<'a> Start<'a> {
         Self::new(time, x0, move |x| height0(x) + height(x), move |x| slope0(x) + slope(x))
     }
 
-    /// t1
+    /// Start time t1.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// x0(t1)
+    /// Start position x0(t1).
     pub fn x0(&self) -> f64 {
         self.x0
     }
 
-    /// u0(x)
+    /// Initial height u0(x).
     pub fn height(&self, x: f64) -> f64 {
         (self.height)(x)
     }
 
-    /// u0'(x)
+    /// Initial slope u0'(x).
     pub fn slope(&self, x: f64) -> f64 {
         (self.slope)(x)
     }

@@ -46,8 +46,8 @@ impl Stepping {
     }
 }
 
-/// Hairer, Nørsett and Wanner's elementary controller: a step of error e (1 is allowed) is followed by one 0.9
-/// e^{-1/p} times as long; the factor is limited to the range from 1/5 to 10, and to 1 after a rejection.
+/// Hairer, Nørsett and Wanner's elementary controller: after a step of error e, where 1 is allowed, the next step is
+/// 0.9 e^{-1/p} times as long. This factor is limited to the range from 1/5 to 10, and to 1 after a rejection.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Control {
     /// p

@@ -37,8 +37,9 @@ impl Sequence<'_> {
         (sizes.len() >= FEWEST && slowest < FALLS).then_some(slowest)
     }
 
-    /// The candidate numbers of maxima in a period, the likeliest first: the smallest number with which the motion
-    /// repeats itself within `near`, or else best within a factor of 2; then 1; then 2 if every other slip is alike.
+    /// The candidate numbers of maxima in a period, the likeliest first. The first is the smallest number with which the
+    /// motion repeats itself within `near`, or else best within a factor of 2. Then follow 1, and 2 if every other slip is
+    /// alike.
     pub(crate) fn likely_slips(&self, near: f64) -> Vec<usize> {
         let changes: Vec<(usize, f64)> = (1..=MOST_SLIPS)
             .map_while(|slips| self.change(slips, 0).map(|change| (slips, change)))

@@ -317,8 +317,8 @@ impl Remains {
         decays.then_some(Self { fading, ringing })
     }
 
-    /// Twice the largest sum of all later changes: of the largest geometric series through one change of the later half,
-    /// or of the oscillation through the last two changes.
+    /// Twice the sum that all later changes may have: that of the largest geometric series through one of the later half
+    /// of `changes`, or of the oscillation through the last two.
     fn after(&self, changes: &[f64]) -> f64 {
         let later = changes[changes.len() / 2..].iter().rev();
         let faded = later.scan(1.0, |factor, change| {

@@ -10,8 +10,8 @@ pub struct Line {
     track: Track,
     /// Motion in the frame of the line: the support starts at 0 and moves to larger x.
     trajectory: Trajectory,
-    /// For each step the distance of the tip from the line at its start, and its changes at the nodes; empty if the tip
-    /// is held on the line.
+    /// For each step the distance of the tip from the line at the start of the step, and its changes at the nodes. Empty
+    /// if the tip is held on the line.
     across: Vec<(f64, Stages)>,
     work: Work,
 }

@@ -31,8 +31,8 @@ const MOST_WITHIN_REACH: f64 = 1e4;
 const BYTES_OF_A_WAVE: f64 = 16.0;
 /// Memory of the lattice per wave number, in bytes: sums, transforms and workspace of four cells.
 const BYTES_OF_THE_LATTICE: f64 = 320.0;
-/// Memory, per wave number and layer, of the surface around a line if the tip is free to move across: heights and
-/// slopes on some sixty rows, in bytes.
+/// Memory of the surface around a line per wave number and layer, in bytes, for a tip that is free to move across:
+/// heights and slopes on some sixty rows.
 const BYTES_OF_ROWS: f64 = 4000.0;
 const MOST_MEMORY: f64 = 1e9;
 /// Largest number of lattice points of a line.

@@ -104,8 +104,8 @@ impl<'a> Scanning<'a> {
     /// order, until `take` returns false or the work is [cancelled](stop). The number of threads does not affect the
     /// lines.
     ///
-    /// Some lines are scanned one after the other: those of a zigzag, which begin where the tip has ended the line
-    /// before, those of a tip that is free to move across them, and those of footprints with many layers.
+    /// Lines of a zigzag are scanned one after the other, because the tip begins a line where it has ended the one
+    /// before. So are lines of a tip that is free to move across them, and of footprints with many layers.
     ///
     /// # Errors
     /// The tolerance cannot be met.
@@ -197,8 +197,8 @@ impl<'a> Scanning<'a> {
         }
     }
 
-    /// Distance of the tip ahead of the support at the start of a line, and its velocity, in the frame of the line:
-    /// on a zigzag the tip keeps its position when the support turns.
+    /// Distance of the tip ahead of the support at the start of a line, and its velocity, in the frame of the line. On a
+    /// zigzag the tip keeps its position when the support turns.
     fn begins(&self, track: Track) -> (f64, f64) {
         match self.lines.last().filter(|_| self.plan.path == Path::Zigzag) {
             Some(last) => (track.along(last.x0_at_end()), track.sign() * last.velocity_at_end()),

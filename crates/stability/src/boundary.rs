@@ -45,7 +45,7 @@ enum Search {
 
 /// A branch of the boundary curve, continuous in Ω.
 ///
-/// If there are several branches, or if one of them turns back in r, only the lowest α at each r bounds the stable
+/// There may be several branches, and one of them may turn back in r. Only the lowest α at each r bounds the stable
 /// region; the others are further crossings inside the unstable one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BoundaryBranch {

@@ -136,8 +136,8 @@ fn bare_on_the_right(law: &Law, distance: f64) -> f64 {
     inertial.max(law.drag * distance)
 }
 
-/// Lower bound of |Mv²Λ² + vΛ + κ| for Re Λ ≥ `left`, |Im Λ| ≥ `top`: the larger of its imaginary part,
-/// v|Im Λ| |1 + 2Mv Re Λ|, and, with inertia, Mv² times the distances from its two zeros.
+/// Lower bound of |Mv²Λ² + vΛ + κ| for Re Λ ≥ `left`, |Im Λ| ≥ `top`: the larger of two bounds. One is that of the
+/// imaginary part, v|Im Λ| |1 + 2Mv Re Λ|; the other, with inertia, is Mv² times the distances from the two zeros.
 fn bare_above(law: &Law, zeros: &[Complex64], left: f64, top: f64) -> f64 {
     if law.drag <= 0.0 {
         return law.spring;

@@ -13,8 +13,8 @@ const CLUSTER: f64 = 1e-5;
 
 /// The rectangle re_min ≤ Re λ ≤ re_max, |Im λ| ≤ im_max.
 ///
-/// No root lies right of, above or below this rectangle, so that the certificate holds for all of Re λ ≥ re_min; for
-/// J0, except the cuts |Im λ| = r, Re λ < 0.
+/// No root lies right of, above or below this rectangle, so that the certificate holds for all of Re λ ≥ re_min. For J0
+/// the cuts |Im λ| = r, Re λ < 0 are excepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Region {
     /// Left edge.

@@ -12,8 +12,7 @@ use stickslip_tip::{Model, TipFunction};
 
 /// Largest distance left of the imaginary axis at which roots are sought, in inverse widths.
 const WIDENINGS: f64 = 60.0;
-/// Exponent of the amplification at which round-off of 1e-16 in f, or 1e-11 in f'' of a dense table, is no longer
-/// small.
+/// Round-off of 1e-16 in f, or of 1e-11 in f'' of a dense table, is no longer small if amplified by e to this power.
 const ROUNDOFF_EXPONENT: f64 = 24.0;
 /// Distance right of the branch points of J0 from which leading roots are counted, in units of s = 1/(rT).
 const BESIDE_BRANCH_POINTS: f64 = 0.02;
@@ -183,8 +182,8 @@ impl Characteristic {
         if self.is_out_of_proportion() { self.too_far_apart() } else { error }
     }
 
-    /// Whether the terms of N, of sizes v/width, 1 and A ∫|f''|, differ too much: the first two cancel at the root
-    /// -1/v, the last two near 0, and the remainder is round-off.
+    /// Whether the terms of N, of sizes v/width, 1 and A ∫|f''|, differ too much. The first two cancel at the root -1/v,
+    /// and the last two near 0; the remainder is then round-off.
     fn is_out_of_proportion(&self) -> bool {
         let drag = self.law.drag / self.length;
         let density = self.law.density.abs();

@@ -18,8 +18,8 @@ const FARTHEST: f64 = 1e9;
 const BESIDE: f64 = 1e-10;
 /// Largest number of Newton steps from a start close to a zero.
 const SOON: usize = 10;
-/// Difference of Λ²w² between the second and the first complex zero, w being the length of [`Characteristic`]; about that
-/// of the Gaussian and of the triple Gaussian with β = 1.
+/// Difference of Λ²w² between the second and the first complex zero, where w is the length of [`Characteristic`]. It is
+/// about that of the Gaussian and of the triple Gaussian with β = 1.
 const FIRST_INTERVAL: Complex64 = Complex64::new(-5.5, -9.5);
 /// Difference of Λ²w² between successive zeros far from the real axis, for the same footprints.
 const FAR_INTERVAL: Complex64 = Complex64::new(-2.0, -12.5);
@@ -99,9 +99,9 @@ impl HalfPlane {
         Ok(Spectrum { roots, certificate })
     }
 
-    /// Zeros with Im Λ ≥ 0 by Newton's method, until their number equals the count: from starts along the chain that they
-    /// form, then from a grid of starts. Most starts that lead to a zero do so in a few steps: only if zeros are missing
-    /// after these, further steps are made.
+    /// Zeros with Im Λ ≥ 0 by Newton's method, until their number equals the count. Starts lie along the chain that the
+    /// zeros form, then on a grid. Most starts that lead to a zero do so in a few steps: only if zeros are missing after
+    /// these, further steps are made.
     fn by_deflation(&self, h: &Characteristic, known: &[Complex64]) -> Vec<Complex64> {
         let mut upper: Vec<_> = known.iter().copied().filter(|z| self.contains(*z)).collect();
         self.add_first(h, &mut upper, self.count);
@@ -123,8 +123,8 @@ impl HalfPlane {
         zero.re >= self.left && zero.re <= self.right && zero.im <= self.top
     }
 
-    /// Adds the zero to which Newton's method leads from `start` in at most `most` steps, and a second one if it is too
-    /// close to the first; returns whether one is new.
+    /// Adds the zero to which Newton's method leads from `start` in at most `most` steps, and its neighbour if this is too
+    /// close for that method. Returns whether one of them is new.
     fn add_from(
         &self,
         h: &Characteristic,
@@ -144,8 +144,8 @@ impl HalfPlane {
         !zeros.is_empty()
     }
 
-    /// Adds zeros near those of α = 0 and of large α, then the chain above them, until there are `count` of them or the
-    /// next is not found where it is expected.
+    /// Adds zeros near those of α = 0 and of large α, then the chain above them. It ends when there are `count` of them, or
+    /// when the next is not found where it is expected.
     fn add_first(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length()));
         for start in first.chain(h.likely_roots()) {

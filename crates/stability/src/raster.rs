@@ -110,8 +110,8 @@ impl Raster {
     ///
     /// # Errors
     /// r or the pitch is not a positive finite number, or the pitch is so small that the lines within reach cannot be
-    /// summed. In the extended model also: a parameter is out of range, there is no spring, the footprint is J0 or cos
-    /// x, or the height under the tip is 0, on the kink of |h|.
+    /// summed. There is no spring, or a parameter of the extended model is out of range. In this model also: the
+    /// footprint is J0 or cos x, or the height under the tip is 0, on the kink of |h|.
     pub fn new(
         footprint: &Footprint,
         law: Wider,

@@ -55,7 +55,7 @@ pub fn response(model: &Model, pulses: &[Pulse], count: usize) -> Result<Respons
 }
 
 impl Response {
-    /// l(t) - l0 at all times up to `until`, also during the pulses, with an error of 1e-9 of its largest value.
+    /// l(t) - l0 at all times up to `until`, also during the pulses, with an error of 1e-9 relative to its largest value.
     /// `None` if the pulses are too short compared with `until`. `model` is that of the response.
     pub fn while_pulses_last(&self, model: &Model, until: f64) -> Option<Inversion> {
         let rightmost = self.modes.first().map_or(0.0, |mode| mode.lambda.re);

@@ -17,9 +17,9 @@ use stickslip_tip::{Model, TipFunction};
 /// are close to a double root are computed together from the zero of h'. If a root lies on Re λ = `bound`,
 /// the left side is moved slightly to the left: see the region of the certificate.
 ///
-/// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left, and the roots of
-/// the squared equation that lie on its other sheet are left out. To the right of the imaginary axis
-/// and on it this makes no difference. In the extended model only roots right of these branch points are available.
+/// For J0, (44) continues to Re λ < 0 in the plane cut from ±ir straight to the left. Roots of the squared equation on
+/// the other sheet of the square root are left out. The choice of the cuts does not affect roots on the imaginary axis
+/// and right of it. In the extended model only roots right of these branch points are available.
 ///
 /// # Errors
 /// [`StabilityError::Bound`], [`StabilityError::RootOnContour`], [`StabilityError::RootsMissing`];

@@ -66,8 +66,8 @@ pub struct SnakingCritical {
 
 /// Evidence that no deviation across the scan grows below the threshold, and that one grows above it.
 ///
-/// A search over all Ω excludes roots on the imaginary axis for all α below the threshold by more than `tolerance`;
-/// roots right of the axis are counted by the argument principle at two α. The certificate rests on floating-point
+/// A search over all Ω excludes roots on the imaginary axis for all α below the threshold by more than `tolerance`.
+/// Roots right of the axis are counted by the argument principle at two α. The certificate rests on floating-point
 /// arithmetic with bounds, not on interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SnakingCertificate {
@@ -85,8 +85,8 @@ pub struct SnakingCertificate {
 
 impl Snaking {
     /// # Errors
-    /// r or κ_y is not a positive finite number, κ_y is below 1e-9 r, a parameter of the model is out of range, there is
-    /// no spring along the scan, or the footprint is not even.
+    /// r or κ_y is not a positive finite number, κ_y is below 1e-9 r, or a parameter of the model is out of range. There
+    /// is no spring along the scan, or the footprint is not even.
     pub fn new(
         footprint: &Footprint,
         law: Wider,
@@ -143,7 +143,8 @@ impl Snaking {
         Ok(Some(SnakingCritical { alpha, r, stiffness, omega, wavelength, certificate }))
     }
 
-    /// All roots λ of N with Re λ ≥ `bound` at this α, with a certificate that none is missing.
+    /// All growth exponents λ of deviations across the scan with Re λ ≥ `bound` at this α, with a certificate that none
+    /// is missing.
     ///
     /// # Errors
     /// As [`roots`](super::roots); [`StabilityError::AcrossGaussiansOnly`].

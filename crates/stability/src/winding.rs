@@ -16,10 +16,10 @@ const MOST_STEPS: usize = 1_000_000;
 
 /// Change of arg h in radians along the straight line from `from`, where h is `here`, to `to`, and h at `to`.
 ///
-/// A step is first 0.7 |h/h'| long. It is halved until it is no longer than about 0.7 |h/h'| at its far end, h changes by
-/// no more than about 0.8 |h|, and this change agrees with h' at both ends. A turn would be missed if h and h' were the
-/// same at both ends of a step but different between them: if h may vary over a certain length, the corners of the
-/// contour must be no further apart.
+/// A step is first 0.7 |h/h'| long. It is halved until three conditions hold: it is no longer than about 0.7 |h/h'| at its
+/// far end, h changes by no more than about 0.8 |h|, and this change agrees with h' at both ends. A turn would be missed
+/// if h and h' were equal at both ends of a step but different between them. Therefore the corners of the contour must
+/// be no further apart than the length over which h may vary.
 ///
 /// # Errors
 /// [`StabilityError::RootOnContour`] if h vanishes on the line.

@@ -70,7 +70,7 @@ impl<'a> PlaneStart<'a> {
         Self { position: [x + by[0], y + by[1]], ..self }
     }
 
-    /// t1
+    /// Start time t1.
     pub fn time(&self) -> f64 {
         self.time
     }

@@ -20,7 +20,7 @@ pub enum PlaneMethod {
     /// Lattices with narrower Gaussians for writing and reading, exact to round-off at a spacing of π/8.7;
     /// Dormand–Prince 8(5,3) in time.
     Spectral {
-        /// Spacing in units of the smallest width along and of that across.
+        /// Spacing in both coordinates, each in units of the smallest width in this coordinate.
         spacing: f64,
     },
     /// Samples and a regularised sinc in both coordinates; Dormand–Prince 8(5,3) in time.

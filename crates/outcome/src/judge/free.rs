@@ -65,8 +65,8 @@ impl End<'_> {
         Outcome::transient(Some(towards), Some(time))
     }
 
-    /// The largest distance of the velocity from `from` in the last fifth of the run, as far as its steps are kept, and the
-    /// distance at the end.
+    /// The largest distance of the velocity from `from` in the last fifth of the run, and the distance at the end. Steps
+    /// that are no longer kept are left out.
     fn off(&self, from: f64) -> (f64, f64) {
         let end = self.last.end();
         let begin = (end - STEADY_SHARE * (end - self.start())).max(self.tail.start());

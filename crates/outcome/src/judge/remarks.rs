@@ -68,8 +68,8 @@ impl End<'_> {
         (growth > MOST_GROWTH).then_some(Remark::ErrorsGrowAtRest { growth: growth.exp() })
     }
 
-    /// Whether the run began in steady motion and was not disturbed until errors of the order of the tolerance,
-    /// growing at this rate, had become as large as a width.
+    /// Whether the run began in steady motion, and nothing disturbed it before errors had become as large as a width. They
+    /// begin at the order of the tolerance and grow at this rate.
     fn is_undisturbed(&self, rate: f64) -> bool {
         let Scenario { start, kick, noise, profile, force, tolerance, .. } = self.scenario;
         let smooth = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();

@@ -55,8 +55,8 @@ impl Wave {
         std::f64::consts::TAU / self.q.hypot(self.kappa)
     }
 
-    /// The strongest wave with at least `fewest` wavelengths along the lines, followed by its rivals, which may be
-    /// longer: all with at least half of its power, or whose slopes have more power.
+    /// The strongest wave with at least `fewest` wavelengths along the lines, followed by its rivals. These have at least
+    /// half of its power, or their slopes have more power; they may be longer.
     pub(super) fn strongest(sheet: &Sheet, fewest: f64) -> Vec<Self> {
         let (dq, dk) = sheet.resolution();
         let peaks = Self::peaks(sheet, (FEWEST_SEEN * PER_PEAK) as i64);

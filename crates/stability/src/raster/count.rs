@@ -7,7 +7,7 @@ use crate::winding::{argument_along, whole};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Waves are counted where the wave of the threshold is this far inside the unit circle, and outside it.
+/// Waves are counted at the α at which the zero of the threshold lies this far inside the unit circle, and outside it.
 const OFF_CIRCLE: f64 = 1e-3;
 /// Largest relative distance from the threshold of the α at which waves are counted.
 const FARTHEST: f64 = 1e-3;

@@ -8,7 +8,7 @@ impl Lines {
     /// Bound of |T| for real T with Q = 0 at wave numbers of at least q; it decreases with q.
     ///
     /// Without a depth limit the imaginary part of m T = K - Σ p²ĝ_l Λ_l, in which the constant of K is real, yields
-    /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|; on a zigzag this also holds for trace and retrace together. With a depth limit, |T|
+    /// rqT ≤ |G(p)| + Σ|p²ĝ_l|Σ|h_l|. On a zigzag this also holds for trace and retrace together. With a depth limit, |T|
     /// is at most the sum of |N11|, |N22| and √|N12 N21|.
     ///
     /// If the tip is flexible across the lines, |T| is at most the largest eigenvalue of a matrix of bounds of |N|.

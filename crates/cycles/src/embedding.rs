@@ -13,9 +13,9 @@ use stickslip_tip::{Model, TipFunction, Wider, tip_function};
 /// equation for X. With inertia its last component is the velocity. Under a depth limit the height under the tip is no
 /// further component, but -α `Σ_j Re(ζ_j/s_j)`.
 ///
-/// Three sums represent f'. The equations are solved in the `fine` one. They are linearised in the `short` one for
-/// multipliers and branches, and in the `rough` one during the search: Newton's method converges with it too, and a
-/// state of half the length costs a quarter.
+/// Three sums represent f'. The equations are solved in the `fine` sum. They are linearised in the `short` sum for
+/// multipliers and branches, and in the `rough` sum during the search: Newton's method also converges with this sum, and
+/// a state of half the length costs a quarter.
 #[derive(Debug, Clone)]
 pub(super) struct Embedding {
     pub(super) tip: TipFunction,

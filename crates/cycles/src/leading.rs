@@ -28,7 +28,7 @@ const MOST_DIMENSIONS: usize = 320;
 const GROWTH: f64 = 1.2;
 /// Largest difference of a returned multiplier between the last two spaces.
 const AGREED: f64 = 1e-8;
-/// This difference if the space has its largest dimension.
+/// Largest difference of a returned multiplier if the space has its largest dimension.
 const NEARLY: f64 = 1e-4;
 /// A part of a deviation outside the present space is round-off if it is below this fraction of the deviation.
 const HELD: f64 = 1e-11;

@@ -38,7 +38,7 @@ pub(crate) enum Fate {
     Held(Creeping),
     /// The tip slips after this time.
     Slips(f64),
-    /// It cannot be decided which of these.
+    /// It cannot be decided whether the tip slips.
     Open,
 }
 

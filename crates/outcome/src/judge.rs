@@ -31,7 +31,7 @@ const STANDS_STILL: f64 = 0.2;
 const DISPLACED: f64 = 300.0;
 /// Oscillations below this amplitude, in widths, are compared with linear theory.
 const SMALL: f64 = 0.3;
-/// They follow linear theory if they grow or decay at its rate within this fraction.
+/// Small oscillations follow linear theory if they grow or decay at its rate within this fraction.
 const AS_FORETOLD: f64 = 0.2;
 /// Changes from period to period below this many tolerances are attributed to step errors.
 const NOISE: f64 = 30.0;

@@ -8,7 +8,7 @@ use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
 
 /// Largest distance of l from l0 in steady motion, in σ, for small tolerances.
 const STEADY_WITHIN: f64 = 1e-6;
-/// This distance for larger tolerances, in units of the tolerance.
+/// Largest distance of l from l0 in steady motion, in units of the tolerance, for larger tolerances.
 const STEADY_TOLERANCES: f64 = 100.0;
 /// Upper limit of the distance for larger tolerances, in widths of the tip.
 const STEADY_AT_MOST: f64 = 0.03;

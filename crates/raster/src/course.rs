@@ -113,9 +113,8 @@ impl<'a> Course<'a> {
         self.surface_of(&self.job(n, rows))
     }
 
-    /// Scans the lines from `out` on with this number of threads. It passes them to `take` in their order, each with the
-    /// result of `of_line` and the rows after it, until `take` returns false or the work is cancelled. For one-way and
-    /// repeated lines only.
+    /// Scans one-way or repeated lines from `out` on with this number of threads. Each is passed to `take` in its order,
+    /// with the result of `of_line` and the rows after it, until `take` returns false or the work is cancelled.
     pub(crate) fn each_line<T: Send>(
         &self,
         (out, rows): (usize, Rows),

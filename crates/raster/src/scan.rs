@@ -100,7 +100,7 @@ impl<'a> Scanning<'a> {
         Ok(self.lines.last())
     }
 
-    /// Scans all remaining lines with this number of threads (0: one per core). It passes them to `take` in their
+    /// Scans all remaining lines with this number of threads (0: one per core), and passes them to `take` in their
     /// order, until `take` returns false or the work is [cancelled](stop). The number of threads does not affect the
     /// lines.
     ///

@@ -19,8 +19,8 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 use stickslip_tip::roots::zero_between;
 
-/// Number of harmonics. Those of |h| decrease like n^{-2}, those of h and with them the truncation error like n^{-3}
-/// (measured: a factor of 8.0 from 192 to 384). A second solution with twice this number removes most of this error.
+/// Number of harmonics. Harmonics of |h| decrease like n^{-2}, harmonics of h like n^{-3}. So does the truncation error
+/// (measured: a factor of 8.0 from 192 to 384); a second solution with twice this number removes most of it.
 const HARMONICS: usize = 128;
 /// Points on a period, between which h changes its sign at most once.
 const POINTS: u32 = 512;

@@ -144,8 +144,8 @@ impl HalfPlane {
         !zeros.is_empty()
     }
 
-    /// Adds zeros near those of α = 0 and of large α, then the chain above them. It ends when there are `count` of them, or
-    /// when the next is not found where it is expected.
+    /// Adds zeros near the zeros of α = 0 and of large α, then the chain above them. The search ends when there are `count`
+    /// zeros, or when the next one is not found where it is expected.
     fn add_first(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length()));
         for start in first.chain(h.likely_roots()) {

@@ -6,8 +6,8 @@
 //!     D(Λ) = Mv²Λ² + vΛ + κ + A(G(p) - G(s)) + AB φ1(p)(φ1(s) - φ1(p))/(1 + Bφ(p)) = 0
 //! ```
 //!
-//! The force on the tip is that of a groove shifted by the deviation ξ, and less deep where w was smaller: w - w0 =
-//! ±w0 (h - h0)/b. The height h is again that of a shifted and less deep groove, which leads to the quotient.
+//! The groove that acts on the tip is shifted by the deviation ξ, and less deep where w was smaller: w - w0 =
+//! ±w0 (h - h0)/b. The height h depends on the same shifted and less deep groove, which leads to the quotient.
 //! Multiplied by 1 + Bφ(p), with φ1 = pφ - f(0) and G = pφ1, the equation is of first degree in the transforms,
 //!
 //! ```text

@@ -121,7 +121,7 @@ fn inverse_limit_with(law: &Law, wave_number: f64, t: &Transforms) -> f64 {
     positive.map(of).filter(|inverse| inverse.is_finite()).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The real zeros of az² + bz + c, computed without cancellation; that of bz + c if a is 0.
+/// The real zeros of az² + bz + c, or the zero of bz + c if a is 0, computed without cancellation.
 fn real_zeros([a, b, c]: [f64; 3]) -> Vec<f64> {
     if a.abs() <= 0.0 {
         return vec![-c / b];

@@ -31,9 +31,9 @@ pub struct Response {
 
 /// The response of steady motion to `pulses`, from at least `count` leading roots.
 ///
-/// Faster modes are left out: the error decays like e^{Re λ t} of the first of them, so that the sum is accurate from
-/// shortly after a pulse. The residues assume simple roots; double roots occur on curves in the (r, α) plane only. For
-/// J0 the branch points ±ir add a term that decays like t^{-3/2}; it is not a mode and is left out.
+/// Faster modes are left out: the error decays like e^{Re λ t} of the first of them, so that the sum is soon accurate
+/// after a pulse. The residues assume simple roots; double roots occur on curves in the (r, α) plane only. For J0 the
+/// branch points ±ir add a term that decays like t^{-3/2}; it is not a mode and is left out.
 ///
 /// # Errors
 /// A pulse has a value that is not finite or a width ≤ 0; otherwise as [`super::roots`].

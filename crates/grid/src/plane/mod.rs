@@ -1,7 +1,7 @@
 //! The full PDE in the plane, for a tip that is free along the scan and across it.
 //!
-//! The cells are those of a plane, and the tip reads its slopes in both coordinates from them. Discretisations are
-//! tensor products of those of one coordinate, and a step updates only the cells within reach of the tip.
+//! The cells cover a plane, and the tip reads the slopes in both coordinates from them. Discretisations are tensor
+//! products of discretisations in one coordinate, and a step updates only the cells within reach of the tip.
 
 mod marcher;
 mod problem;

@@ -44,7 +44,7 @@ impl End<'_> {
         Some(Outcome { oscillation, ..Outcome::settled(Regime::StickSlip) })
     }
 
-    /// Whether a cycle may have this amplitude: a small cycle has that of the leading order at onset.
+    /// Whether a cycle may have this amplitude: the amplitude of a small cycle is that of the leading order at onset.
     fn may_be_a_cycle(&self, amplitude: f64) -> bool {
         let model = &self.scenario.model;
         if amplitude > self.small() || !model.wider().is_papers() {

@@ -24,7 +24,8 @@ fn by_alpha(model: &Model) -> Option<bool> {
 }
 
 impl End<'_> {
-    /// Linear stability of steady motion. It takes half the time of a classification, and is not needed for a trapped tip.
+    /// Linear stability of steady motion, computed at the first request: this takes half the time of a classification, and
+    /// is not needed for a trapped tip.
     pub(super) fn linear(&self) -> Linear {
         // Nobody waits for what it takes on a table.
         let of = || Linear::of(&self.scenario.model);

@@ -13,7 +13,7 @@ pub enum Doubt {
         /// Number of all lines.
         of: usize,
     },
-    /// The lines span too small a distance for a wave vector; about this many are sufficient.
+    /// The lines span too small a distance for a wave vector; about this many lines are sufficient.
     FewLines(usize),
     /// The lines are too short for a wave vector; about this length is sufficient, in σ.
     ShortLines(f64),
@@ -28,7 +28,7 @@ pub enum Doubt {
     },
     /// The relief is not a wave: fewer than two wavelengths fit. Lines of about this length would show more.
     NoWave(f64),
-    /// The relief of the second half of the evaluated lines over that of the first.
+    /// The surface still changes: the relief of the second half of the evaluated lines over that of the first half.
     Changing(f64),
     /// The surface is steady so far, but differences between lines grow by a factor per line.
     Growing {

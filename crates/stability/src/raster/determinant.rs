@@ -345,7 +345,7 @@ impl Lines {
     }
 
     /// Ratio of the ripple of a retrace to that of the trace before it, where Q = 0. If the tip is flexible across the
-    /// lines, it is that of the coordinate with the larger deviation.
+    /// lines, the ratio is for the coordinate with the larger deviation.
     pub(super) fn back_by_forth(&self, wave: &Wave, phase: &Phase, t: f64) -> Complex64 {
         if self.kind == Kind::PlaneZigzag {
             let null = null_vector(&self.matrix(wave, phase, Patch::constant(t)));

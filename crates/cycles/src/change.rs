@@ -54,7 +54,6 @@ impl Change {
         stages.chain(&self.state[..1]).fold(0.0, |m: f64, d| m.max(d.abs()))
     }
 
-    /// Largest change of a height.
     pub(super) fn of_heights(&self) -> f64 {
         self.heights.iter().flatten().fold(0.0, |m: f64, change| m.max(change.abs()))
     }

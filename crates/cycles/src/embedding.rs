@@ -166,7 +166,6 @@ impl Embedding {
         steps * state * state
     }
 
-    /// Length of the state X.
     pub(super) fn state_len(&self) -> usize {
         1 + 2 * self.short.terms().len() + usize::from(self.wider.inertia.is_some())
     }

@@ -100,7 +100,6 @@ impl<'a> PeriodMap<'a> {
         Past::of(&self.equation.short, self.orbit, &self.carved, Numbers::default())
     }
 
-    /// Length of the state.
     fn len(&self) -> usize {
         self.equation.state_len()
     }

@@ -70,7 +70,6 @@ impl Orbit {
         Trajectory::new(r, self.steps(r))
     }
 
-    /// The steps of one period.
     pub(super) fn steps(&self, r: f64) -> Vec<Step> {
         let mut extension = self.extension;
         let mut before = self.heights.last().map(|last| last.nodes[STAGES - 1]);

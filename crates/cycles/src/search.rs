@@ -175,7 +175,6 @@ struct Coarse {
     equation: Embedding,
     guess: Orbit,
     allowed: f64,
-    /// The residual that can be reached.
     reached: f64,
 }
 
@@ -308,7 +307,6 @@ fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit
 /// The cycles that a search is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sought {
-    /// All cycles.
     Any,
     /// Stable cycles; those that are clearly unstable are not solved for to the end.
     Stable,

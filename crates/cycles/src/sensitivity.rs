@@ -65,7 +65,6 @@ impl Sensitivity {
         &mut self.entries[i * stride..][..columns]
     }
 
-    /// Sets row i to 0.
     pub(super) fn clear(&mut self, i: usize) {
         self.row_mut(i).fill(0.0);
     }

@@ -19,7 +19,6 @@ pub(super) struct Closed {
     pub(super) linearisation: Arc<Linearisation>,
     /// Estimate of the largest residual of (18).
     pub(super) residual: f64,
-    /// Number of linearisations that the solution took.
     pub(super) iterations: usize,
 }
 
@@ -49,7 +48,7 @@ const MOST_ITERATIONS: usize = 15;
 const MOST_MESHES: usize = 8;
 /// Largest number of meshes in the extended model, where they must follow kink crossings and resonant motions.
 const MOST_MESHES_OF_WIDER: usize = 20;
-/// Number of meshes after which those of a tip with inertia aim at ever smaller residuals.
+/// Number of meshes after which, with inertia, further ones aim at ever smaller residuals.
 const USUAL_MESHES: usize = 4;
 /// Factor between the residuals that successive meshes then aim at.
 const SHARPER: f64 = 0.5;
@@ -221,7 +220,6 @@ impl Aim {
     }
 }
 
-/// Newton's method on one mesh.
 struct Newton<'a> {
     equation: &'a mut Embedding,
     orbit: &'a mut Orbit,

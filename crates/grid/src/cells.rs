@@ -14,7 +14,6 @@ impl<'a> Cells<'a> {
         Self { first: 0, values: Vec::new(), unvisited, scale: 1.0 }
     }
 
-    /// Multiplies all cells by a factor.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.scale *= factor;
         self.values.iter_mut().for_each(|value| *value *= factor);

@@ -92,7 +92,6 @@ impl<'a> Marcher<'a> {
         Self { visited: Some(visited), ..self }
     }
 
-    /// Integrates through all requested times.
     pub(crate) fn run(self, request: &Request, observe: &mut Observer) -> Result<Run, GridError> {
         self.run_to_velocity(request, observe).map(|(run, _)| run)
     }

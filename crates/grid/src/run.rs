@@ -53,7 +53,6 @@ pub struct Work {
 }
 
 impl Work {
-    /// The sum of both.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             steps: self.steps + other.steps,

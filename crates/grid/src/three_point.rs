@@ -54,7 +54,6 @@ pub(crate) struct WholeGrid<'a> {
 }
 
 impl<'a> WholeGrid<'a> {
-    /// The cells from one end to the other.
     pub(crate) fn new(grid: ThreePoint<'a>, from: f64, to: f64) -> Result<Self, GridError> {
         let first = (from / grid.spacing).ceil();
         let len = (to / grid.spacing).floor() - first + 1.0;

@@ -234,7 +234,6 @@ impl End<'_> {
             }
     }
 
-    /// Amplitude below which oscillations are compared with linear theory.
     fn small(&self) -> f64 {
         self.scenario.model.tip().widths(SMALL)
     }

@@ -93,7 +93,6 @@ impl Observer {
         }
     }
 
-    /// Start time of the run.
     pub(crate) fn start(&self) -> Option<f64> {
         self.start
     }
@@ -113,7 +112,6 @@ impl Observer {
         self.extrema.latest_first(self.r)
     }
 
-    /// Steps since the last extremum.
     pub(crate) fn risen(&self) -> &Thinned {
         &self.risen
     }

@@ -77,7 +77,6 @@ struct Cycles {
 }
 
 impl Cycles {
-    /// Adds a turning point of R - x0.
     fn add_lag(&mut self, Turn { value: lag, .. }: Turn) {
         let (low, high) = self.lags.unwrap_or((lag, lag));
         self.lags = Some((low.min(lag), high.max(lag)));
@@ -252,11 +251,9 @@ struct Largest {
     bins: Vec<f64>,
 }
 
-/// Largest number of bins.
 const BINS: usize = 512;
 
 impl Largest {
-    /// Adds the value at the end of a step.
     fn add(&mut self, (from, to): (f64, f64), value: f64) {
         if self.bins.is_empty() {
             self.width = to - from;

@@ -11,7 +11,6 @@ pub(crate) struct Thinned {
     seen: u64,
 }
 
-/// Largest number of steps kept.
 const MOST: usize = 512;
 
 impl Default for Thinned {

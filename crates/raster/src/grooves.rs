@@ -141,7 +141,6 @@ impl Grooves {
         positions.iter().map(outside).fold(0.0, f64::max)
     }
 
-    /// Adds the rows of the next line.
     fn put(&mut self, line: &Line, rows: Vec<Row>) {
         let left = self.wider.left_after(line.track().length / self.r);
         if left < 1.0 {

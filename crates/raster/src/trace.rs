@@ -81,13 +81,11 @@ pub(crate) struct Ways {
     pub(crate) track: Track,
     pub(crate) support: Support,
     pub(crate) wider: Wider,
-    /// Duration of the line.
     pub(crate) duration: f64,
     /// Trace of the earlier lines at the same y, and the fraction of it that has not healed at the end of this line.
     pub(crate) before: Option<(Arc<Trace>, f64)>,
 }
 
-/// Writes the trace of one line.
 pub(crate) struct Writer {
     ways: Ways,
     trace: Arc<Trace>,

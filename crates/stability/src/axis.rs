@@ -12,7 +12,6 @@ use stickslip_tip::{TipFunction, stop};
 
 /// Number of samples per period of the fastest oscillation that the reach of the tip allows.
 const SAMPLES_PER_PERIOD: f64 = 8.0;
-/// Largest number of samples of a scan.
 const MOST_SAMPLES: f64 = 2e5;
 /// For a footprint given as a table, values of c below this fraction of the largest one are round-off.
 const ROUNDOFF: f64 = 1e-12;

@@ -29,7 +29,6 @@ const DECAYED: f64 = 26.0;
 const PERIODS: f64 = 2.0;
 /// Number of widths before its center at which a pulse begins.
 const WIDTHS_OF_PULSE: f64 = 8.5;
-/// Largest number of nodes.
 const MOST_NODES: f64 = 100_000.0;
 
 impl Inversion {

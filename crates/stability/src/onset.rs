@@ -27,7 +27,7 @@ pub struct Onset {
     pub critical: Critical,
     /// The side of the boundary on which the oscillation exists.
     pub criticality: Criticality,
-    /// First Lyapunov coefficient, Re(N/D_λ): the coefficient of |A|³ in |A|'. Negative if supercritical.
+    /// First Lyapunov coefficient: that of |A|³ in |A|', where l = l0 + A e^{iωt} + c.c. Negative if supercritical.
     pub lyapunov: f64,
     /// d(Re λ)/dα of the critical pair.
     pub growth_slope: f64,
@@ -42,7 +42,8 @@ pub struct Onset {
 /// The bifurcation at αc(r).
 ///
 /// Limits: the results are of leading order, with a relative error O(α - αc) in quantities that depend on α. The
-/// critical pair must be the only one on the axis. For J0, 2Ω = 1 is excluded: N is infinite at this branch point.
+/// critical pair must be the only one on the axis. For J0, 2Ω = 1 is excluded: `lyapunov` is infinite at this branch
+/// point.
 ///
 /// # Errors
 /// As [`critical`]; [`StabilityError::DegenerateOnset`] where the coefficients are not finite or vanish.
@@ -114,7 +115,7 @@ impl Coefficients {
         }
     }
 }
-/// f'''(0)
+
 fn third_derivative_at_0(tip: &TipFunction) -> f64 {
     let TipFunction::Gaussians(sum) = tip else { return 0.0 };
     if tip.is_even() {

@@ -13,7 +13,7 @@ use stickslip_tip::{Model, Pulse};
 pub struct ResponseMode {
     /// The growth exponent λ, in k/Γ.
     pub lambda: Complex64,
-    /// The residue -F̃ext(λ)/D'(λ), summed over the pulses, where D(λ) = h(λ/r) of (30) in the basic model.
+    /// The residue -F̃ext(λ)/D'(λ), where F̃ext(λ) = ∫ Fext e^{-λt}dt and, in the basic model, D(λ) = h(λ/r) of (30).
     pub residue: Complex64,
 }
 

@@ -110,8 +110,9 @@ impl Snaking {
 
     /// The smallest α at which the line snakes; `None` if it never does.
     ///
-    /// J0 never snakes. If its width across is v, λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)) has no solution with
-    /// Re λ ≥ 0: φ(p) = 1/√(p²+1) decreases along the real axis, and Im φ < 0 if Re p and Im p are positive.
+    /// J0 never snakes. If its width across is v, and s = 1/(rT) for the healing time T, deviations obey
+    /// λ + κ_y = (αw0/(rv²)) (φ(λ/r + s) - φ(s)). This has no solution with Re λ ≥ 0: φ(p) = 1/√(p²+1) decreases along
+    /// the real axis, and Im φ < 0 if Re p and Im p are positive.
     ///
     /// # Errors
     /// [`StabilityError::AcrossGaussiansOnly`] for cos x; [`StabilityError::Uncertified`],

@@ -104,12 +104,10 @@ impl<'a> Marcher<'a> {
         Ok(self.position)
     }
 
-    /// x0', with inertia.
     pub(super) fn velocity(&self) -> f64 {
         self.velocity
     }
 
-    /// u at a point.
     pub(super) fn height(&mut self, at: [f64; 2]) -> f64 {
         let left = self.problem.wider.left_after(self.t - self.since);
         self.tensor.stencils(at, &mut self.stencils);

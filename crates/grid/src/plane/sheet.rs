@@ -24,7 +24,6 @@ impl Sheet {
         (along.first..).zip(&along.values).map(column).sum()
     }
 
-    /// The cell (i, j).
     pub(super) fn at(&self, column: i64, j: i64) -> f64 {
         let own = usize::try_from(column - self.first).ok().and_then(|i| self.columns.get(i));
         own.map_or(0.0, |own| {
@@ -33,7 +32,6 @@ impl Sheet {
         })
     }
 
-    /// Multiplies all cells by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         let cells = self.columns.iter_mut().flat_map(|column| &mut column.values);
         cells.for_each(|cell| *cell *= factor);

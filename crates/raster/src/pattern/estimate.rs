@@ -26,7 +26,6 @@ impl Estimate {
         Self { error: self.error + error, ..self }
     }
 
-    /// Widens the error to include this value.
     pub(super) fn enclosing(self, other: f64) -> Self {
         Self { error: self.error.max((other - self.value).abs()), ..self }
     }

@@ -141,7 +141,7 @@ impl Sheet {
         (xx - yy).hypot(2.0 * xy) / (xx + yy)
     }
 
-    /// Resolution: smallest difference of wave numbers that can be distinguished.
+    /// Smallest differences of wave numbers, along and across the lines, that can be distinguished.
     pub(super) fn resolution(&self) -> (f64, f64) {
         let (rows, columns) = self.u.dim();
         (TAU / (self.spacing * columns as f64), TAU / (self.pitch * rows as f64))

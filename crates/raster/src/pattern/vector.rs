@@ -81,7 +81,6 @@ impl Vector {
         self.q.error <= NO_WAVE * self.wave.q || self.wave.q < NO_WAVE * self.wave.kappa.abs()
     }
 
-    /// The relief of the second half of the lines over that of the first: in total, and of this wave.
     pub(super) fn changes(&self, sheet: &Sheet) -> [f64; 2] {
         self.wave.changes(sheet)
     }

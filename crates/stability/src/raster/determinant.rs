@@ -192,7 +192,6 @@ impl Lines {
         self.is_zigzag() && self.back.is_none()
     }
 
-    /// Whether the tip is flexible across the lines.
     pub(super) fn is_plane(&self) -> bool {
         matches!(self.kind, Kind::Plane | Kind::PlaneFull | Kind::PlaneZigzag)
     }

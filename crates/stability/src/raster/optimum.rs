@@ -6,7 +6,6 @@ use super::on_cell::Determinant;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Largest number of steps of Newton's method.
 const MOST_STEPS: usize = 40;
 /// Step of finite differences, as a fraction of a cell.
 const PART: f64 = 1e-2;
@@ -23,7 +22,6 @@ pub(super) struct Place {
     pub(super) q: f64,
     /// arg w; on a zigzag arg W = arg w²
     pub(super) theta: f64,
-    /// Whether T is stationary there.
     pub(super) is_stationary: bool,
 }
 

@@ -7,7 +7,6 @@ use num_complex::Complex64;
 use stickslip_tip::Gaussian;
 use stickslip_tip::sorting::sort_by_number;
 
-/// Number of nodes on each quadrature panel.
 const PANEL_NODES: usize = 32;
 /// Largest |Λ + band| times half a panel's width for which 32 nodes integrate to round-off.
 const PANEL_PHASE: f64 = 17.0;

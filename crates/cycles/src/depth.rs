@@ -14,7 +14,6 @@ use super::sensitivity::Sensitivity;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::step::{OwnGroove, OwnHeight};
 
-/// Linearised heights of one step.
 pub(super) struct LinearHeights {
     alpha: f64,
     /// Q⁻¹

@@ -18,7 +18,6 @@ use stickslip_tip::memory::Fit;
 use stickslip_tip::step::velocity_at_end;
 use stickslip_tip::stop;
 
-/// The linearised equations of an orbit.
 pub(super) struct Linearisation {
     /// rt - x0 at the end minus rt - x0 at the start.
     gap: f64,
@@ -84,7 +83,6 @@ impl Linearisation {
         Ok(Self { gap, end, stages, heights, phase, of_steps })
     }
 
-    /// Length of the state X.
     fn len(&self) -> usize {
         self.phase.by_state.len()
     }

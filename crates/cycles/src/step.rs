@@ -26,7 +26,6 @@ use num_complex::Complex;
 use stickslip_tip::collocation::{RADAU, STAGES, Stages};
 use stickslip_tip::step::OwnGroove;
 
-/// A step linearised about its displacements.
 pub(super) struct LinearStep<'a> {
     equation: &'a Embedding,
     past: PastOfStep<'a>,

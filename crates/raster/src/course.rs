@@ -37,7 +37,6 @@ pub(crate) struct Course<'a> {
     ahead: Vec<(f64, f64)>,
 }
 
-/// A line to be scanned.
 struct Job {
     n: usize,
     /// The rows before this line.
@@ -50,7 +49,6 @@ struct Job {
 /// A line, the result of `of_line` for it, and the rows after it.
 type Made<T> = (Line, T, Rows);
 
-/// The state that the threads share.
 struct Shared<T> {
     /// The next line to begin, and the rows before it.
     next: usize,

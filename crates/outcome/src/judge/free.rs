@@ -95,7 +95,6 @@ impl End<'_> {
         self.drifts(2.0 * change)
     }
 
-    /// The stable steady motion, rest or walk, whose velocity is nearest.
     fn attractor(&self) -> Theory {
         let Scenario { model, .. } = self.scenario;
         // A past that never ends has no steady motion.

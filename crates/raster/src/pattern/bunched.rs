@@ -73,7 +73,6 @@ fn trenches(sheet: &Sheet, pitch: f64) -> Option<Vec<Wave>> {
     (first.is_along_the_lines() && is_straight()).then_some(waves)
 }
 
-/// Angle and wavelength of trenches.
 struct Measured {
     angle: Option<Estimate>,
     wavelength: Option<Estimate>,

@@ -16,7 +16,6 @@ pub(super) struct Vector {
     length: Estimate,
     /// Waves of about the same power that make angle or wavelength uncertain.
     rivals: Vec<Wave>,
-    /// Number of lines scanned.
     lines: usize,
     /// Largest wave number across lines of this pitch.
     edge: f64,

@@ -29,7 +29,6 @@ struct Interval<F> {
     halves: Option<[usize; 2]>,
 }
 
-/// A binary tree of intervals.
 struct Tree<'a, F> {
     of: &'a dyn Fn(f64, f64) -> F,
     all: Vec<Interval<F>>,
@@ -40,7 +39,6 @@ struct Tree<'a, F> {
 pub(super) struct Found {
     /// The wave with the largest T, if this is above the floor.
     pub(super) place: Option<Place>,
-    /// Number of cells examined.
     pub(super) cells: usize,
 }
 

@@ -19,6 +19,7 @@ mod remark;
 mod rest;
 mod sequence;
 mod snaking;
+mod tail;
 mod thinned;
 mod watched;
 mod watched_across;

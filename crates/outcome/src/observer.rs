@@ -1,7 +1,7 @@
 //! Data from which a run is classified, collected during the run; their size is bounded for runs of any length.
 
+use crate::tail::{Motion, Tail};
 use crate::thinned::Thinned;
-use std::collections::VecDeque;
 use stickslip_tip::motion::{Extrema, Extremum};
 use stickslip_tip::state::{Damaged, Reader, State};
 use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
@@ -32,9 +32,10 @@ pub struct Observer {
     /// Start of the latest step that was not steady.
     unsteady: f64,
     extrema: Extrema,
-    /// Steps since the last extremum.
+    /// Steps since the last extremum, of a footprint without a reach: only its creep is measured on them.
     risen: Thinned,
-    tail: VecDeque<Step>,
+    has_reach: bool,
+    tail: Tail,
 }
 
 impl Observer {
@@ -53,7 +54,8 @@ impl Observer {
             unsteady: f64::NEG_INFINITY,
             extrema: Extrema::default(),
             risen: Thinned::default(),
-            tail: VecDeque::new(),
+            has_reach: model.tip().reach().is_some(),
+            tail: Tail::default(),
         }
     }
 
@@ -67,8 +69,10 @@ impl Observer {
         if self.extrema.observe(step, self.r) {
             self.risen.clear();
         }
-        self.risen.observe(step);
-        self.tail.push_back(*step);
+        if !self.has_reach {
+            self.risen.observe(step);
+        }
+        self.tail.push(step);
         self.cut_tail();
     }
 
@@ -78,18 +82,19 @@ impl Observer {
 
     /// Removes steps that neither the extrema nor the ripple of their last period need.
     fn cut_tail(&mut self) {
-        let start = |step: &Step| self.r * step.t - step.extension;
+        let position = |t: f64, extension: f64| self.r * t - extension;
         if let Some(earliest) = self.extrema.earliest_needed() {
             // The first is not needed if the second begins far enough behind.
-            let enough = start(&earliest.step) - self.reaches;
-            let spare = |next: &Step| next.t <= earliest.step.t && start(next) <= enough;
-            while self.tail.get(1).is_some_and(spare) {
-                self.tail.pop_front();
+            let Step { t, extension, .. } = earliest.step;
+            let enough = position(t, extension) - self.reaches;
+            let spare = |next: &Motion| next.t <= t && position(next.t, next.extension) <= enough;
+            while self.tail.motion(1).is_some_and(spare) {
+                self.tail.pop();
             }
         }
         if self.tail.len() > LONGEST_TAIL {
-            self.tail.pop_front();
-            self.extrema.forget_before(self.tail[0].t);
+            self.tail.pop();
+            self.tail.motion(0).iter().for_each(|first| self.extrema.forget_before(first.t));
         }
     }
 
@@ -112,18 +117,19 @@ impl Observer {
         self.extrema.latest_first(self.r)
     }
 
+    /// Steps since the last extremum, of a footprint without a reach.
     pub(crate) fn risen(&self) -> &Thinned {
         &self.risen
     }
 
     /// The latest step.
     pub fn last(&self) -> Option<Step> {
-        self.tail.back().copied()
+        self.tail.last()
     }
 
     /// The last steps; `None` before the first.
     pub fn tail(&self) -> Option<Trajectory> {
-        let steps: Vec<Step> = self.tail.iter().copied().collect();
+        let steps = self.tail.steps();
         (!steps.is_empty()).then(|| Trajectory::under(self.wider, self.support.clone(), steps))
     }
 
@@ -134,14 +140,14 @@ impl Observer {
 
     pub(crate) fn save(&self, state: &mut State) {
         state.flag(self.start.is_some());
-        if let (Some(start), Some(last)) = (self.start, self.tail.back()) {
+        if let (Some(start), Some(last)) = (self.start, self.last()) {
             state.number(start);
-            state.step(last);
+            state.step(&last);
         }
         state.number(self.unsteady);
         self.extrema.save(state);
         self.risen.save(state);
-        state.steps(self.tail.iter());
+        state.steps(self.tail.steps().iter());
     }
 
     pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
@@ -149,11 +155,11 @@ impl Observer {
         self.unsteady = state.number()?;
         self.extrema.restore(state)?;
         self.risen.restore(state)?;
-        self.tail = state.steps()?.into();
+        self.tail = Tail::of(&state.steps()?).ok_or(Damaged::OutOfRange)?;
         self.start = span.map(|(start, _)| start);
         // The last step is the end of the tail.
         let last = span.map(|(_, last)| last);
-        if self.tail.back() == last.as_ref() { Ok(()) } else { Err(Damaged::OutOfRange) }
+        if self.last() == last { Ok(()) } else { Err(Damaged::OutOfRange) }
     }
 }
 

@@ -94,12 +94,12 @@ impl Classified for Watched<'_> {
     type Error = RunError;
 
     fn step(&mut self) -> Result<Option<Step>, RunError> {
-        // Passed on as it is: a step is long to copy.
-        let made = self.running.step();
-        if let Ok(Some(step)) = &made {
+        // Observed where it was made: a step is long to copy, and slow to read just after a copy.
+        let made = self.running.advance()?;
+        if let Some(step) = made {
             self.observer.observe(step);
         }
-        made
+        Ok(made.copied())
     }
 
     fn last(&self) -> Option<Step> {

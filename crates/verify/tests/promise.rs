@@ -191,7 +191,8 @@ fn with_fit(scenario: &Scenario, fit: Fit) -> Trajectory {
     let mut steps = vec![];
     // A damaged memory may make motions without end.
     while integrator.t() < scenario.until && steps.len() < 600 {
-        steps.push(integrator.step(scenario.until).unwrap());
+        integrator.step(scenario.until).unwrap();
+        steps.push(*integrator.last().unwrap());
     }
     Trajectory::new(model.r(), steps)
 }

@@ -195,24 +195,25 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// The tolerance cannot be met.
     #[inline]
-    pub fn step(&mut self, until: f64) -> Result<Step, IntegrationError> {
-        if self.step_by_series(until)
-            && let Some(step) = self.taylor.taken()
-        {
-            return Ok(*step);
-        }
-        self.step_by_collocation(until)
+    pub fn step(&mut self, until: f64) -> Result<(), IntegrationError> {
+        if self.step_by_series(until) { Ok(()) } else { self.step_by_collocation(until) }
+    }
+
+    /// The last step.
+    #[inline]
+    pub fn last(&self) -> Option<&Step> {
+        self.taylor.taken().or(self.last.as_ref())
     }
 
     #[inline(never)]
-    fn step_by_collocation(&mut self, until: f64) -> Result<Step, IntegrationError> {
+    fn step_by_collocation(&mut self, until: f64) -> Result<(), IntegrationError> {
         self.enter_stretch();
         let (limit, end) = (self.length_limit(), self.next_end(until));
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
             h = self.landing(h, end).ok_or(self.too_small(h))?;
             match self.attempt(h) {
-                Ok(step) => return Ok(step),
+                Ok(()) => return Ok(()),
                 Err(Retry::Shorter(shorter)) => {
                     self.work.rejected += 1;
                     h = shorter;
@@ -243,8 +244,8 @@ impl<'a> Integrator<'a> {
         self.velocity += (force - self.limits_from_before.1) - (slope - self.limits_from_before.0);
     }
 
-    /// Makes a step of length h; returns the accepted step, or the shorter length to try instead.
-    fn attempt(&mut self, h: f64) -> Result<Step, Retry> {
+    /// Makes a step of length h; on failure, returns the shorter length to try instead.
+    fn attempt(&mut self, h: f64) -> Result<(), Retry> {
         let longest = step::longest_displacement(self.model.tip().band());
         let guess = self.predict(h, longest);
         let enough = ENOUGH * self.control.target();
@@ -278,7 +279,8 @@ impl<'a> Integrator<'a> {
         let signs = self.signs_of_error(&displacement, h);
         let beside = self.error_of_heights(heights.as_ref(), h);
         self.control.judge(signs, h, stiffness, beside).map_err(Retry::Shorter)?;
-        Ok(self.accept(h, &solution, heights))
+        self.accept(h, &solution, heights);
+        Ok(())
     }
 
     /// The data at the start of a step of length h.
@@ -304,7 +306,7 @@ impl<'a> Integrator<'a> {
         (coasting * defect, coasting * self.last.map_or(0.0, before))
     }
 
-    fn accept(&mut self, h: f64, solution: &Solution, height: Option<Heights>) -> Step {
+    fn accept(&mut self, h: f64, solution: &Solution, height: Option<Heights>) {
         let (displacement, rested) = (solution.displacement, self.rests());
         let step = Step { t: self.t, h, extension: self.extension, displacement, height };
         if let Some(time) = self.model.wider().healing_time {
@@ -326,7 +328,6 @@ impl<'a> Integrator<'a> {
         self.last = Some(step);
         self.work.steps += 1;
         self.taylor.made(h * self.fastest(self.curvature));
-        step
     }
 
     /// The largest rate, in k/Γ, at which the tip relaxes in a groove of this curvature.

@@ -10,7 +10,7 @@ impl Saved for Integrator<'_> {
         for number in [self.t, self.extension, self.velocity, self.curvature, slope, force] {
             state.number(number);
         }
-        state.steps(self.taylor.taken().or(self.last.as_ref()).into_iter());
+        state.steps(self.last().into_iter());
         self.corner.iter().for_each(|corner| corner.save(state));
         self.work.save(state);
         self.control.save(state);

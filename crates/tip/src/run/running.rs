@@ -62,14 +62,23 @@ impl<'a> Running<'a> {
     /// The tolerance cannot be met, or the tip retreats farther than the memory reaches back.
     #[inline]
     pub fn step(&mut self) -> Result<Option<Step>, RunError> {
+        Ok(self.advance()?.copied())
+    }
+
+    /// Makes the next step like [`step`](Self::step), without copying it.
+    ///
+    /// # Errors
+    /// The tolerance cannot be met.
+    #[inline]
+    pub fn advance(&mut self) -> Result<Option<&Step>, RunError> {
         if self.integrator.t() >= self.scenario.until {
             return Ok(None);
         }
-        let step = self.integrator.step(self.scenario.until)?;
+        self.integrator.step(self.scenario.until)?;
         if let Some(kept) = self.integrator.memory().forgotten() {
             return Err(IntegrationError::Forgotten { t: self.t(), kept }.into());
         }
-        Ok(Some(step))
+        Ok(self.integrator.last())
     }
 
     /// Time reached.

@@ -7,6 +7,7 @@ use crate::commands::progress::Progress;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
+use std::sync::Arc;
 use std::time::Instant;
 use stickslip_tip::{Scenario, stop};
 
@@ -38,8 +39,7 @@ impl<R: Motion> Integration<R> {
     }
 
     fn step(&mut self) -> Result<Option<R::Step>, Failure> {
-        let step = stop::where_asked_by(self.interrupt.flag(), || self.running.step());
-        step.map_err(|error| match self.record.keep_part() {
+        self.running.step().map_err(|error| match self.record.keep_part() {
             None => Failure::Run(error.to_string()),
             Some(part) => {
                 Failure::Run(format!("{error}; the part written so far is in {}", part.display()))
@@ -53,30 +53,42 @@ impl<R: Motion> Integration<R> {
         session: &Session,
         scenario: &Scenario,
     ) -> Result<Integrated<R>, Failure> {
-        let mut progress = Progress::new(session, scenario.start_time(), scenario.until);
+        let progress = Progress::new(session, scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
-        let (mut signal, mut is_whole) = (None, true);
-        while signal.is_none()
-            && let Some(step) = self.step()?
-        {
-            let interrupt = &self.interrupt;
-            is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
-            let end = step.as_ref().end();
-            progress.counted(end, || format!("t = {end:.6}"));
-            signal = self.interrupt.signal();
-            // Of a step whose samples were not all taken there is none: the last one is before it.
-            if !is_whole {
-                break;
-            }
-            let due = |c: &Checkpoints| c.is_due(end) || signal.is_some();
-            if self.checkpoints.as_ref().is_some_and(due) {
-                self.seconds = before + started.elapsed().as_secs_f64();
-                self.checkpoint()?;
-            }
-        }
-        let seconds = before + started.elapsed().as_secs_f64();
+        let seconds = || before + started.elapsed().as_secs_f64();
+        // Once for all steps: a step may be as short as this takes.
+        let flag = Arc::clone(self.interrupt.flag());
+        let is_whole = stop::where_asked_by(&flag, || self.advance(progress, seconds))?;
+        let seconds = seconds();
         self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
         let Self { running, record, interrupt, .. } = self;
         Ok(Integrated { running, record, seconds, interrupt })
+    }
+
+    /// Makes and records steps to the end or to a signal; returns whether all samples of the last one were taken.
+    fn advance(
+        &mut self,
+        mut progress: Progress,
+        seconds: impl Fn() -> f64,
+    ) -> Result<bool, Failure> {
+        while let Some(step) = self.step()? {
+            let interrupt = &self.interrupt;
+            let is_whole = self.record.take(&step, || interrupt.signal().is_some())?;
+            let end = step.as_ref().end();
+            progress.counted(end, || format!("t = {end:.6}"));
+            let is_stopped = self.interrupt.signal().is_some();
+            // Of a step whose samples were not all taken there is no checkpoint: the last one is before it.
+            if !is_whole {
+                return Ok(false);
+            }
+            if self.checkpoints.as_ref().is_some_and(|c| is_stopped || c.is_due(end)) {
+                self.seconds = seconds();
+                self.checkpoint()?;
+            }
+            if is_stopped {
+                break;
+            }
+        }
+        Ok(true)
     }
 }

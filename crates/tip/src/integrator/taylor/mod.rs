@@ -241,7 +241,7 @@ impl Integrator<'_> {
     /// Sets the data from which collocation continues.
     fn hand_over(&mut self) {
         self.work.switches += 1;
-        self.last = self.taylor.pieces.taken().copied().or(self.last);
+        self.last = self.last().copied();
         self.taylor.pieces.clear();
         let mut slope = [0.0];
         let mut curvature = [0.0];

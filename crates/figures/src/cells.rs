@@ -6,8 +6,8 @@ use crate::style::colour;
 use stickslip::CellsDocument;
 use stickslip_tip::sorting;
 
-/// Draws the cells, a path for each category. Each extends half-way to its neighbours, and those at the ends
-/// symmetrically unless the axes cut them.
+/// Draws the cells, a path for each category. A cell extends half-way to its neighbours; cells at the ends are symmetric
+/// unless the axes cut them.
 pub(crate) fn draw(cells: &CellsDocument, frame: Frame, drawing: &mut Drawing) {
     let (x, y) = (edges(&cells.x), edges(&cells.y));
     for (kind, name) in cells.colours.iter().enumerate() {

@@ -26,7 +26,7 @@ pub enum FigureError {
     /// The document has nothing to draw.
     #[error("{0}")]
     Nothing(String),
-    /// A range whose unit is not that of its axis: the unit and that of the axis.
+    /// A range whose unit is not that of its axis; the unit, and the label of the axis.
     #[error(
         "a range in {0} does not fit the axis {1}: give it in the unit of the axis, or the scales by --units or --sigma"
     )]

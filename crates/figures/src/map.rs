@@ -11,7 +11,7 @@ use stickslip::{ColoursName, MapDocument, ScaleName};
 const BAR_GAP: f64 = 16.0;
 const BAR: f64 = 18.0;
 const BAR_STEPS: usize = 128;
-/// Height of the triangle at an end of the bar, which says that there are values beyond it.
+/// Height of the triangle that marks values beyond an end of the bar.
 const BEYOND: f64 = 11.0;
 
 /// A map, its visible part, and its scale of heights.
@@ -21,7 +21,7 @@ pub(crate) struct Map<'a> {
     columns: (usize, usize),
     rows: (usize, usize),
     scale: Axis,
-    /// Whether there are lower and higher values than the scale has.
+    /// Whether there are values below the scale, and above it.
     clipped: (bool, bool),
 }
 
@@ -115,7 +115,7 @@ impl<'a> Map<'a> {
     }
 }
 
-/// Part of the scale by which values have to be beyond it to be marked.
+/// Fraction of the scale by which values must exceed it to be marked.
 const LEAST_CLIPPED: f64 = 1e-3;
 
 const FIT: Fit = Fit { scale: ScaleName::Linear, padding: 0.0, natural: 0.0, ticks: 5.0 };

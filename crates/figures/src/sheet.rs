@@ -13,15 +13,15 @@ const NARROWEST: f64 = 240.0;
 /// The same for maps, which have a bar beside them.
 const NARROWEST_MAP: f64 = 340.0;
 const TITLE_LINE: f64 = 1.4 * TITLE_SIZE;
-/// Height of a panel over the width of the figure: for a single panel, for one of several, and for one with cells;
-/// and the limits of all these.
+/// Height of a panel over the width of the figure: for a single panel, for one of several, and for one with cells.
 const ALONE: f64 = 0.6;
 const SHARED: f64 = 0.3;
 const CELLS: f64 = 0.69;
+/// Limits of the height of a panel, in units.
 const HEIGHTS: (f64, f64) = (230.0, 640.0);
-/// The same ratio for a map whose axes have no scale in common.
+/// Height over width for a map whose axes have no scale in common.
 const MAP: f64 = 0.4;
-/// Limits of the sides of axes that have one; a map is stretched only if it is longer than their ratio.
+/// Limits of the sides of axes with a common scale, in units; only a map longer than their ratio is stretched.
 const AXES: (f64, f64) = (70.0, 600.0);
 
 /// A panel with its columns: the first, and one past the last.

@@ -43,7 +43,7 @@ pub(crate) fn number(value: f64) -> String {
     text
 }
 
-/// Appends a number with at most two decimals. By integers: pages draw thousands of points while a slider moves.
+/// Appends a number with at most two decimals. Integers are fast: web pages draw thousands of points while a slider moves.
 fn push(value: f64, text: &mut String) {
     let hundredths = (value.clamp(-1e6, 1e6) * 100.0).round() as i64;
     if hundredths < 0 {

@@ -3,7 +3,7 @@
 use super::palette::Palette;
 use crate::error::FigureError;
 
-/// Largest difference of colours, of 255, that is left as it is: that of a colour from the palette.
+/// Largest difference of a channel (0 to 255) at which a pixel is left as it is; palette colours are off by as much.
 pub(super) const NEAR: u8 = 8;
 
 /// A writer of frames.
@@ -64,9 +64,9 @@ impl Patch {
         Self { left, top, width: right - left, height: bottom - top, pixels }
     }
 
-    /// Replaces colours by those of the palette, and drops pixels that show one no farther than `near` from theirs:
-    /// heights beside a line change a little with each line. `shown` has the index of each pixel of the frame, of this
-    /// width.
+    /// Replaces colours by those of the palette. Pixels that already show a colour within `near` of the new one are
+    /// dropped, because heights beside a line change a little with each line. `shown` contains the palette index of each
+    /// pixel of the frame, which has this width.
     pub(super) fn reduce(
         &mut self,
         palette: &mut Palette,

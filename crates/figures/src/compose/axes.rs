@@ -9,7 +9,7 @@ use stickslip::{
 pub(super) const R: &str = "r = Γv₀/(kσ)";
 /// α, (13).
 pub(super) const ALPHA: &str = "α = ΓNa/(k²σ²)";
-/// Labels of the quantities that r and α are in proportion to, where their scales are known.
+/// Labels that replace those of r and α where scales are known: the quantities to which r and α are proportional.
 pub(super) const V0: &str = "velocity of the support v₀ (kσ/Γ)";
 pub(super) const N: &str = "indentation rate N (k²σ²/(aΓ))";
 /// Labels of l against time.
@@ -18,12 +18,13 @@ pub(super) const L: (&str, &str) = ("t (Γ/k)", "l = rt − r − x₀ (σ)");
 pub(super) const VELOCITY: (&str, &str) = ("t (Γ/k)", "ẋ₀ (kσ/Γ)");
 /// Labels of the spring extension against time, for a support on a path: the lateral force.
 pub(super) const LAG: (&str, &str) = ("t (Γ/k)", "R − x₀ (σ)");
-/// The same for a support of constant velocity, and in a map.
+/// Label of the spring extension for a support of constant velocity.
 pub(super) const LAG_OF_STEADY_SUPPORT: &str = "rt − x₀ (σ)";
+/// Label of the spring extension in a map.
 pub(super) const SPRING: &str = "lag (σ)";
-/// The label of all three where the scale of forces is known.
+/// The label that replaces these three where the scale of forces is known.
 pub(super) const SPRING_FORCE: &str = "lateral force (kσ)";
-/// The name of a curve of the extension, and its name beside this label.
+/// The name of a curve of the extension, and its name where the axis is labelled as a force.
 pub(super) const EXTENSION: [&str; 2] = ["R(t) − x₀(t)", "lateral force"];
 /// Labels of the position of a tip without a spring.
 pub(super) const POSITION: (&str, &str) = ("t (Γ/k)", "x₀ (σ)");
@@ -69,7 +70,7 @@ pub(super) fn surface_map(
     MapDocument { x, y, z: u, z_label, colours: ColoursName::Cividis, z_range }
 }
 
-/// The differences of pairs of columns over a third, on a logarithmic axis.
+/// The absolute differences of pairs of columns against a third column, on a logarithmic axis.
 pub(super) fn differences<'a>(
     labels: (&str, &str),
     columns: impl Iterator<Item = [&'a [f64]; 3]>,

@@ -19,7 +19,7 @@ const BEHIND: f64 = 12.0;
 const AHEAD: f64 = 4.0;
 /// Points of the surface.
 const POINTS: u32 = 800;
-/// Times at which the range of the heights is found.
+/// Number of times at which the range of the heights is determined.
 const LOOKS: u32 = 24;
 /// Air below the heights and above them, for tip and spring, relative to their span.
 const AIR: (f64, f64) = (0.12, 0.75);
@@ -124,7 +124,7 @@ pub(super) fn whole(curve: &CurveDocument, labels: (&str, &str), times: [f64; 2]
     panel
 }
 
-/// The part of a curve before a time, and a dot at its value then.
+/// The part of a curve before time t, and a dot at its value at t, `now`.
 pub(super) fn past(curve: &CurveDocument, t: f64, now: f64) -> [CurveDocument; 2] {
     let past = curve.x.partition_point(|at| *at < t);
     let (mut x, mut y) = (curve.x[..past].to_vec(), curve.y[..past].to_vec());

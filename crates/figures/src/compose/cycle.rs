@@ -16,8 +16,8 @@ use stickslip_tip::{InitialSurface, Model, Step, Support, Trajectory, nodes_and_
 /// Number of wavelengths of the ripple shown.
 const WAVELENGTHS: f64 = 3.0;
 const POINTS: u32 = 1500;
-/// Largest number of periods computed on either side of them; a wave that would need more is much shorter than the
-/// tip and leaves no ripple.
+/// Largest number of periods computed on either side of those shown; a wave that would need more is much shorter than
+/// the tip and leaves no ripple.
 const MOST_PERIODS: f64 = 3000.0;
 /// Largest number of steps in all these periods: 300 MB with their history.
 const MOST_STEPS: f64 = 1e6;

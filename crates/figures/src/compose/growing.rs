@@ -69,7 +69,7 @@ impl Growing {
         })
     }
 
-    /// Adds the groove that line n has carved by a time since its start, to the surface of that start.
+    /// Carves line n into `u`, the surface at the start of the line, up to time t after this start.
     fn carve(&self, n: usize, t: f64, u: &mut [Vec<f64>]) {
         let left = self.plan.law.model.wider().left_after(t);
         if left < 1.0 {

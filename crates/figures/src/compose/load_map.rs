@@ -19,7 +19,7 @@ const OTHERS: [(&str, Option<RegimeName>, ColourName); 4] = [
     ("unknown", None, ColourName::Grey),
 ];
 
-/// Percentage of the distances of ripples that have colours of their own: towards trapping they have no bound.
+/// Percentile of the wavelengths at which the colour scale ends: towards trapping wavelengths have no bound.
 const SHOWN: usize = 85;
 
 impl Drawn for LoadMapDocument {
@@ -111,7 +111,7 @@ fn is_bare(point: &LoadPoint) -> bool {
     point.wavelength.is_none()
 }
 
-/// The regime of a point without ripples; others than those named have not settled.
+/// The regime of a point without ripples; any other than steady and trapped counts as not settled.
 fn kind_of(point: &LoadPoint) -> Option<RegimeName> {
     match point.regime? {
         regime @ (RegimeName::Steady | RegimeName::Trapped) => Some(regime),

@@ -73,7 +73,7 @@ fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
     tip.ground(x) + tip.apex * f
 }
 
-/// Relative half width of an interval below which it is that of round-off.
+/// Relative half width of an interval below which the interval is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
 /// A value with its error, such as "1.88 ± 0.02".

@@ -1,5 +1,5 @@
-//! Numbers with a dimension within texts. A text names them in the model's units; where the scales of an experiment are
-//! known, it gets them in the units of the axes.
+//! Numbers with a dimension within texts. They are written in the model's units or, where the scales of an experiment are
+//! known, in the units of the axes.
 
 use crate::number::{plus_minus, seven_digits};
 use stickslip::{Dimension, FigureDocument, KnownScales, to_its_digits};

@@ -17,11 +17,12 @@ use stickslip::{
     StyleName,
 };
 
-/// The patch with marked crests: between these fractions of the length, centred at this fraction of the lines and at
-/// most that large; and the largest number of crests that leaves the surface visible.
+/// Ends of the patch with marked crests, as fractions of the length of the lines.
 const MARKED: (f64, f64) = (0.4, 0.65);
+/// Centre of this patch across the lines, and its largest width across, as fractions of the extent of the lines.
 const MARKED_LINES: f64 = 0.72;
 const MARKED_PART: f64 = 0.4;
+/// Largest number of crests that leaves the surface visible.
 const MOST_CRESTS: i64 = 24;
 /// Largest number of lines with a drawn path of the tip, and points of each.
 const MOST_PATHS: usize = 64;
@@ -192,7 +193,7 @@ fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
     Some((x, [middle - half, middle + half]))
 }
 
-/// Phase φ of the heights on the patch, each minus the mean of its row: Σ w u e^{-i(qx + κy)} has the phase φ.
+/// Phase φ of the sum Σ w u e^{-i(qx + κy)} over the patch, with the heights u minus the mean of their row and a window w.
 fn phase(map: &HeightMap, (x, y): (&[f64; 2], &[f64; 2]), (q, kappa): (f64, f64)) -> Option<f64> {
     let part = |at: f64, ends: &[f64; 2]| (at - ends[0]) / (ends[1] - ends[0]);
     let window = |part: f64| {

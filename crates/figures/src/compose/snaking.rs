@@ -16,7 +16,7 @@ impl Drawn for SnakingBoundaryDocument {
     /// The critical α of snaking and of stick-slip, and the wavelength of snaking at its threshold.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         if self.alpha.is_empty() {
-            let message = "a line snakes at no α at each of these values";
+            let message = "no scan line snakes at any of these values, whatever α";
             return Err(FigureError::Nothing(message.into()));
         }
         let parameters = &self.parameters;

@@ -147,7 +147,7 @@ impl Ground<'_> {
     }
 }
 
-/// A time, and a height, for a text.
+/// A time for a text.
 fn time(t: f64) -> String {
     Quantity::new(t, "Γ/k").said(&short(t))
 }

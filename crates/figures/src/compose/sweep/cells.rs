@@ -73,8 +73,8 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     ]
 }
 
-/// A value of the slow parameter, αc there, which a point may have `known`, and the trapping threshold; NaN if there is
-/// none.
+/// The i-th value of the slow parameter, αc at this value, computed unless `known`, and the trapping threshold; NaN if
+/// there is none.
 fn threshold(
     document: &SweepDocument,
     slow: Varied,

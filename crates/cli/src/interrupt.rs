@@ -29,7 +29,7 @@ struct State {
     farewell: Mutex<Option<Farewell>>,
 }
 
-/// The error of a command that need not end itself, as a function of the signal.
+/// The error, as a function of the signal, with which the program ends a command that need not reach its next step.
 type Farewell = Box<dyn Fn(u8) -> Failure + Send>;
 
 /// Time for a command to end itself.
@@ -66,7 +66,7 @@ pub(crate) fn end_at_once() -> io::Result<()> {
     thread::Builder::new().name("signals".into()).spawn(wait).map(drop)
 }
 
-/// The error of a command that has not ended itself and need not; `None` while partial results are being saved.
+/// The error with which to end a command that is still working after a while; `None` while it saves partial results.
 fn after_a_while(signal: u8) -> Option<Failure> {
     thread::sleep(PATIENCE);
     if state().keepers.load(Ordering::SeqCst) == 0 {

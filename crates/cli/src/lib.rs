@@ -75,7 +75,7 @@ fn failed(failure: &Failure) -> ExitCode {
     failure.exit_code()
 }
 
-/// Removes a similar option from the message unless it is as similar as the fields that are suggested.
+/// Removes a suggested option from the message unless it is at least as similar as a suggested field must be.
 fn drop_far_suggestion(error: &mut clap::Error) {
     use clap::error::{ContextKind, ContextValue};
     let text = |kind| match error.get(kind) {

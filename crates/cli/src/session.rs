@@ -64,7 +64,7 @@ pub struct Pace {
 }
 
 impl Session {
-    /// The session of a terminal; a quiet one prints errors alone.
+    /// The session of a terminal; a quiet one prints only errors.
     pub(crate) fn of_terminal(is_quiet: bool) -> Self {
         Self { is_quiet, ..Self::default() }
     }

@@ -62,7 +62,7 @@ impl Brief for Command {
     }
 }
 
-/// The text unchanged. It has no colours: `to_string` would search for them, for a sixth of the time of parsing.
+/// The text unchanged. `to_string` would search it for colours, which takes a sixth of the time of parsing; it has none.
 fn text(styled: &StyledStr) -> String {
     styled.ansi().to_string()
 }

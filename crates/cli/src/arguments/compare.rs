@@ -9,8 +9,7 @@ use stickslip::{GridName, Raster, Run};
 
 /// Compare the closed equation with the full PDE on a grid: largest difference and speed.
 ///
-/// The comparison is of a run to --until, or with --lines or --area of a raster. The tolerance is that of the closed
-/// equation.
+/// Compares a run up to --until or, with --lines or --area, a raster. --tolerance is that of the closed equation.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -35,8 +34,8 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// Discretisation of (10), (11); for a raster sinc (spectral means the same there) or windowed; across the scan all
-    /// but uniform.
+    /// Discretisation of the full equations (10), (11). Rasters have sinc (also by the name spectral) and windowed;
+    /// uniform is not available with --stiffness-across.
     #[arg(
         long,
         value_parser = named::<GridName>(),
@@ -46,8 +45,8 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) grid: GridName,
 
-    /// Δx, in σ [default: the widest exact to round-off for spectral and sinc, 0.01 tip widths for
-    /// uniform and windowed, 0.05 across the scan; the paper has 0.001].
+    /// Grid spacing Δx, in σ [default: the widest that is exact to round-off for spectral and sinc, 0.01 tip widths for
+    /// uniform and windowed, 0.05 with --stiffness-across; the paper has 0.001].
     #[arg(long, value_name = "DX", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) spacing: Option<f64>,
 
@@ -61,15 +60,16 @@ pub(crate) struct CompareArguments {
     )]
     pub(crate) grid_tolerance: Option<f64>,
 
-    /// Constant steps of this length instead, at most that of the run; the paper has about 0.04.
+    /// Constant steps of this length, in Γ/k, in place of adaptive ones; at most the length of the run. The paper has about
+    /// 0.04.
     #[arg(long, value_name = "DT", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) step: Option<f64>,
 
-    /// End time of the grid, if earlier; the speedup is then that over the same span of time.
+    /// End time of the grid, if earlier than --until; the speedup is then that over this shorter time.
     #[arg(long, value_name = "T", allow_hyphen_values = true, help_heading = "Grid")]
     pub(crate) grid_until: Option<f64>,
 
-    /// Time limit of either side, in seconds: stop once it is predicted to be exceeded.
+    /// Time limit of closed equation and grid, each, in seconds: stop once it is predicted to be exceeded.
     #[arg(
         long,
         value_name = "S",

@@ -52,7 +52,7 @@ pub(crate) struct FiguresArguments {
     #[arg(long, value_name = "DIR")]
     pub(crate) out_dir: PathBuf,
 
-    /// Make only these.
+    /// Make only these figures, and the table of numbers only if `reproduction` is among them.
     #[arg(long, value_enum, value_name = "NAME1,NAME2,…", value_delimiter = ',')]
     pub(crate) only: Option<Vec<FigureName>>,
 }

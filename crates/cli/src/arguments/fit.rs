@@ -32,12 +32,12 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "FILE", help_heading = "Data")]
     pub(crate) friction: Vec<PathBuf>,
 
-    /// Heights of an area of ripples, .gsf (Gwyddion), with rows along the lines that made them: settled, and scanned in
+    /// Heights of an area of settled ripples, .gsf (Gwyddion), with rows along the lines that made them, all scanned in
     /// one direction.
     #[arg(long, value_name = "FILE", help_heading = "Data", conflicts_with_all = OF_LINES)]
     pub(crate) image: Option<PathBuf>,
 
-    /// Heights of the same area on the way back, .gsf, which lie as those of --image do: fitted together with them.
+    /// Heights of the same area on the retrace, .gsf, at the positions of --image, fitted together with those of --image.
     #[arg(long, value_name = "FILE", help_heading = "Data", requires = "image")]
     pub(crate) retrace_image: Option<PathBuf>,
 
@@ -96,13 +96,13 @@ const USAGE: &str = "stickslip fit --ripple <FILE> [--friction <FILE>] [OPTIONS]
        stickslip fit --image <FILE> --width <W> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
-  α, r and σ from ripples in nm, by the tip measured before, drawn:
+  α, r and σ from ripples in nm, for a tip that was measured before, with a picture:
     stickslip fit --ripple ripples.csv --tip-file tip.json -o fit.json \\
         --plot fit.svg
   The same with σ known, and with the lateral force of the same scan:
     stickslip fit --ripple ripples.csv --friction trace.csv \\
         --tip-file tip.json --width 30nm
-  A depth limit too, of rows some of which are dust:
+  A depth limit too, from rows some of which are dust:
     stickslip fit --ripple ripples.csv --free depth-limit --robust
   α and r from an image of ripples whose lines were 15 nm apart:
     stickslip fit --image scan.gsf --width 30nm --pitch 15nm --tip gaussian \\

@@ -9,8 +9,9 @@ use stickslip::Friction;
 /// Compute friction forces and work from a measured loop of lateral force, with 95 % intervals.
 ///
 /// Trace and retrace of one line give the kinetic friction force, the static peak after each reversal, the hysteresis and the
-/// work of a loop, in nN and fJ if the units are known. Runs give theirs from their samples. The zero of the instrument is removed. Errors of means count the
-/// correlation of stick-slip, that of the peak the noise of the rows near it.
+/// work of a loop, in nN and fJ if the units are known. A run is evaluated from its samples. The zero of the instrument is
+/// removed. Errors of means account for the correlation of stick-slip; the error of the peak follows from the noise of the rows
+/// near it.
 #[derive(Debug, Args)]
 #[command(override_usage = USAGE, after_help = EXAMPLES, brief())]
 pub(crate) struct FrictionArguments {

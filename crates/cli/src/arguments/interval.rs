@@ -61,7 +61,7 @@ impl Interval {
         self.points
     }
 
-    /// The number of values, if given: at least 2, and not by an `other` option too.
+    /// The number of values, if given: at least 2, and not given by the option `other` too.
     pub(crate) fn points(
         &self,
         option: &str,

@@ -64,7 +64,7 @@ use stickslip::{SCHEMAS, Software};
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
 ///
 /// A tip dragged over a soft surface carves a groove, which pulls back on the tip: above a critical indentation rate
-/// it sticks, slips and writes ripples. All quantities are dimensionless: lengths in tip widths σ, times in Γ/k,
+/// the tip sticks, slips and writes ripples. All quantities are dimensionless: lengths in tip widths σ, times in Γ/k,
 /// forces in kσ, heights in kσ²/a; --units, or --sigma and related options, report results in nm, s and nN.
 #[derive(Debug, Parser)]
 #[command(name = "stickslip", version, long_version = Software::BUILD, after_help = EXAMPLES)]
@@ -128,7 +128,7 @@ const EXAMPLES: &str = "Examples:
 
 `stickslip COMMAND --help` explains each command and gives examples.";
 
-/// The commands. The line above each is that of the list of commands: the rest of a command is built when it is needed.
+/// The commands, each with its line in the list of commands; the rest of a command is built when it is needed.
 #[derive(Debug, Subcommand)]
 #[command(defer = true)]
 pub(crate) enum Command {

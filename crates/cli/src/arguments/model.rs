@@ -43,8 +43,8 @@ pub(crate) struct TipArguments {
 
     /// Footprint from a file: JSON {"gaussians":[{"amplitude":1,"center":0,"width":1},…]} or CSV `x,f` sampled on x ≥
     /// 0. In three dimensions each Gaussian also has a "width_y", and a "center_y" if that is not 0, or the CSV is
-    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y). Sides that
-    /// differ, as of `tip --both-sides`, need f'(0) = 0; x > 0 is ahead of a tip that moves to larger x.
+    /// `x,y,f` on a grid of x ≥ 0 and y ≥ 0: the motion follows f(x,0), and `surface --y-range` shows f(x,y). If the sides
+    /// differ, as those of `tip --both-sides`, f'(0) must be 0; x > 0 is ahead of a tip that moves to larger x.
     #[arg(long, value_name = "FILE")]
     pub(crate) tip_file: Option<PathBuf>,
 

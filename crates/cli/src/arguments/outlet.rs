@@ -34,8 +34,8 @@ pub(crate) struct OutletArguments {
 
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct FieldArguments {
-    /// Print this field of the document, such as parameters.alpha, or period if only one field ends so: one line
-    /// each, instead of the document on standard output; repeatable.
+    /// Print this field, such as parameters.alpha, or only its end, such as period, if no other field ends so; repeatable.
+    /// Each field is a line, in place of the document on standard output.
     #[arg(long, value_name = "FIELD", help_heading = "Output")]
     pub(crate) print: Vec<String>,
 }

@@ -41,8 +41,8 @@ pub(crate) struct RasterArguments {
     #[arg(long, value_name = "A,T,W", allow_hyphen_values = true, help_heading = "Force")]
     pub(crate) pulse: Vec<String>,
 
-    /// Number of threads; the result is the same. Lines are scanned in parallel, a few widths apart; those to and fro follow
-    /// one another [default: the number of cores].
+    /// Number of threads; the result does not depend on it. Lines are scanned in parallel, each a few widths behind the one
+    /// before; lines of a zigzag are scanned one after another [default: the number of cores].
     #[arg(long, value_name = "N", help_heading = "Work")]
     pub(crate) threads: Option<usize>,
 
@@ -62,7 +62,7 @@ pub(crate) struct RasterArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Draw the heights with the crests marked, and the lags, to this .svg or .png.
+    /// Draw the heights with the crests marked, and the lags, to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -74,10 +74,10 @@ const USAGE: &str = "stickslip raster (--alpha <A> | --alpha-above <D>) --r <R>
            --path repeat --lines <N> --length <X> [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
-  Ripples far below the threshold of a single line (`stability --pitch 0.5` says where they begin):
+  Ripples far below the threshold of a single line (`stability --pitch 0.5` computes where they begin):
     stickslip raster --tip gaussian --alpha 0.45 --r 1 --pitch 0.5 \\
         --lines 256 --length 60 -o raster.json --plot raster.png
-  Forth and back, as a height map for Gwyddion:
+  Back and forth, as a height map for Gwyddion:
     stickslip raster --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 \\
         --path zigzag --lines 256 --length 60 -o raster.gsf
   A disc, whose lines examples/areas/circle.csv lists:

@@ -26,7 +26,7 @@ pub(crate) struct RasterSweepArguments {
     pub(crate) outlet: OutletArguments,
 
     /// Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that varies, to this
-    /// .svg or .png.
+    /// .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -35,6 +35,6 @@ const EXAMPLES: &str = "Examples:
   From no ripples to ripples, pits and lines that stay at the edge:
     stickslip sweep raster --tip gaussian --r 1 --pitch 0.25:2:8 \\
         --alpha 0.2:2:10 --lines 128 --length 80 -o map.json --plot map.svg
-  The literature's depth limit:
+  With the depth limit of the literature:
     stickslip sweep raster --r 1 --pitch 0.25:2:8 --alpha 0.5:3:6 \\
         --depth-limit 3 --lines 128 --length 80 -o map.json --plot map.svg";

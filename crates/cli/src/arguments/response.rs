@@ -27,7 +27,7 @@ const EXAMPLES: &str = "Examples:
   One pulse, below the critical point:
     stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 \\
         --plot response.svg
-  Beside a run, sample by sample:
+  For comparison with a run, sample by sample:
     stickslip response --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 \\
         --sample-every 0.1 -o response.csv
     stickslip run --alpha 0.9 --r 1 --pulse 1e-4,30,0.5 --until 60 \\

@@ -18,8 +18,8 @@ pub(crate) enum HistoryName {
 
 /// Integrate the motion of the tip and classify the result.
 ///
-/// With --walker: that of a particle in the plane, driven by the field of J0 that it leaves, free, in a rotating frame or in
-/// a trap.
+/// With --walker, the motion is that of a particle in the plane, driven by the field of J0 waves that it leaves: free, in a
+/// rotating frame or in a trap.
 #[derive(Debug, Args)]
 #[command(
     override_usage = USAGE,
@@ -35,11 +35,11 @@ pub(crate) struct RunArguments {
     pub(crate) disturbance: DisturbanceArguments,
 
     /// Motion of the support from the start of the run, which then is at t = 0: CSV `t,R` of times and displacements,
-    /// beginning with 0,0, linear between the rows (steps, holds, trace and retrace); --r is the velocity before.
+    /// beginning with 0,0, linear between the rows (steps, holds, trace and retrace); --r is the velocity before the start.
     #[arg(long, value_name = "FILE", help_heading = "Start")]
     pub(crate) support_path: Option<PathBuf>,
 
-    /// Table u0(x,y) added to the initial surface of a tip that gives way across the scan: CSV `x,y,u` with a row for
+    /// Table u0(x,y) added to the initial surface of a tip that is free to move across the scan: CSV `x,y,u` with a row for
     /// each point of a grid, interpolated by a bicubic spline.
     #[arg(long, value_name = "FILE", help_heading = "Across the scan")]
     pub(crate) initial_surface_across: Option<PathBuf>,
@@ -64,7 +64,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_enum, value_name = "PART", default_value = "all", help_heading = "Output")]
     pub(crate) history: HistoryName,
 
-    /// Draw l(t), the tip's velocity and the final surface to this .svg or .png.
+    /// Draw l(t), the tip's velocity and the final surface to this .svg, .png or .pdf.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 
@@ -135,14 +135,14 @@ const EXAMPLES: &str = "Examples:
   The peak of the lateral force after a hold of 100:
     stickslip run --alpha 0.8 --r 1 --hold 20,100 --until 160 -o held.json \\
         --plot held.svg
-  A particle that its own past drives: the Lorenz system:
+  A particle driven by its own past, the Lorenz system:
     stickslip run --tip cosine --no-spring --alpha -28 --inertia 0.1 \\
         --healing-time 1 --start-velocity 1 --until 40 -o lorenz.json
   A walker in a rotating frame, on a circular orbit, and all orbits that exist there:
     stickslip run --walker --alpha=-3 --rotation 0.3 --until 100 \\
         -o orbit.json --plot orbit.svg
-  A long run, its samples written as it passes them, that survives a loss of power (errors of the period
-  add up: `verify` takes twenty times as long, and says until when l is right to ten tolerances):
+  A long run that writes its samples as it goes, and survives a loss of power (errors of the period add
+  up: `verify`, which takes twenty times as long, reports until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 \\
         --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
     stickslip run --resume long.checkpoint";

@@ -17,7 +17,7 @@ pub(crate) struct WorkArguments {
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub(crate) shard: Option<ShardDocument>,
 
-    /// Do nothing if --output is already this sweep, complete and of this version; replace it if it is another.
+    /// Do nothing if --output already contains this sweep, complete and of this version; otherwise replace it.
     #[arg(long, conflicts_with = "plot")]
     pub(crate) if_needed: bool,
 }

@@ -26,11 +26,11 @@ const USAGE: &str = "stickslip stability --r <R> [OPTIONS]
        stickslip stability --alpha <A> --no-spring [OPTIONS]";
 
 const EXAMPLES: &str = "Examples:
-  The critical α at r = 1, with the oscillation that is born there:
+  The critical α at r = 1, with the oscillation that begins there:
     stickslip stability --r 1
   The critical r at α = 1:
     stickslip stability --alpha 1 --solve-for r
-  Is a motion stable? All that grows, or decays slower than e^(-3t):
+  Is a motion stable? All exponents of deviations that grow, or decay slower than e^(-3t):
     stickslip stability --alpha 1.2 --r 1 --re-above=-3 --plot roots.svg
   Thirty exponents of a Gaussian tip, as CSV:
     stickslip stability --tip gaussian --width 0.7 --alpha-above=-0.1 --r 2 \\
@@ -39,7 +39,7 @@ const EXAMPLES: &str = "Examples:
     stickslip stability --tip gaussian --r 1 --pitch 0.5
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --alpha 0.45 \\
         -o growth.csv --plot growth.svg
-  The same where the tip has inertia and grooves are limited in depth:
+  The same for a tip with inertia and a depth limit:
     stickslip stability --tip gaussian --r 1 --pitch 0.5 --depth-limit 8 \\
         --inertia 0.3
   On a spring across the scan, softer than that along it: where a line snakes, and where lines bunch or ripple:

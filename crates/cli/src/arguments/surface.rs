@@ -91,7 +91,7 @@ pub(crate) struct SurfaceArguments {
     #[command(flatten)]
     pub(crate) fields: FieldArguments,
 
-    /// Draw the surfaces to this .svg or .png; images as height maps with a colour bar.
+    /// Draw the surfaces to this .svg, .png or .pdf; images as height maps with a colour bar.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
@@ -103,7 +103,7 @@ const EXAMPLES: &str = "Examples:
   An image for Gwyddion, and a height map of the same:
     stickslip surface run.json --range 400:450 --y-range -2:2 \\
         --spacing 0.025 -o image.gsf --plot map.png
-  In nm, by a document of `stickslip units`; and read back as the surface that another run begins with:
+  In nm, by a document of `stickslip units`; and the same surface as the initial one of another run:
     stickslip surface run.json --units units.json -o surface.csv
     stickslip run --alpha 1.2 --r 1 --start flat \\
         --initial-surface surface.csv --units units.json --until 60

@@ -60,13 +60,13 @@ pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) outlet: OutletArguments,
 
-    /// Draw the phase diagram, or with a single parameter varied the amplitude and period over it, to this .svg or
-    /// .png. Points with neither, such as steady and trapped ones, are marked at the foot.
+    /// Draw the phase diagram or, if a single parameter varies, amplitude and period over it, to this .svg, .png or .pdf.
+    /// Points without these, such as steady and trapped ones, are marked at the foot.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) plot: Option<PathBuf>,
 }
 
-/// The parameters of a sweep, which are no document as they stand.
+/// The parameters of a sweep. No document has these: that of a sweep lists all values of each parameter.
 #[derive(Debug)]
 pub(crate) struct Swept;
 

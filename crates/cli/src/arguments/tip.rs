@@ -50,18 +50,18 @@ const EXAMPLES: &str = "Examples:
   A profile with a heading x_nm,z_nm, fitted, drawn, and used:
     stickslip tip pit.csv -o tip.json --plot tip.svg
     stickslip stability --tip-file tip.json --r 0.8
-  One without a heading, in micrometres, by two Gaussians of which σ is to be 30 nm:
+  A profile without a heading, in micrometres, by two Gaussians, with σ = 30 nm:
     stickslip tip pit.txt --unit um --terms 2 --sigma 30nm -o tip.json
   An image, for f(x,y) of a raster:
     stickslip tip pit.gsf -o tip.json
     stickslip raster --tip-file tip.json --alpha 0.3 --r 1 --pitch 0.5 \\
         --lines 64 --length 60 -o raster.json
-  A pit whose sides differ; αc of trace and retrace, and a zigzag with either side on its way:
+  A pit whose sides differ; αc of trace and retrace, and a zigzag, in which each direction has its side:
     stickslip tip pit.csv --both-sides -o sides.json
     stickslip stability --tip-file sides.json --r 1
     stickslip stability --tip-file sides.json --r 1 --retrace
     stickslip raster --tip-file sides.json --width-y 1 --alpha 0.6 --r 1 \\
         --pitch 0.5 --lines 4 --length 20 --path zigzag -o raster.json
-  What the noise leaves open of the onset at r = 0.5, for a script:
+  The interval of αc at r = 0.5, for a script:
     stickslip tip pit.csv --r 0.5 --print critical_alpha.low \\
         --print critical_alpha.high";

@@ -64,7 +64,7 @@ const USAGE: &str =
        of these one may be left out for --r or --alpha, two for both";
 
 const EXAMPLES: &str = "Examples:
-  α, r, the lag, and how far it is to stick-slip:
+  α, r, the lag, and the distance from the onset of stick-slip:
     stickslip units --damping 1mNs/m --stiffness 0.05N/m --tip-width 20nm \\
         --slope-force 5nN --indentation-rate 200nm/s --velocity 1um/s
   The velocity and indentation rate that give α = 1.2 and r = 1:

@@ -6,13 +6,11 @@ use std::path::PathBuf;
 
 /// Check a saved run: repeat it with another memory at a hundredth of its tolerance
 ///
-/// The repetition uses another memory and a hundredth of the tolerance.
-///
 /// A run written as lines (.jsonl) is read line by line, twice: first to find damaged or missing lines, then in
 /// parallel with its repetition. Neither the lines nor the repetition are kept in memory: 15 MB are sufficient for a
 /// run of any length, unless f' cannot be fitted by exponentials (--tip bessel, some tables) and the run used fft:
-/// then the repetition uses direct, which stores its whole history. A document (.json) is kept in memory as a whole,
-/// and with its history also all steps of the repetition. Lines from a pipe are copied to a temporary file.
+/// then the repetition uses direct, which stores its whole history. A document (.json) is kept in memory as a whole and,
+/// if it contains a history, so are all steps of the repetition. Lines from a pipe are copied to a temporary file.
 ///
 /// On a cycle errors of the period accumulate: a run of thousands of periods is correct to ten tolerances only up to
 /// some time, which is reported. The repetition takes about twenty times as long as the run.

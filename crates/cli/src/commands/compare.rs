@@ -43,7 +43,7 @@ pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result
     job.finish(document.in_units(scales.as_ref()))
 }
 
-/// Results of both sides, and the positions of their surfaces.
+/// Results of both sides, closed equation and grid, and the positions of their surfaces.
 struct Sides {
     x: Vec<f64>,
     closed: ClosedDocument,

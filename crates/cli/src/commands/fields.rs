@@ -119,7 +119,7 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
         })),
         several => {
             let names: Vec<&str> = several.iter().map(|name| name.as_str()).collect();
-            let message = format!("several fields end so: give one of {}", names.join(", "));
+            let message = format!("several fields have this end: give one of {}", names.join(", "));
             Err(Failure::input(format!("--print {path}"), message))
         }
     }

@@ -212,7 +212,7 @@ impl<P: Part> Finished<P> {
         }
     }
 
-    /// Lets a signal end the program at any time: all of the parts that are done are in the file, or nowhere.
+    /// Lets a signal end the program at any time: finished parts are in the file, or are not kept at all.
     pub(super) fn need_not_end(
         &self,
         interrupt: &Interrupt,

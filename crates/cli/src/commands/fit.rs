@@ -214,7 +214,7 @@ impl<'a> Files<'a> {
         [&self.velocities, &self.loads].map(|quantity| quantity.unit().map(str::to_owned))
     }
 
-    /// The name of the data, and velocities and loads, with three columns wavelengths.
+    /// The name of the data, and N columns: velocities, loads and, if N is 3, wavelengths.
     fn series<const N: usize>(
         &mut self,
         option: &str,

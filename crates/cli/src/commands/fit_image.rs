@@ -48,7 +48,7 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
         if read.unit == unit {
             return Ok(Some(read));
         }
-        let message = "its lengths have another unit than those of --image";
+        let message = "its lengths have another unit than those of --image: save both images in the same unit";
         Err(Failure::file(option, path, message))
     };
     let retrace_image = beside(RETRACE, arguments.retrace_image.as_deref())?.map(|read| read.image);

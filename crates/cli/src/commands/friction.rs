@@ -74,7 +74,7 @@ impl<'a> Data<'a> {
                 return run.last_loop().map_err(|error| refused(TRACE, trace, error));
             };
             let back = self.run(RETRACE, path)?.ok_or_else(|| {
-                let message = "is no run, as the trace is: give two runs, or two tables";
+                let message = "is no run, but the trace is one: give two runs, or two tables";
                 Failure::file(RETRACE, path, message)
             })?;
             return Ok([run.way(), back.way()]);

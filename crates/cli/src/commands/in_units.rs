@@ -133,8 +133,10 @@ impl Given {
             && (one - other).abs() > SAME * one
         {
             let r = r.unwrap_or(f64::NAN) * one / other;
-            let message =
-                format!("r = Γ v0/(kσ) is {} by these, not the one given: leave one out", Typed(r));
+            let message = format!(
+                "r = Γ v0/(kσ) is {} by these, and another r is given: leave one out",
+                Typed(r)
+            );
             return Err(Failure::input("--damping, --stiffness, --sigma, --velocity", message));
         }
         let force = together(stiffness, sigma).map(|(k, sigma)| k * sigma);
@@ -250,7 +252,7 @@ impl Scaled {
     }
 }
 
-/// The unit of heights in m: without one that of lengths; others than lengths, such as volts, give no scale.
+/// The unit of heights in m: by default that of lengths; `None` for a unit of another quantity, such as volts.
 fn height_metres(metres: f64, unit: Option<&str>) -> Option<f64> {
     unit.map_or(Some(metres), |unit| Unit::Length.one(unit))
 }

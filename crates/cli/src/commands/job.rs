@@ -57,7 +57,7 @@ impl Job {
         Self::of_format(session, document, format, &outlet.output, &outlet.fields, plot)
     }
 
-    /// The same for a command with a fixed format.
+    /// The output in the given format, with its figure at `plot`.
     pub(crate) fn of_format(
         session: &Session,
         document: &str,

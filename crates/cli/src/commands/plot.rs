@@ -98,7 +98,7 @@ fn width(arguments: &PlotArguments) -> Result<Option<Width>, Failure> {
     width.transpose()
 }
 
-/// A range and its unit among those of axes, if it has one.
+/// A range, and its unit if it was given with one.
 type InUnit = ([f64; 2], Option<&'static str>);
 
 fn range(option: &str, typed: Option<&str>) -> Result<Option<InUnit>, Failure> {

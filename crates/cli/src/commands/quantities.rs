@@ -46,7 +46,7 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
     })
 }
 
-/// The unit in SI in which such a number is typed, and its number of nm, s and nN.
+/// The kind of SI unit in which a number with this unit of the model is typed, and the number of nm, s or nN in that unit.
 fn measured_in(unit: &str) -> (Unit, f64) {
     const NANO: f64 = 1e9;
     match unit {
@@ -147,7 +147,7 @@ impl Quantity {
     }
 }
 
-/// A part of a value in numbers of the model, or the reason why it is none.
+/// A part of a value as a number of the model, or the error message.
 fn converted(
     part: &str,
     unit: &str,
@@ -200,7 +200,7 @@ impl Line {
         Some((at, [Some(first), second.cloned()].into_iter().flatten().collect()))
     }
 
-    /// Options with their values, the places of these, and whether both are one word.
+    /// Options, their values, the places of the values, and whether option and value are one word.
     fn options(&self) -> impl Iterator<Item = (&str, &str, usize, bool)> {
         self.words.iter().enumerate().filter_map(|(at, word)| {
             let name = word.strip_prefix("--")?;

@@ -64,7 +64,7 @@ fn start(session: &Session, arguments: &RunArguments) -> Result<(), Failure> {
     }
 }
 
-/// The finished run of a motion that is at the start of a scenario, and its output.
+/// Integrates a motion from the start of its scenario to the end, and returns the run with its output.
 fn integrated<R: Motion>(
     session: &Session,
     arguments: &RunArguments,

@@ -116,8 +116,8 @@ fn failure_of(
     (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
-/// Whether the motion, of which the history has x0 and y0 first, begins as the parameters require; otherwise a repetition
-/// is useless.
+/// Checks that the motion begins as the parameters require; otherwise a repetition is useless. `first` contains the first x0
+/// and y0 of the history.
 fn begins_as(
     whole: &RunScenario,
     first: Option<(f64, Option<f64>)>,
@@ -184,7 +184,8 @@ fn samples_alone(run: &RunDocument, scenario: &Scenario) -> Result<Vec<Sample>, 
     }
 }
 
-/// Comparison of samples in the order of time, at least one, with the repetition of their run, which had this memory.
+/// Comparison of samples with a repetition of their run, which had this memory. There must be a sample; all are in the order
+/// of time.
 fn of_samples<I: Iterator<Item = Sample>>(
     whole: &RunScenario,
     memory: &str,

@@ -61,7 +61,7 @@ pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Fil
     Ok(file)
 }
 
-/// The same, with the permissions of the file that it belongs to.
+/// As [`create`], with the permissions of the file that the new one belongs to.
 pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result<File> {
     create(path, magic, &Looks::of(owner))
 }

@@ -12,7 +12,7 @@ pub(crate) type Named<'a> = (&'static str, Option<&'a Path>);
 const ENDINGS: [&str; 3] = [".part", ".partial", ".journal"];
 
 /// Rejects an output that another option also writes or reads, or that is a derived file of another: one would
-/// overwrite the other. Links of both kinds are resolved.
+/// overwrite the other. Symbolic and hard links are resolved.
 pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure> {
     let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {
@@ -28,7 +28,7 @@ pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure>
             if let Some((other, Some(found))) = all.iter().find(|(_, other)| is(*other, &companion))
             {
                 let message = format!(
-                    "{} is a name that goes with it, and the file of {other}: give either a name of its own",
+                    "is saved beside as {}, which is the file of {other}: give one of them another name",
                     found.display()
                 );
                 return Err(Failure::input(named, message));
@@ -42,7 +42,7 @@ fn is(other: Option<&Path>, path: &Path) -> bool {
     other.is_some_and(|other| resolved(other) == resolved(path) || is_linked(other, path))
 }
 
-/// Two names of the same contents.
+/// Whether two paths are names of one file, as hard links are.
 #[cfg(unix)]
 fn is_linked(a: &Path, b: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::path::Path;
 use stickslip_units::Unit;
 
-/// Where an evenly spaced image lies.
+/// Title, size, place and unit of an evenly spaced image.
 pub(crate) struct Frame<'a> {
     /// Title, without `=`, at which some readers would split it.
     pub(crate) title: &'a str,
@@ -75,7 +75,7 @@ pub(crate) struct Image {
     pub(crate) rows: Vec<Vec<f64>>,
     /// Whether positions are in nm.
     pub(crate) in_nanometres: bool,
-    /// Unit of the heights: nm of lengths, nN of forces.
+    /// Unit of the heights: nm for lengths, nN for forces.
     pub(crate) z_unit: Option<String>,
 }
 

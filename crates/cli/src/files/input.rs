@@ -68,7 +68,7 @@ pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {
     Ok(TipFile::Gaussians(tip.gaussians))
 }
 
-/// The columns of a tip file, which must be in its own σ.
+/// The columns of a tip file, whose positions must be in σ.
 fn table_of(table: &Table) -> Result<TipFile, String> {
     let sheet = whole(table, &["x,f", "x,y,f"])?;
     let positions = &sheet.headings[..sheet.headings.len() - 1];

@@ -74,7 +74,7 @@ fn pieces(values: &[f64]) -> impl Iterator<Item = Vec<u8>> {
     values.chunks(1 << 12).map(move |piece| bytes(piece).into_flattened())
 }
 
-/// A length or a place in the archive.
+/// A length or a place in the archive, as the 32-bit number that ZIP has for it.
 fn within(length: u64) -> io::Result<u32> {
     let too_long =
         |_| io::Error::new(ErrorKind::FileTooLarge, "an .npz archive holds at most 4 GiB");

@@ -1,7 +1,7 @@
 //! Tables of numbers from people and instruments: files of text, or columns that a host supplies. Each line of a text is
 //! a row of numbers, a heading, a comment, or an error: none is ignored.
 //!
-//! Separator and decimal mark are those with which all rows are rows of equally many numbers. Lines before the first
+//! Separator and decimal mark are those with which all rows contain the same number of numbers. Lines before the first
 //! row are headings if they begin with a letter; other lines are errors. Rows with missing values are counted, with
 //! their line numbers.
 
@@ -487,7 +487,7 @@ impl Marks {
 #[derive(Debug, Default)]
 struct Commas {
     has_others: bool,
-    /// The line of the first such zero.
+    /// The line of the first zero in `has_zeros`.
     odd: Option<usize>,
     /// Whether there is a zero before other digits, or a negative one.
     has_zeros: bool,

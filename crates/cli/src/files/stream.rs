@@ -80,7 +80,7 @@ impl Stream {
             }
             let names = [&part].into_iter().chain(others).map(|path| path.display().to_string());
             let files = names.collect::<Vec<_>>().join(" nor ");
-            Failure::Run(format!("cannot go on with the output, neither with {files}: {error}"))
+            Failure::Run(format!("cannot continue the output, neither from {files}: {error}"))
         })?;
         Ok(Self::through(Sink::Part(Part { journal, part, target, is_kept: true })))
     }

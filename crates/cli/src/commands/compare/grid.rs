@@ -41,7 +41,7 @@ impl Discretisation {
         (tip, second_order): (&TipFunction, f64),
     ) -> Result<Self, Failure> {
         let (TipFunction::Gaussians(sum), Some(reach)) = (tip, tip.reach()) else {
-            let message = "never decays, and a grid takes f as 0 beyond a reach: compare with a tip that does, such \
+            let message = "never decays, and a grid takes f as 0 beyond a reach: take a tip that decays, such \
             as triple-gaussian";
             let cosine = *tip == TipFunction::Cosine;
             let option = if cosine { "--tip cosine" } else { "--tip bessel" };

@@ -30,7 +30,7 @@ pub(super) struct Checkpoints {
     start: f64,
     every: f64,
     due: f64,
-    /// Time of the last one.
+    /// Time of the last checkpoint.
     last: Option<f64>,
 }
 

@@ -16,7 +16,7 @@ use stickslip_tip::Pulse;
 /// that do not act in it.
 ///
 /// # Errors
-/// A file cannot be read, a pulse is invalid; or, as `refused` says it, the parameters define no run.
+/// A file cannot be read, a pulse is invalid, or the parameters define no run; `refused` converts the last of these errors.
 pub(crate) fn disturbed(
     session: &Session,
     run: Run,
@@ -80,7 +80,7 @@ pub(crate) fn files_read<'a>(
 /// Distance from the centre of a pulse, in widths, beyond which its force is round-off: exp(-9²/2) = 3e-18.
 const WIDTHS_FELT: f64 = 9.0;
 
-/// The same distance before which lies a thousandth of the pulse.
+/// Distance before the centre of a pulse, in widths, up to which a thousandth of its impulse has acted.
 const WIDTHS_CUT: f64 = 3.09;
 
 /// Warns of each force that ends before the motion begins, begins after it has ended, or has begun already when the
@@ -124,7 +124,7 @@ struct Acts {
     core: f64,
     /// A motion that begins later lacks a part of the force.
     whole_from: f64,
-    /// The least time T of a pulse of which nothing is lacking.
+    /// The least centre T at which the pulse acts as a whole; `None` for a table.
     least_time: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! A run in progress in one coordinate or in two, as far as its record and its checkpoints are concerned.
+//! A run in progress, in one coordinate or in two, as its record and its checkpoints need it.
 
 use crate::commands::verify;
 use crate::failure::Failure;
@@ -28,13 +28,13 @@ pub(super) trait Recorded: Moved {
     /// Numbers per step and per sample in a journal.
     const NUMBERS: [usize; 2];
 
-    /// Writes the step as a row of a journal,
+    /// Writes the step as a row of a journal.
     fn write(&self, journal: &mut Rows) -> io::Result<()>;
-    /// and a sample.
+    /// Writes a sample as a row of a journal.
     fn write_sample(sample: &SampleLine, journal: &mut Rows) -> io::Result<()>;
-    /// Reads a journal of steps up to a mark, to be continued,
+    /// Reads a journal of steps up to a mark, to be continued.
     fn read(path: &Path, mark: Mark) -> io::Result<(Rows, Vec<Self>)>;
-    /// and one of samples.
+    /// Reads a journal of samples up to a mark, to be continued.
     fn read_samples(path: &Path, mark: Mark) -> io::Result<(Rows, Vec<SampleLine>)>;
 }
 

@@ -84,7 +84,7 @@ impl Product for RasterStabilityDocument {
     }
 }
 
-/// 2π/|(q, κ)|, as rasters have it; `None` for a zigzag, where the phase alternates.
+/// Wavelength across the crests, 2π/|(q, κ)|; `None` for a zigzag, where the phase alternates.
 fn across_crests(at: &RasterCriticalDocument) -> Option<String> {
     let length = std::f64::consts::TAU / at.q.hypot(at.kappa?);
     Some(format!("{} σ", digits(length, 10)))

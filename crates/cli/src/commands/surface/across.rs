@@ -24,11 +24,12 @@ pub(super) fn surface(
     let (scenario, trajectory) =
         document.trajectory_across().map_err(|error| damaged(error.to_string()))?;
     if arguments.far_behind {
-        let message = "is of a tip on a line: the surface across the scan includes the initial one";
+        let message =
+            "is for a tip that is held on its line, and that of this run is not: leave it out";
         return Err(Failure::input("--far-behind", message));
     }
     if arguments.width_y.is_some() {
-        let message = "is part of the run, whose tip gives way across the scan: leave it out";
+        let message = "is set by the run, whose tip is free to move across the scan: leave it out";
         return Err(Failure::input("--width-y", message));
     }
     let steps = trajectory.steps().iter().map(|step| step.along).collect();

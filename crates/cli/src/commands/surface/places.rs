@@ -10,7 +10,7 @@ const MARGIN: f64 = 12.0;
 /// Largest number of points, in curves and in images: 200 MB with their text.
 const MOST_POINTS: f64 = 3e6;
 pub(super) const MOST_PIXELS: f64 = 1e7;
-/// The same of a .gsf file, which is written row by row: 4 GB.
+/// Largest number of points of a .gsf file, which is written row by row: 4 GB.
 pub(super) const MOST_PIXELS_OF_GSF: f64 = 1e9;
 
 /// Advice for those who want more points than a document may have.

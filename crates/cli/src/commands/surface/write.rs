@@ -125,8 +125,8 @@ pub(super) fn title(t: f64, alpha: f64, r: f64) -> String {
 /// Number of rows of a large image that are computed at a time.
 const ROWS: usize = 64;
 
-/// Writes an image that is larger than a document may be to a .gsf file, some rows at a time, `rows` being the heights at
-/// some y.
+/// Writes an image that is larger than a document may be to a .gsf file, some rows at a time. `rows` computes the heights
+/// at some y.
 pub(super) fn large(
     arguments: &SurfaceArguments,
     (places, y): (&Places, &[f64]),
@@ -139,7 +139,7 @@ pub(super) fn large(
         return Err(Failure::file("--plot", path, advice));
     }
     if let Some(field) = arguments.fields.print.first() {
-        let advice = "prints of images of at most 1e7 points: leave it out";
+        let advice = "is available for images of at most 1e7 points: leave it out";
         return Err(Failure::input(format!("--print {field}"), advice));
     }
     let spacing_y = match y {

@@ -45,7 +45,7 @@ impl Motion {
         }
     }
 
-    /// The motion at a time, and along the scan the step with this time, of which the end is the next one's.
+    /// The step along the scan that contains a time, and the motion at this time. The end of a step belongs to the next one.
     pub(super) fn at(&self, law: (&Support, &Wider), t: f64) -> (&Step, SampleLine) {
         match self {
             Self::Along(motion) => of_step(motion.step_at(t), law, t),

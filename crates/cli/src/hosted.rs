@@ -131,8 +131,7 @@ fn parse<'a>(
 /// An option of a command, as described in its help.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OptionDescription {
-    /// Name, such as `alpha-above`; for a positional argument such as `RUN.json` its placeholder in small letters:
-    /// `run`.
+    /// Name, such as `alpha-above`; for a positional argument such as `RUN.json` a name in lower case, `run`.
     pub name: String,
     /// Whether it is a positional argument.
     pub is_positional: bool,

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Delay before it is shown.
+/// Delay before the indicator is shown.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(1);
 const TURN: Duration = Duration::from_millis(200);
 

@@ -31,7 +31,7 @@ pub enum FigureError {
         "a range in {0} does not fit the axis {1}: give it in the unit of the axis, or the scales by --units or --sigma"
     )]
     Unit(&'static str, String),
-    /// Nothing moves, or none of it at the requested times.
+    /// Nothing moves in the document, or nothing at the requested times.
     #[error("{0}")]
     Still(String),
     /// The file name of an animation where a picture is drawn.

@@ -56,7 +56,7 @@ impl Letters {
     }
 }
 
-/// Moves a glyph, which counts upwards in units of the font, into place.
+/// Converts the outline of a glyph, in units of the font that count upwards, to its place in the drawing.
 struct Outline<'a> {
     text: &'a Text,
     /// The origin of the glyph on the line of the text.

@@ -33,7 +33,7 @@ pub struct LoopNumbers {
     pub offset: Estimate,
     /// First maximum of the force after the reversal, less the offset; mean of both ways.
     pub static_peak: Estimate,
-    /// The peak over the friction force: above 1 if it takes more to start than to go on.
+    /// The peak over the friction force: above 1 if starting to slide takes more force than sliding on.
     pub peak_ratio: f64,
     /// ∮ F dx: the work done in a cycle, the area of the loop.
     pub work: Estimate,
@@ -73,6 +73,8 @@ const BESIDE: usize = 3;
 const BATCHES: (usize, usize) = (16, 4);
 
 impl FrictionLoop {
+    /// A loop of forces at ascending positions.
+    ///
     /// # Errors
     /// Too few rows, values that are not finite, or positions that do not ascend.
     pub fn new(x: Vec<f64>, there: Vec<f64>, back: Vec<f64>) -> Result<Self, LoopError> {
@@ -328,7 +330,7 @@ fn batches(values: &[f64], mean: f64) -> usize {
     (values.len() / (2 * lag.unwrap_or(limit)).max(1)).clamp(BATCHES.1, BATCHES.0)
 }
 
-/// Standard deviation of the noise from row to row: the median of the second differences.
+/// Standard deviation of the noise from row to row, from the median of the absolute second differences.
 fn noise(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> =
         values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0)).collect();

@@ -73,10 +73,12 @@ const FRAME: f64 = 0.1;
 /// Half width of the band of rows averaged for a profile, as a fraction of the half width across: f falls by 0.1 %
 /// there.
 const BAND: f64 = 0.05;
-/// Step of y0/σ and ln v.
+/// Step of y0/σ and ln v in finite differences.
 const STEP: f64 = 1e-5;
 
 impl Image {
+    /// An image with these positions of columns and rows, and these rows of heights.
+    ///
     /// # Errors
     /// The image is too small, its rows are uneven, or a value is not finite.
     pub fn new(x: Vec<f64>, y: Vec<f64>, rows: Vec<Vec<f64>>) -> Result<Self, ImageError> {

@@ -73,7 +73,7 @@ impl Estimate {
 /// Half of the probability within an interval.
 const HALF: f64 = 0.475;
 
-/// 97.5 % quantile of Student's distribution.
+/// 97.5 % quantile of Student's distribution with this number of degrees of freedom.
 pub(crate) fn student(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.min(1e4)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
 }

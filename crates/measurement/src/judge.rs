@@ -23,16 +23,16 @@ pub enum Verdict {
         /// Number of rows.
         rows: usize,
     },
-    /// Noise has an effect.
+    /// Noise changes αc noticeably.
     Felt {
-        /// Estimated relative error of αc(1).
+        /// Estimated relative error of αc at r = 1.
         change: f64,
     },
     /// Noise, and not the footprint, determines αc.
     Decided {
-        /// αc(1) of the table.
+        /// αc of the table, at r = 1.
         table: f64,
-        /// αc(1) of a fit with few Gaussians, if there is one.
+        /// αc of a fit with few Gaussians, at r = 1, if there is a fit.
         fitted: Option<f64>,
     },
 }
@@ -75,7 +75,7 @@ pub fn judge((x, f): (&[f64], &[f64]), tip: &TipFunction) -> Verdict {
     }
 }
 
-/// αc(1) of a sum of Gaussians through the rows.
+/// αc, at r = 1, of a sum of Gaussians through the rows.
 fn fitted((x, f): (&[f64], &[f64])) -> Option<f64> {
     let profile = Profile::new(x.to_vec(), f.to_vec()).ok()?;
     let (centre, sigma) = (Some(0.0), Some(1.0));
@@ -85,7 +85,7 @@ fn fitted((x, f): (&[f64], &[f64])) -> Option<f64> {
     (found.apex > 0.0).then(|| found.critical_alpha.value / found.apex)
 }
 
-/// Relative change of αc(1), root mean square, with noise like that of the table added.
+/// Root mean square of the relative change of αc, at r = 1, with noise like that of the table added.
 fn again((x, f): (&[f64], &[f64]), noise: f64, table: f64) -> f64 {
     let changes = (0..DRAWS).map(|draw| {
         let mut random = ChaCha8Rng::seed_from_u64(draw);
@@ -104,8 +104,8 @@ fn again((x, f): (&[f64], &[f64]), noise: f64, table: f64) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
 }
 
-/// Bound on the contribution of noise to ∫f''(y) e^{-iqy}dy, to which 1/αc(1) is proportional, at any wave number
-/// that the rows resolve: q² times the transform of the noise, a sum over random rows, plus q times its value at 0.
+/// Bound on the contribution of noise to ∫f''(y) e^{-iqy}dy, to which 1/αc is proportional at r = 1, for any wave number
+/// q that the rows resolve: q² times the transform of the noise, a sum over random rows, plus q times its value at 0.
 fn most_felt(x: &[f64], noise: f64) -> f64 {
     let length = x[x.len() - 1];
     let spacing = length / (x.len() - 1) as f64;

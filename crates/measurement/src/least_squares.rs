@@ -31,7 +31,7 @@ pub(crate) fn forward(
     (0..at.len()).map(column).collect()
 }
 
-/// The residuals where one of the parameters differs by this much.
+/// The residuals with `by` added to the i-th parameter.
 fn beside(
     model: &(impl Residuals + ?Sized),
     at: &[f64],

@@ -19,8 +19,8 @@ impl Projected {
         Self { coefficients: vec![], residuals, basis: DMatrix::zeros(0, 0) }
     }
 
-    /// The component of these values orthogonal to the columns. For c_k ∂columns_k it is Kaufman's (1975) derivative
-    /// of the residuals, except for its sign.
+    /// The component of these values orthogonal to the columns. If the values are c_k ∂columns_k, the component is
+    /// Kaufman's (1975) derivative of the residuals, except for its sign.
     pub(crate) fn beyond(&self, mut values: Vec<f64>) -> Vec<f64> {
         for column in self.basis.column_iter() {
             let column = &column.as_slice()[..values.len()];

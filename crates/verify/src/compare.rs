@@ -169,7 +169,7 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
         (self.judgement, self.found)
     }
 
-    /// The judgement of y0, after that of l and x0.
+    /// The judgements of l with x0, and of y0, and the statistics of the samples.
     pub(super) fn finish_across(self) -> ([Judgement; 2], ComparedSamples) {
         ([self.judgement, self.across], self.found)
     }

@@ -62,7 +62,7 @@ impl Probes {
         }
     }
 
-    /// Values at all times before one of them.
+    /// Adds the values at all remaining times before this one.
     pub(super) fn probe_before(&mut self, before: f64, value: impl Fn(f64) -> f64) {
         while let Some(t) = self.due().filter(|t| *t < before) {
             self.l.push(value(t));

@@ -30,7 +30,7 @@ pub const TOLERANCES_ALLOWED: f64 = 10.0;
 const TIGHTER: f64 = 100.0;
 /// Shift of the perturbed run, in tolerances: far above its errors.
 const SHIFT: f64 = 1e4;
-/// Largest shift, in σ: far below the motion.
+/// Largest shift, in σ, if it is above 100 tolerances: far below the motion.
 const LARGEST_SHIFT: f64 = 1e-4;
 
 /// Result of a verification.

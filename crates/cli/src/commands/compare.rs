@@ -67,7 +67,7 @@ struct Asked<'a> {
     discretisation: Discretisation,
     /// Time at which the grid ends.
     grid_until: f64,
-    /// Time limit of either side, in seconds.
+    /// Time limit of each side, in seconds.
     time_limit: f64,
 }
 
@@ -165,7 +165,7 @@ fn run_of(
     Ok((run, scenario))
 }
 
-/// Time limit of either side, in seconds.
+/// Time limit of each side, in seconds.
 fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
     let time_limit = arguments.time_limit;
     if time_limit.is_nan() || time_limit <= 0.0 {

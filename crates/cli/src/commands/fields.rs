@@ -125,7 +125,7 @@ fn named(schema: &Value, path: &str) -> Result<String, Failure> {
     }
 }
 
-/// Whether a field belongs to the periodic motion at the end of a run, of which there is one kind.
+/// Whether a field belongs to a periodic motion. A run ends in one kind of it, an oscillation or snaking.
 fn is_of_motion(name: &str) -> bool {
     ["oscillation.", "snaking."].into_iter().any(|part| name.starts_with(part))
 }

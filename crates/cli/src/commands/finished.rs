@@ -21,7 +21,7 @@ use stickslip_tip::sorting::sort_by_number;
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
-    /// Name of a part in small letters, such as "point".
+    /// Name of a part in lower case, such as "point".
     const NAME: &'static str;
     /// Past participle of the work on a part, such as "computed".
     const DONE: &'static str;

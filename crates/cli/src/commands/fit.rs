@@ -209,7 +209,7 @@ impl<'a> Files<'a> {
         Ok(Measured::Friction { source: named, x, y, back, gain, force_unit })
     }
 
-    /// The units of velocities and loads, as far as they are known.
+    /// The units of velocities and loads; `None` where unknown.
     fn units_of_series(&self) -> [Option<String>; 2] {
         [&self.velocities, &self.loads].map(|quantity| quantity.unit().map(str::to_owned))
     }

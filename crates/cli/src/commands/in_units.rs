@@ -28,8 +28,8 @@ pub(crate) fn scales(
     Ok(scales)
 }
 
-/// The scales of a result computed from a document: those of the options, or else its own; `None` for an image in
-/// metres of a document that lacks one of its scales.
+/// The scales of a result computed from a document: those of the options, or else those of the document. `None` if there are
+/// none, or if an image in metres needs a scale that the document lacks.
 pub(crate) fn scales_of(
     session: &Session,
     arguments: &InUnitsArguments,

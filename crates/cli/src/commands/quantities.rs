@@ -112,7 +112,7 @@ struct Quantity {
     option: String,
     value: String,
     units: &'static [&'static str],
-    /// The word with the value, and whether the option is in it.
+    /// Index of the word with the value, and whether this word contains the option too.
     place: usize,
     is_joined: bool,
 }

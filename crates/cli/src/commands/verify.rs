@@ -146,7 +146,7 @@ fn begins_as(
     Ok(())
 }
 
-/// Whether the history begins and ends as the scenario does.
+/// Checks that the history begins with the scenario, and does not end after it.
 fn is_of(scenario: &Scenario, (start, end): (f64, f64)) -> Result<(), String> {
     let same = (start - scenario.start_time()).abs() <= 1e-9 * start.abs().max(1.0);
     if same && end <= scenario.until && end > start {

@@ -90,7 +90,7 @@ fn no_zeros(text: String) -> Result<String, String> {
     }
 }
 
-/// The number of the next line.
+/// The number of the line on which a text ends.
 fn lines_in(text: &str) -> usize {
     1 + lines(text).count().saturating_sub(usize::from(!text.ends_with(['\n', '\r'])))
 }

@@ -43,7 +43,7 @@ pub(super) enum Cell {
     Text,
 }
 
-/// Words for a missing value, in small letters, as written by instruments, spreadsheets, pandas and masked arrays.
+/// Words for a missing value, in lower case, as written by instruments, spreadsheets, pandas and masked arrays.
 const MISSING: [&str; 26] = [
     "nan",
     "+nan",

@@ -10,7 +10,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use stickslip_saved::Saved;
 
-/// The format of an output by its extension, for a command that handles further extensions `more`, such as ", .gsf", itself.
+/// The format of an output by its extension. For the error message, `more` names extensions that the command handles itself,
+/// such as ", .gsf".
 pub(crate) fn format_of(path: &Path, more: &str) -> Result<Format, Failure> {
     if path == Path::new("-") {
         return Ok(Format::Json);

@@ -33,7 +33,7 @@ pub(crate) fn seen_from(folder: &Path, path: &Path) -> PathBuf {
     }
 }
 
-/// The absolute path of such a relative one; `None` if it is outside of the folder, also through a link.
+/// The absolute path of a path relative to a folder; `None` if it is outside of the folder, also through a link.
 pub(crate) fn found_from(folder: &Path, path: &Path) -> Option<PathBuf> {
     if path == Path::new("-") {
         return Some(path.into());

@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use stickslip::Mark;
 
-/// Beginning of such a file.
+/// Beginning of a journal of rows.
 const MAGIC: &[u8] = b"stickslip/journal ";
 /// Length of the first line in bytes, a multiple of the length of rows of 7 and of 16 numbers.
 const HEAD: usize = 896;

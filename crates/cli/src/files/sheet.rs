@@ -457,7 +457,7 @@ struct Marks {
     thousands: Option<usize>,
     /// Whether there are numbers below 1000 without a mark.
     has_small: bool,
-    /// Whether a mark cannot be a grouping mark.
+    /// Whether the mark of some number cannot group thousands.
     is_decimal: bool,
 }
 
@@ -483,7 +483,7 @@ impl Marks {
     }
 }
 
-/// Evidence for decimal commas between integers: 0,05 and -0,5 and 0,1 after 0,0.
+/// Evidence for decimal commas between integers, such as 0,05 and -0,5, or 0,1 after 0,0.
 #[derive(Debug, Default)]
 struct Commas {
     has_others: bool,

@@ -6,7 +6,7 @@ use crate::size::Width;
 /// Default duration, in seconds, and frames per second.
 const SECONDS: f64 = 10.0;
 const RATE: f64 = 20.0;
-/// Ranges of both. Browsers slow down faster animations.
+/// Ranges of duration and rate. Browsers slow down faster animations.
 const LENGTHS: (f64, f64) = (0.5, 120.0);
 const RATES: (f64, f64) = (1.0, 50.0);
 /// Default width in pixels.

@@ -24,7 +24,7 @@ use patch::{NEAR, Patch, Writer};
 use stage::Stage;
 use webp::Webp;
 
-/// Frames from which the palette is made, besides the first one.
+/// Approximate number of frames from which the palette is made, besides the first one.
 const LOOKS: usize = 6;
 
 /// Draws an animation. Equal scenes give equal bytes.

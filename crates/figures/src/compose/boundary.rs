@@ -118,7 +118,7 @@ fn any(document: &BoundaryDocument) -> ModelParameters {
 /// Part of the height of an axis that a name needs.
 const LEAST_ROOM: f64 = 0.1;
 
-/// Names of both regions, as far as there is room, placed where the regions are highest, but not at the sides.
+/// Names of the regions that have room for one, placed where a region is highest, but not at the sides.
 fn notes(document: &BoundaryDocument, panel: &PanelDocument) -> Vec<NoteDocument> {
     let (Some([left, right]), Some([bottom, top])) = (panel.x_range, panel.y_range) else {
         return vec![];

@@ -116,7 +116,7 @@ impl Scene for Carving {
     }
 }
 
-/// Axes with all of a curve against time in the background.
+/// Axes with a whole curve against time in the background.
 pub(super) fn whole(curve: &CurveDocument, labels: (&str, &str), times: [f64; 2]) -> PanelDocument {
     let mut panel = PanelDocument::new("", labels);
     (panel.natural, panel.x_range) = (NATURAL, Some(times));

@@ -108,7 +108,7 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     [above, below]
 }
 
-/// The unit of a parameter; documents of older versions have that of lengths alone.
+/// The unit of a parameter; documents of older versions contain only that of lengths.
 fn unit_of<'a>(number: &'a NumberFitted, length: Option<&'a str>) -> Option<&'a str> {
     number.unit.as_deref().or(length.filter(|_| number.name == "width"))
 }

@@ -79,7 +79,7 @@ impl Growing {
         if line.is_free() { self.carve_freely(line, t, u) } else { self.carve_on_track(line, t, u) }
     }
 
-    /// The groove of a tip that leaves its line.
+    /// Adds the groove of a tip that is free to leave its line.
     fn carve_freely(&self, line: &Line, t: f64, u: &mut [Vec<f64>]) {
         let (mut visits, alpha) = (line.visits_until(t), self.plan.law.model.alpha());
         sort_by_number(&mut visits, |item| item.x);
@@ -96,7 +96,7 @@ impl Growing {
         }
     }
 
-    /// The groove of a tip that is held on its line.
+    /// Adds the groove of a tip that is held on its line.
     fn carve_on_track(&self, line: &Line, t: f64, u: &mut [Vec<f64>]) {
         let track = line.track();
         let (mut positions, weights) = line.trajectory().residence(t);
@@ -115,7 +115,7 @@ impl Growing {
         }
     }
 
-    /// The surface at this time of line n.
+    /// The surface at time t after the start of line n.
     fn surface(&mut self, n: usize, t: f64) -> Vec<Vec<f64>> {
         let mut u = std::mem::take(&mut self.u);
         if n < self.done {

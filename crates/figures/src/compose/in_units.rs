@@ -73,7 +73,7 @@ pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View)
     }
 }
 
-/// The figure in nm, s and nN, as far as the scales are known, or else in the model's units.
+/// The figure in nm, s and nN where their scales are known, and otherwise in the model's units.
 pub(super) fn in_units(mut figure: FigureDocument, scales: Option<&KnownScales>) -> FigureDocument {
     if let Some(scales) = scales {
         figure.panels.iter_mut().for_each(|panel| convert(panel, scales));
@@ -123,7 +123,7 @@ pub(super) fn times_of(times: [f64; 2], scales: &KnownScales) -> [f64; 2] {
     times.map(|t| t / Axis::of(L.0, scales).factor)
 }
 
-/// A scene in nm, s and nN, as far as the scales are known, or else in the model's units.
+/// A scene in nm, s and nN where their scales are known, and otherwise in the model's units.
 #[cfg(feature = "animation")]
 pub(super) struct InUnits {
     scene: Box<dyn Scene>,

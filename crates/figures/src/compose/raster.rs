@@ -183,7 +183,7 @@ pub(super) fn crest_lines(
     curve
 }
 
-/// Ranges of the patch in x and y: the middle of the lines, in the last half of them.
+/// Ranges of the patch in x and y: along the middle of the lines, among the last half of the lines.
 fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
     let ([left, .., right], [low, .., high]) = (&*map.x, &*map.y) else { return None };
     let (length, across) = (right - left, high - low);

@@ -5,7 +5,7 @@ use super::tip::model_name;
 use crate::error::FigureError;
 use stickslip::{CurveDocument, FigureDocument, PanelDocument, ResponseDocument, StyleName};
 
-/// Half length of a pulse shown, in its widths.
+/// Half of the time for which a pulse is drawn, in widths of the pulse.
 const WIDTHS: f64 = 5.0;
 
 impl Drawn for ResponseDocument {

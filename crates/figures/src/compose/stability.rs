@@ -10,13 +10,13 @@ use stickslip::{
     StyleName, WalkDocument, WalkingDocument,
 };
 
-/// Smallest fraction of the width for the unstable half-plane.
+/// Smallest width of the unstable part of the plane, relative to that of the stable part.
 const UNSTABLE_PART: f64 = 0.15;
 const PADDING: f64 = 0.06;
 
 impl Drawn for StabilityDocument {
-    /// Exponents along the scan. Those of the critical point are drawn on the imaginary axis, without their
-    /// round-off.
+    /// Growth exponents of the motion along the scan. Those of the critical point are drawn on the imaginary axis, without
+    /// their round-off.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
         let snaking = self.snaking.as_ref().and_then(Option::as_ref);

@@ -98,7 +98,7 @@ const OFF: f64 = 0.4;
 const NEXT: f64 = 0.15;
 
 impl Comb {
-    /// A fit close to this wavelength; `None` if there are too few rows for one.
+    /// A fit close to this wavelength; `None` if there are too few rows.
     pub(super) fn near(rows: &Rows, length: f64) -> Option<Self> {
         let longest = rows.lines.iter().map(Range::len).max()? as f64;
         let count = rows.extent() / length;
@@ -151,7 +151,7 @@ impl Comb {
         Some((found.coefficients[..count].to_vec(), found.residuals))
     }
 
-    /// Columns of the first harmonics, and of every background.
+    /// Columns of the first harmonics, and of the background of every line.
     pub(super) fn first(&self, rows: &Rows, harmonics: usize) -> Vec<Vec<f64>> {
         let most = (2 * harmonics * rows.lines.len()).min(self.wave.len() - 1);
         let mut found = rows.ground();
@@ -159,7 +159,7 @@ impl Comb {
         found
     }
 
-    /// Columns of the whole wave, and of every background.
+    /// Columns of the whole wave, and of the background of every line.
     pub(super) fn all(&self, rows: &Rows) -> Vec<Vec<f64>> {
         [rows.ground(), self.wave.clone()].concat()
     }
@@ -186,8 +186,8 @@ impl Comb {
         found
     }
 
-    /// Level of the noise if these columns are fitted in addition. They remove most of its low wave numbers, so that
-    /// its level there is taken from the wave numbers between the columns.
+    /// Level of the noise if these columns are fitted in addition. The columns remove most of the noise at low wave
+    /// numbers; there the level is taken from the wave numbers between the columns.
     pub(super) fn level(&self, rows: &Rows, besides: &[Vec<f64>], noise: &Noise) -> Level {
         let freedom = self.freedom(noise, besides.len());
         let sound = Level { scale: 1.0, freedom };
@@ -218,7 +218,7 @@ impl Comb {
         Noise::of(&residuals, &rows.lines, (columns.len(), within.min(rows.y.len())))
     }
 
-    /// Columns of all periodic, doubled and drifting components.
+    /// Columns of all doubled and drifting components; none if there are too few rows for so many columns.
     pub(super) fn besides(&self, rows: &Rows) -> Vec<Vec<f64>> {
         let found = [self.doubled(rows), self.drifting(rows)].concat();
         if 2 * (found.len() + self.wave.len()) > rows.y.len() { vec![] } else { found }

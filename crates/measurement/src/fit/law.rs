@@ -17,7 +17,7 @@ const ELSEWHERE: (f64, f64) = (1.15, 1.0);
 const TRIED: [f64; 2] = [4.0, 16.0];
 
 /// The best fit with a depth limit, if the data do not exclude it at 95 % and it changes a parameter by more than
-/// half of its interval; `None` if the request contains a depth limit, or the data have a gain.
+/// half of its interval; `None` if the request contains a depth limit, or a gain is known.
 pub(super) fn with_depth_limit(problem: &Problem, around: &Around) -> Option<Alternative> {
     let name = Name::DepthLimit;
     let is_asked = problem.free.contains(&name) || problem.held.get(name).is_some();

@@ -95,7 +95,7 @@ impl Problem<'_> {
         self.free.iter().map(of).collect()
     }
 
-    /// Number of search variables: the parameters, and a phase of each track.
+    /// Number of search variables: the parameters, and the phases of each track.
     pub(super) fn searched(&self) -> usize {
         self.free.len() + self.data.iter().map(Data::phases).sum::<usize>()
     }

@@ -12,7 +12,7 @@ const LOST: f64 = 0.05;
 /// Largest number of steps, each by a factor of 2.
 const MOST_STEPS: usize = 24;
 
-/// The best fit, or a nearly equal one with such parameters reduced as far as possible.
+/// The best fit, or a nearly equal one with diverged parameters reduced as far as possible.
 pub(super) fn retreated(problem: &Problem, mut best: Minimum) -> Minimum {
     let freedom = (problem.rows() as f64 - problem.parameters() as f64).max(1.0);
     for (i, name) in problem.free.iter().enumerate() {

@@ -27,8 +27,9 @@ const REPORTED: f64 = 9.0;
 const FOLLOWED: f64 = 0.25;
 /// Largest number of refined minima.
 const MOST: usize = 3;
-/// Difference of logarithms, absolute or in standard deviations, below which two minima count as the same.
+/// Difference of logarithms, in standard deviations, below which two minima count as the same.
 const SAME: f64 = 0.3;
+/// Absolute difference of logarithms up to which two minima count as the same.
 const EQUAL: f64 = 5e-3;
 
 /// All different minima with about the same residual as the best, with their scan directions.

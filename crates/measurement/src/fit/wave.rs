@@ -106,7 +106,7 @@ pub(super) struct Cycles {
 
 /// Number of cycles kept.
 const KEPT: usize = 12;
-/// Residual of (18): its effect is far below the noise of any data, and below the differences of derivatives.
+/// Residual of (18): its effect is far below the noise of any data, and below the differences that give derivatives.
 const TOLERANCE: f64 = 1e-6;
 /// Largest distance in ln α and ln r at which a cycle is started from another.
 const NEAR: f64 = 0.2;

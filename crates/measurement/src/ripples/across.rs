@@ -60,7 +60,7 @@ fn distance(i: usize, k: usize) -> usize {
     (i + POINTS - k) % POINTS
 }
 
-/// A real periodic function from its transform at 0, 1, …, at the points.
+/// Values, at the points, of the real periodic function with this transform at the wave numbers 0, 1, ….
 fn at_points(transform: impl Fn(usize) -> Complex64) -> [f64; POINTS] {
     let terms: Vec<Complex64> = (0..=HARMONICS).map(transform).collect();
     std::array::from_fn(|m| {
@@ -179,8 +179,8 @@ impl Lines {
         Weights { slope, value }
     }
 
-    /// Calls a function for each pair of points, on a line and on one before it or itself, with the weights of g' and g and with
-    /// h, h' and h'' between the two.
+    /// Calls `each` for every pair of a point on the line and a point on the line itself or an earlier one, with the weights of
+    /// g' and g, and with h, h' and h'' for the distance of the two points across the lines.
     fn pairs(
         &self,
         weights: &Weights,

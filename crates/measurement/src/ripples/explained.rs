@@ -21,7 +21,7 @@ const STIFFNESSES: [f64; 6] = [1.5, 3.0, 6.0, 12.0, 30.0, 100.0];
 const STIFFNESS_LOGS: RangeInclusive<f64> = -0.7..=6.9;
 /// Weight of a known number: it then deviates by 1e-5 for a residual of 1.
 const EXACT: f64 = 1e5;
-/// First values of the swing of θ'.
+/// First values of the swing, the relative variation of θ'.
 const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
 /// Step of the parameters, which are of order 1.
 const STEP: f64 = 1e-5;
@@ -293,8 +293,8 @@ impl Residuals for Problem<'_> {
     }
 }
 
-/// The neighbourhood of the closest pattern, for intervals by profile likelihood: the range of a quantity over which the patterns that
-/// have it are close enough to the wave. At strong noise α is far from linear in the parameters.
+/// The neighbourhood of the closest pattern, for intervals by profile likelihood: an interval contains the values of a quantity
+/// for which some pattern is close enough to the wave. At strong noise α is far from linear in the parameters.
 struct Around<'a> {
     problem: &'a Problem<'a>,
     best: &'a Minimum,
@@ -315,7 +315,7 @@ impl<'a> Around<'a> {
         Some(Self { problem, best, covariance, quantile: student(BLOCK_FREEDOM) })
     }
 
-    /// The quantity with this logarithm, and its interval.
+    /// The quantity whose logarithm is `log` of the parameters, and its interval.
     fn estimate(&self, log: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
         let at = &self.best.parameters;
         let value = log(at)?;

@@ -1,9 +1,9 @@
 //! Lateral forces on the lines that made the ripples, beside the ripples.
 //!
 //! The lag of the tip behind its support, as a function of the position R of the support, is a wave with the wave vector of the
-//! ripples. Its amplitude, in σ, determines how far α is above the threshold, for which the heights alone have only the shape of a
-//! ripple. If the stiffness k of the lever is unknown, the amplitude determines k instead. Its phase against the crests is that of the model if
-//! both images have the same positions.
+//! ripples. Its amplitude, in σ, determines how far α is above the threshold; in the heights alone only the shape of a ripple
+//! depends on that. If the stiffness k of the lever is unknown, the amplitude determines k instead. The phase of the lag against
+//! the crests is that of the model if both images have the same positions.
 
 use super::RippleError;
 use super::pair::Pair;
@@ -51,9 +51,9 @@ pub struct LateralFound {
 pub(super) struct Seen {
     wave: Wave,
     length: Option<f64>,
-    /// Standard deviation of the logarithm of its amplitude, and of its phase.
+    /// Standard deviation of the logarithm of its amplitude, and of its phase in rad.
     errors: [f64; 2],
-    /// Phase minus that of the heights.
+    /// Phase minus that of the heights, in rad.
     ahead: f64,
 }
 

@@ -98,7 +98,7 @@ pub struct Ripples {
     pub profile: RippleProfile,
     /// k/a: heights are k/a times σ² times those of the model.
     pub height_gain: f64,
-    /// Threshold of linear theory at this r and wave vector, as α.
+    /// The α at which, by linear theory, a wave with this wave vector neither grows nor decays at this r.
     pub neutral_alpha: f64,
     /// Whether the tip moved towards larger x.
     pub forward: bool,

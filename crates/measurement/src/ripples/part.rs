@@ -19,7 +19,7 @@ pub(super) struct Part {
 
 /// Least F of the wave against white noise: the strongest of 10⁵ waves of noise alone has about 3.
 const LEAST_STRENGTH: f64 = 15.0;
-/// Least number of standard deviations, by the scatter of the blocks of the image, of the first harmonic.
+/// Least amplitude of the first harmonic, in standard deviations from the scatter of the blocks of the image.
 const STANDS_OUT: f64 = 5.0;
 /// Ends of parts are multiples of this fraction of the image, and parts are as long as these.
 const EIGHTHS: usize = 8;
@@ -71,7 +71,7 @@ fn largest(image: &Pair) -> Option<Part> {
     None
 }
 
-/// First and last eighth of all parts of a length.
+/// Both ends, in eighths of the image, of all parts in one direction.
 fn lengths() -> impl Iterator<Item = [usize; 2]> {
     LENGTHS.into_iter().flat_map(|length| (0..=EIGHTHS - length).map(move |i| [i, i + length]))
 }
@@ -85,7 +85,7 @@ fn cut(image: &Pair, [columns, rows]: [[usize; 2]; 2]) -> Option<Pair> {
     image.each(part).ok()
 }
 
-/// The wave of ripples that have settled; `None` of others.
+/// The wave of ripples that have settled; `None` for other images.
 fn settled(image: &Pair) -> Option<Wave> {
     let wave = Wave::of(image).ok()?;
     let length = |[first, last]: [f64; 2]| last - first;

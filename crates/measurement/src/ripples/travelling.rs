@@ -80,7 +80,7 @@ pub(crate) struct Travelling {
     pub(crate) q: f64,
     /// Complex amplitudes of the height, k = 1, 2, …: u = mean + 2 Re Σ B_k e^{ik(qx + κy)}, in kσ²/a.
     pub(crate) heights: Vec<Complex64>,
-    /// The solution, for the next one nearby.
+    /// The solution, from which that for a pattern nearby starts.
     pub(super) unknowns: Unknowns,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct Unknowns {
     /// 1/r
     pub(super) slowness: f64,
     pub(super) c: Vec<Complex64>,
-    /// Distances of the tip from its line at even phases; none for a rigid one.
+    /// Distances of the tip from its line at evenly spaced phases; empty for a rigid tip.
     pub(super) across: Vec<f64>,
 }
 
@@ -131,7 +131,7 @@ impl Lines {
         Self { stiffness, ..self.clone() }
     }
 
-    /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, without α.
+    /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, divided by α.
     fn responses(&self, q: f64, kappa: f64, count: usize) -> Vec<Complex64> {
         let mut own = vec![Complex64::new(0.0, 0.0); count];
         for (x, weight) in &self.rule {

@@ -50,7 +50,7 @@ pub(crate) struct Wave {
     pub(crate) strength: f64,
     /// Standard deviation of the first harmonic between the blocks of the image, beyond the noise, relative to its size.
     pub(crate) modulation: f64,
-    /// Mean height and its standard deviation at even phases qx + κy from 0 to 2π.
+    /// Mean height and its standard deviation at evenly spaced phases qx + κy from 0 to 2π.
     pub(crate) folded: Vec<[f64; 2]>,
 }
 
@@ -129,7 +129,7 @@ impl Rows {
         Self { rows: both.collect(), ..self }
     }
 
-    /// Averaged over blocks, to at most `most` rows and columns.
+    /// The rows averaged over blocks, to at most `most` rows and columns.
     fn coarse(&self, most: usize) -> Self {
         let (across, along) = (self.rows.len().div_ceil(most), self.x.len().div_ceil(most));
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -144,7 +144,7 @@ impl Rows {
         Self { rows: rows.collect(), x }
     }
 
-    /// The wave vector of the largest value of the periodogram, at half the distance of Fourier frequencies.
+    /// The wave vector of the largest value of the periodogram, among those spaced by half of a Fourier frequency.
     fn strongest(&self) -> Option<[f64; 2]> {
         let (dx, dy) = (self.x[1] - self.x[0], self.rows[1].y - self.rows[0].y);
         let (nx, ny) = (self.x.len(), self.rows.len());

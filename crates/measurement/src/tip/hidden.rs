@@ -14,7 +14,7 @@ const PLACES: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
 const WIDTHS: [f64; 3] = [0.5, 0.8, 1.3];
 /// Its amplitude, in standard errors of its fit.
 const DEVIATIONS: f64 = 2.0;
-/// Detectability below which such a Gaussian is part of the existing terms.
+/// Fraction of the norm of such a Gaussian, outside of the span of the fit, below which the existing terms represent it.
 const TOLD: f64 = 0.15;
 /// Largest change of the fitted parameters; larger changes are scaled down in proportion, because the resamples cover
 /// transitions to another sum.

@@ -59,7 +59,7 @@ pub struct MeasuredTip {
     pub residual: f64,
     /// Correlation of the residuals of neighbouring rows.
     pub correlation: f64,
-    /// The fits with other numbers of Gaussians.
+    /// The best fits with one, two … Gaussians.
     pub candidates: Vec<Candidate>,
     /// Index of the selected fit in `candidates`.
     pub chosen: usize,
@@ -226,7 +226,7 @@ fn lost(draws: &[Vec<Option<Answers>>]) -> f64 {
     all.iter().filter(|drawn| drawn.is_none()).count() as f64 / all.len().max(1) as f64
 }
 
-/// Largest residual relative to the variation of the data.
+/// Residual relative to the variation of the data below which a footprint counts as found.
 const LEAST_PART: f64 = 0.7;
 
 fn judge_size(profile: &Profile, found: &Candidate) -> Result<(), TipError> {

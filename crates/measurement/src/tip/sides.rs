@@ -27,7 +27,7 @@ pub struct Sides {
 const ENDS: f64 = 0.15;
 /// Height relative to the apex above which rows determine its position.
 const HIGH: f64 = 0.5;
-/// Fewest rows for a fit of the apex, and the step of its parameters.
+/// Fewest intervals between rows for a fit of the apex, and the step of its parameters.
 const FEWEST: usize = 8;
 const STEP: f64 = 1e-6;
 /// Width of the Gaussians of [`Sides::footprint`] over that of the narrowest Gaussian of the halves.
@@ -45,10 +45,9 @@ const NEWTON: usize = 4;
 
 /// Fits both halves of a profile, each as an even footprint about the apex.
 ///
-/// The ground is a line through both ends of the profile; the apex is that of a Gaussian with two
-/// widths through the rows above half of its height, or the given centre. Every row counts once: those of a half are taken alternately as rows at
-/// positive and negative distance, so that the offset of the half is determined too. σ is the mean of both widths unless it is
-/// given.
+/// The background is a line through both ends of the profile. The apex is the given centre, or that of a Gaussian with two widths
+/// through the rows above half of its height. Every row counts once: the rows of a half are taken alternately at positive and
+/// negative distance, so that the offset of the half is determined too. σ is the mean of both widths unless it is given.
 ///
 /// # Errors
 /// As [`tip`], for either half.
@@ -185,7 +184,7 @@ fn position(x: &[f64], height: &[f64]) -> Option<f64> {
     Some(x[top] + scale * found.parameters[1])
 }
 
-/// A exp(-(x - c)²/(2w²)) with a width for either side: A, c, ln w above and ln w below c.
+/// A exp(-(x - c)²/(2w²)) with a width for either side; the parameters are A, c, ln w above c and ln w below c.
 struct TwoWidths {
     rows: Vec<(f64, f64)>,
 }

@@ -72,8 +72,8 @@ fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
     Ok(all)
 }
 
-/// The α at which a root gets a positive real part, by bisection of an interval around the critical one: from the
-/// number of roots, without the formula for αc.
+/// The α at which a root gets a positive real part, by bisection of an interval around `critical`: from the number of
+/// such roots, without the formula for αc.
 fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
     let (mut stable, mut unstable) = (0.9 * critical, 1.1 * critical);
     while unstable - stable > 1e-6 {

@@ -63,7 +63,7 @@ fn with_files(
     Ok(run)
 }
 
-/// The input files of such a run, which must not be overwritten.
+/// The input files of a run with disturbances, which must not be overwritten.
 pub(crate) fn files_read<'a>(
     tip_file: Option<&'a Path>,
     disturbance: &'a DisturbanceArguments,

@@ -61,7 +61,7 @@ struct Place<'a> {
     arguments: &'a RunArguments,
 }
 
-/// The finished run of a motion that was resumed, and its output.
+/// Integrates a resumed motion to the end of its scenario, and returns the run with its output.
 fn resumed<R: Motion>(
     session: &Session,
     head: &CheckpointHead,

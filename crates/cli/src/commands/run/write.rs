@@ -20,7 +20,7 @@ use stickslip_tip::{Scenario, stop};
 pub(super) enum Target {
     /// A document, written at the end.
     Document(Box<Job>),
-    /// Lines, written by the record; with the fields to print from the last one.
+    /// Lines, written by the record, and the fields of the last line to print.
     Lines(Fields),
 }
 
@@ -61,7 +61,7 @@ fn finish_lines(
     job::after(session, end, &summary::of_lines(end), fields, order.output != Path::new("-"))
 }
 
-/// Writes the whole document, or the last line; and the figure.
+/// Writes the document, or the last of the lines, and the figure.
 pub(super) fn all<R: Motion>(
     session: &Session,
     order: &Order,

@@ -113,7 +113,7 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
     }
 }
 
-/// A range, with its spacing from its number of values or from the other option.
+/// A range, with its spacing from its number of values, from the option `other`, or the default `spacing`.
 fn range(
     [option, other]: [&str; 2],
     typed: &Interval,

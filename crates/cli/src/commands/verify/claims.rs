@@ -1,8 +1,8 @@
 //! Check of all values of a run except its motion: each value that follows from the parameters and the motion is
 //! recomputed.
 //!
-//! Samples are evaluated from the dense history, or from a repetition of the run if none was kept; the result of the
-//! run is recomputed from that repetition.
+//! Samples are evaluated from the dense history or, if none was kept, from a repetition of the run. The result of the run is
+//! recomputed from a repetition in any case.
 
 use super::motion::Motion;
 use crate::commands::progress::Progress;
@@ -114,8 +114,8 @@ impl Columns {
         self.see(sample, found, (DIGITS + rounding / step.h, DIGITS));
     }
 
-    /// Compares a sample with a run to the same tolerance. l, x0 and y0 are checked by the other repetition; the lag
-    /// follows from x0.
+    /// Compares a sample with a repetition to the same tolerance. l, x0 and y0 are checked by the repetition to a tighter
+    /// tolerance; the lag follows from x0.
     fn of_repetition(&mut self, sample: &SampleLine, found: &SampleLine, step: &Step) {
         let support = self.support.position(sample.t);
         let rounding = ROUNDINGS * (1.0 + support.abs() + sample.x0.abs());

@@ -12,9 +12,9 @@ use stickslip_surface::Surface;
 pub(super) const MARGIN: f64 = 12.0;
 /// Length of the tip's own groove behind it, in σ.
 const GROOVE: f64 = 4.0;
-/// Ripples with less than this fraction of the height are drawn alone, and the rest is cut off.
+/// Ripples lower than this fraction of all heights fill the axes alone; the rest of the surface is cut off.
 const LEAST_PART: f64 = 0.3;
-/// Largest number of slips that count as no ripples.
+/// Smallest number of slips that count as ripples.
 const FEW: usize = 4;
 /// Spacing of the points, and their smallest and largest number.
 const SPACING: f64 = 0.1;
@@ -31,7 +31,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The surface, and the initial one if it is of interest.
+    /// The surface and, on request, the initial one.
     pub(super) fn lines(
         &self,
         range: (f64, f64),

@@ -153,7 +153,7 @@ impl Density {
     }
 }
 
-/// Compiled for wider vectors too: each cell is a sum of its own, so that the bits are the same.
+/// Also compiled for wider vectors: each cell is a separate sum, so that the bits are the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn spread(
     window: &Window,

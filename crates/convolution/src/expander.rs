@@ -101,7 +101,7 @@ impl Expander {
     }
 }
 
-/// Compiled for wider vectors too: each coefficient is a sum of its own, so that the bits are the same.
+/// Also compiled for wider vectors: each coefficient is a separate sum, so that the bits are the same.
 #[multiversion(targets("x86_64+avx2"))]
 fn add(weights: &[PowerSeries], cells: &[f64], series: &mut PowerSeries) {
     let mut sums = *series;

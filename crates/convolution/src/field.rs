@@ -54,8 +54,8 @@ impl Field {
     /// The sum `S(x)`.
     ///
     /// # Panics
-    /// `x` is not at least 8 cells inside the window. Nearer to its ends than in [`range`](Self::range) the value lacks
-    /// the sources outside the window.
+    /// `x` is not at least 8 cells inside the window. Inside the window but outside of [`range`](Self::range) the value
+    /// lacks the sources outside the window.
     #[inline]
     pub fn value(&self, x: f64) -> f64 {
         self.value_and_derivative(x).0

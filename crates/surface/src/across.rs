@@ -88,9 +88,9 @@ impl<'a> SurfaceAcross<'a> {
     }
 }
 
-/// Largest number of neighbouring columns for which the profile of a visit is computed once.
+/// Largest number of neighbouring columns that share the profile of a visit.
 const COLUMNS: usize = 32;
-/// Largest distance between adjacent columns of such a group, relative to the reach of the tip.
+/// Largest distance between adjacent columns that share profiles, relative to the reach of the tip.
 const CLOSE: f64 = 0.25;
 /// Number of visits whose profiles are kept at a time.
 const VISITS: usize = 256;

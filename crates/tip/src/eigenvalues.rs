@@ -19,13 +19,13 @@ use num_complex::Complex;
 const ROUND_OFF: f64 = 1e-15;
 /// Largest number of sweeps for one eigenvalue or pair; ordinary matrices need two or three.
 const MOST_SWEEPS: usize = 90;
-/// Period, in sweeps without success, of the sweeps with exceptional shifts instead of those from the corner.
+/// Number of unsuccessful sweeps after which one sweep uses exceptional shifts instead of those from the corner.
 const SWEEPS_PER_STALL: usize = 10;
 /// Number of sweeps after which an entry is compared with the norm of the matrix instead of its neighbours on the
 /// diagonal.
 const PATIENCE: usize = 40;
 
-/// All eigenvalues, with an error of about round-off of the norm of the balanced matrix. In a conjugate pair the
+/// All eigenvalues, with an error of about the round-off of the norm of the balanced matrix. In a conjugate pair the
 /// eigenvalue above the real axis is first. `None` if the matrix is not square, an entry is not finite, or the
 /// iteration does not converge or is [interrupted](stop).
 ///

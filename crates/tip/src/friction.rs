@@ -23,7 +23,7 @@ pub struct Loop {
 pub struct Hold {
     /// Time at which the support stops, in Γ/k.
     pub from: f64,
-    /// Time at which it moves on, in Γ/k.
+    /// Time at which the support moves on, in Γ/k.
     pub to: f64,
     /// The peak of the lateral force after the rest, until the support turns or stops; `None` if the force is largest
     /// at the end of that time.

@@ -56,7 +56,7 @@ impl Step {
         self.extension - r + (r * (t - self.t) - moved)
     }
 
-    /// x0(t) on its polynomial.
+    /// x0(t) by the stage polynomial, for support velocity r.
     pub fn x0(&self, r: f64, t: f64) -> f64 {
         r * t - r - self.l(r, t)
     }

@@ -21,7 +21,7 @@ pub(crate) struct Stretch {
     /// Ends of the stretch.
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// Largest distance of a step beyond an end at which it counts as ending there.
+    /// A step that ends at most this far beyond an end of the stretch counts as ending there.
     pub(crate) slack: f64,
     /// Whether u0 = 0 within the largest distance at which a step evaluates it.
     pub(crate) flat: bool,
@@ -127,7 +127,7 @@ impl InitialSurface {
         if textured { f64::EPSILON * x.abs() } else { 0.0 }
     }
 
-    /// Sets the stretch to the one that contains a tip at x, or that the tip is about to enter if it is at a break; x
+    /// Sets `stretch` to the stretch that contains a tip at x, or that the tip is about to enter if it is at a break; x
     /// has an error of at most `accuracy`.
     pub(crate) fn enter(&self, stretch: &mut Stretch, x: f64, forward: bool, accuracy: f64) {
         let Piece { low, high, slack, .. } = Piece::EVERYWHERE;

@@ -65,7 +65,7 @@ impl Model {
         Ok(Self { tip, alpha, r, wider })
     }
 
-    /// The same model with the footprint f(x,y), whose section f(x,0) is that of the model.
+    /// The same model with the footprint f(x,y), whose section f(x,0) becomes its tip function.
     #[must_use]
     pub fn with_footprint(self, footprint: Footprint) -> Self {
         Self { tip: TipFunction::of_footprint(footprint), ..self }

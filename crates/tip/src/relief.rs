@@ -22,10 +22,10 @@ pub struct Relief(Shape);
 /// White noise on a grid, interpolated by a cubic spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
-    /// Heights are uniform in [-amplitude, amplitude]; 0 or above.
+    /// Heights are uniform in [-amplitude, amplitude], in kσ²/a; 0 or above.
     pub amplitude: f64,
-    /// Distance of the grid points. White noise has no limit for distances → 0, so that the spacing is a parameter of
-    /// the start.
+    /// Distance of the grid points, in σ. White noise has no limit for distances → 0, so that the spacing is a
+    /// parameter of the start.
     pub spacing: f64,
     /// Seed of the `ChaCha8` stream that yields the heights, from left to right.
     pub seed: u64,
@@ -60,7 +60,7 @@ pub(crate) struct Piece {
     /// Ends of the piece.
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// Largest distance of a step beyond an end at which it counts as ending there.
+    /// A step that ends at most this far beyond an end of the piece counts as ending there.
     pub(crate) slack: f64,
     /// Number of the piece, for a relief that has several; `None` outside of them.
     pub(crate) index: Option<usize>,
@@ -68,11 +68,11 @@ pub(crate) struct Piece {
 
 /// Largest distance at which a step evaluates the surface (`memory::longest_look`).
 const FARTHEST_LOOK: f64 = 12.0;
-/// A tip counts as being at a knot within this fraction of the interval,
+/// Largest distance at which a tip counts as being at a knot, relative to the interval.
 const AT_A_KNOT: f64 = 1e-9;
-/// or within this fraction of |x|, which is 64 roundings,
+/// The same distance relative to |x|, 64 roundings; the larger of the two counts.
 const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
-/// but never at more than this fraction of the interval from it.
+/// Upper limit of both distances, relative to the interval.
 const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl Piece {

@@ -11,7 +11,7 @@ pub fn zero_between(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     zero_to(f, (a, b), 0.0)
 }
 
-/// As [`zero_between`], but returns the first x at which |f(x)| is at most `enough`.
+/// As [`zero_between`], but returns the first iterate x at which |f(x)| is at most `enough`.
 pub fn zero_to(f: impl Fn(f64) -> f64, (mut a, mut b): (f64, f64), enough: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     let mut last = a;

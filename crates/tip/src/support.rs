@@ -108,7 +108,7 @@ impl Support {
         }
     }
 
-    /// Velocity R'(t); at a knot, that after it.
+    /// Velocity R'(t); at a knot, the velocity after the knot.
     pub fn velocity(&self, t: f64) -> f64 {
         match self {
             Self::Moving(r) => *r,

@@ -136,7 +136,7 @@ impl Footprint {
     /// A sum of layers. f(x,0) is the sum of their g, each multiplied by its h(0).
     ///
     /// # Errors
-    /// No layer is of Gaussians, an `across` is not finite or has no positive width, or f(x,0) is 0.
+    /// No layer is a sum of Gaussians, an `across` is not finite or has no positive width, or f(x,0) is 0.
     pub fn from_layers(layers: Vec<Layer>) -> Result<Self, TipFunctionError> {
         if let Some(i) = layers.iter().position(|layer| !layer.across.is_valid()) {
             let width = layers[i].across.width;

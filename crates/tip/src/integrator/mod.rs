@@ -57,7 +57,7 @@ pub struct Integrator<'a> {
     t: f64,
     /// Start time.
     start: f64,
-    /// End of the initial rest by symmetry: until then no force acts on the tip, and its groove is even about it.
+    /// End of the initial rest by symmetry: until then no force acts on the tip, and the groove is even about it.
     rest_until: f64,
     /// R - x0
     extension: f64,

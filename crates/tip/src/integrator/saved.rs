@@ -3,7 +3,7 @@
 use super::{Integrator, Work};
 use crate::state::{Damaged, Reader, Saved, State};
 
-/// Contains all data that determine the next steps, except the arguments of [`Integrator::new`].
+/// The saved state contains all data that determine the next steps, except the arguments of [`Integrator::new`].
 impl Saved for Integrator<'_> {
     fn save(&self, state: &mut State) {
         let (slope, force) = self.limits_from_before;

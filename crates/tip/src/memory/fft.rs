@@ -55,8 +55,8 @@ pub(crate) enum Lattice {
 /// however far the tip travels.
 const CELLS_PER_ORIGIN: i64 = 512;
 
-/// Least number of cells of the density kept on either side of the tip: 12,000 widths of a Gaussian. Beyond twice as
-/// many they are dropped.
+/// Least number of cells of the density kept on either side of the tip: 12,000 widths of a Gaussian. Cells are dropped
+/// beyond twice this number.
 const CELLS_KEPT: usize = 1 << 16;
 /// Least number of windows kept.
 const WINDOWS_KEPT: usize = 4;

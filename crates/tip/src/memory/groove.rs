@@ -19,7 +19,7 @@ impl<'a> Groove<'a> {
         Self { slope, curvature, height: None }
     }
 
-    /// The same with room for the height.
+    /// Adds room for the height.
     #[must_use]
     pub fn with_height(self, height: &'a mut [f64]) -> Self {
         Self { height: Some(height), ..self }

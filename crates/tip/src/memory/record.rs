@@ -34,11 +34,11 @@ pub(crate) struct Record {
 /// Treatment of nodes when there are many.
 #[derive(Debug, Clone)]
 enum Kept {
-    /// All are kept, in blocks of at most the number of nodes of a step.
+    /// All nodes are kept, in blocks of at most the number of nodes of a step.
     All(Vec<Block>),
-    /// They are compressed in bins.
+    /// Nodes are compressed in bins.
     Gathered(Bins),
-    /// All are kept; the origin is that of a lattice, which determines when it moves.
+    /// All nodes are kept; the origin is that of a lattice, which determines when it moves.
     OnLattice,
 }
 

@@ -8,10 +8,10 @@
 //!     M x0'' + x0' = Σ_m φ_m A_m1 + κ(R - x0) + F_x           y0' = (1/v) Σ_m ψ_m A_m0 - κ_y y0 + F_y
 //! ```
 //!
-//! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: M p³/6 products, with the layers in
-//! SIMD lanes. If the footprint is a sum of products g(x) h(y), each product has a groove with layers of its own, and
-//! their forces add up. If h is a sum of Gaussians, the layers that are read differ from those that visits contribute
-//! to. The former are those of [`Bells`]; they obey the same recurrences, and a few more of them are needed.
+//! A series of order p requires only the coefficients of `A_mn` up to `t^{p-n}`: p³/6 products for each layer, with the
+//! layers in SIMD lanes. If the footprint is a sum of products g(x) h(y), each product has a groove with layers of its
+//! own, and their forces add up. If h is a sum of Gaussians, the layers that are read differ from those that visits
+//! contribute to. The former are those of [`Bells`]; they obey the same recurrences, and a few more of them are needed.
 
 use super::bells::Bells;
 use super::ground::Ground;
@@ -195,8 +195,8 @@ impl Chain {
         self.weighing.weights()
     }
 
-    /// Room for the initial values of the groove of a product: A, for n = 0 to the order. `of_tip` are the derivatives of g
-    /// at 0.
+    /// Room for the initial values of the groove of a product: `A_mn` for n = 0 to the order. `of_tip` are the
+    /// derivatives of g at 0.
     pub(super) fn start(
         &mut self,
         product: usize,

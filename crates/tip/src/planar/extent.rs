@@ -71,7 +71,8 @@ impl Extent {
         }
     }
 
-    /// Range of all positions within the reach of a tip at x, if there are any; other positions are removed.
+    /// The range in y of all positions within the reach of a tip at x, if there are any. Positions farther behind are
+    /// removed.
     pub(super) fn about(&mut self, x: f64) -> Option<(f64, f64)> {
         while self.bins.front().is_some_and(|bin| bin.last < x - self.reach) {
             self.bins.pop_front();

@@ -31,7 +31,8 @@ impl Ground {
         &self.rows[k]
     }
 
-    /// The coefficients of order k + 1, from those of x0', the highest first up to that of order k, and of y0'.
+    /// Computes the coefficients of order k + 1. `along` contains those of x0' up to order k, the highest first,
+    /// `across` those of y0'.
     pub(super) fn advance(
         &mut self,
         along: &[f64; MOST_ORDER],

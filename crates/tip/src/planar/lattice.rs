@@ -1,7 +1,7 @@
 //! The past of a retreating tip: Gaussians on a lattice along the scan, for each layer across.
 //!
-//! As [rows](super::earlier) hold the grooves of earlier scans, points `x_j` = jh of a lattice along the scan hold the past:
-//! with q² = w² - s²
+//! As [rows](super::earlier) represent the grooves of earlier scans, points `x_j` = jh of a lattice along the scan
+//! represent the past. With q² = w² - s²,
 //!
 //! ```text
 //!     e^{-(x-x')²/2w²} = (w h/(√(2π) s q)) Σ_j e^{-(x-x_j)²/2q²} e^{-(x_j-x')²/2s²}
@@ -18,8 +18,8 @@ use crate::elementary::exp;
 use crate::memory::SteadyPast;
 use crate::state::{Damaged, Reader, State};
 
-/// Distance behind the farthest point within which lattice points are kept, in the smallest width and in reaches of f,
-/// of which the larger distance counts: some 700 points for (48).
+/// Distance behind the farthest point within which lattice points are kept: the larger of this number of smallest
+/// widths and this number of reaches of f, some 700 points for (48).
 const KEPT: (f64, f64) = (250.0, 4.0);
 
 /// Lattice points that have been close to the tip, in their order along the scan.

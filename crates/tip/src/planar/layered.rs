@@ -24,7 +24,7 @@ pub(super) trait Layered {
     /// Adds a steady past on a line with the layers `phi`.
     fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]);
 
-    /// Adds nodes, given as displacements from the tip, which then is at the last of them. `weighted` contains the
+    /// Adds nodes, given as displacements from the tip, and moves the tip to the last one. `weighted` contains the
     /// layers of each node multiplied by its weight.
     fn remember(&mut self, position: &[f64], weighted: &[Lanes]);
 

@@ -74,7 +74,7 @@ const INVERSE_ROOTS: [f64; MOST_ROOTS] = {
     inverse
 };
 
-/// √x of a number of at least 1, by Newton's iteration: it falls until round-off.
+/// √x for x ≥ 1, by Newton's iteration: its values decrease until round-off.
 const fn root(x: f64) -> f64 {
     let mut root = x;
     loop {

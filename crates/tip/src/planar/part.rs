@@ -1,4 +1,4 @@
-//! The memory of one product g(x) h(y) of the footprint: its past, and the layers of it.
+//! The memory of one product g(x) h(y) of the footprint: the past, and the layers that represent it.
 
 use super::bells::Bells;
 use super::fields::Fields;
@@ -27,8 +27,8 @@ pub(super) struct Part {
     size: f64,
 }
 
-/// Largest factor by which the error of exponentials may exceed its share if no better fit exists. It then amounts to
-/// three quarters of the tolerance.
+/// Largest factor by which the error of exponentials may exceed its share if no better fit exists. The error then
+/// amounts to three quarters of the tolerance.
 const MOST_SLACK: f64 = 30.0;
 
 /// Storage of the past.
@@ -102,8 +102,8 @@ impl Part {
         self.past.remember_steady(past, &phi);
     }
 
-    /// Adds positions with these weights, given as displacements from the tip at `y`, which then is at the last of them;
-    /// `left` is the undecayed part of the past.
+    /// Adds positions with these weights, given as displacements from the tip at `y`, and moves the tip to the last
+    /// one; `left` is the undecayed part of the past.
     pub(super) fn remember(
         &mut self,
         (along, across): (&[f64], &[f64]),

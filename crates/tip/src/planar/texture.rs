@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// Heights u at the points (`x_i`, `y_j`) of a grid, in kσ²/a and σ.
 ///
-/// Between the points it is a bicubic spline. It is 0 before the first x and behind the last, with slope 0 along the
+/// Between the points u is a bicubic spline. It is 0 before the first x and behind the last, with slope 0 along the
 /// scan there; beyond the first and last y it is that of the nearest row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightTable {
@@ -68,7 +68,7 @@ pub struct Texture {
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     patches: Vec<Patch>,
-    /// Ends along and across, and the largest distance of a step beyond an end at which it counts as ending there.
+    /// Ends along and across, with the slack of each.
     pub(super) ends: [Piece; 2],
 }
 

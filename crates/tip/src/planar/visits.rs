@@ -29,7 +29,8 @@ impl Visits {
         self.steady = Some(*past);
     }
 
-    /// Adds positions with these weights, given as displacements from the tip at `y`, which then is at the last of them.
+    /// Adds positions with these weights, given as displacements from the tip at `y`, and moves the tip to the last
+    /// one.
     pub(super) fn remember(&mut self, (along, across): (&[f64], &[f64]), weights: &[f64], y: f64) {
         let left = self.fading.left().unwrap_or(1.0);
         let weights: Vec<f64> = weights.iter().map(|weight| weight / left).collect();

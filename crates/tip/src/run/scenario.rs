@@ -27,11 +27,11 @@ pub struct Scenario {
     pub start: Start,
     /// Start position X, before the kick.
     pub start_position: f64,
-    /// The tip starts at X - kick, so that l is `kick` above its start value.
+    /// The tip starts at X - kick, so that l starts `kick` above its value without a kick.
     pub kick: f64,
-    /// Path of the support, from t = 0 on; `None`: it moves with velocity r.
+    /// Path of the support, from t = 0 on; `None` for a support of constant velocity r.
     pub path: Option<SupportPath>,
-    /// Velocity V of a tip with inertia at the start; `None`: r on a steady start, 0 on a flat one.
+    /// Velocity V of a tip with inertia at the start; `None` for r on a steady start, and for 0 on a flat one.
     pub start_velocity: Option<f64>,
     /// Noise added to the initial surface.
     pub noise: Option<Noise>,
@@ -120,7 +120,7 @@ pub enum RunError {
     /// The initial surface is not a function of x.
     #[error("the initial surface: {0}")]
     Profile(SeriesError),
-    /// `modes` is requested but does not apply.
+    /// `modes` is requested, but exponentials do not fit the footprint.
     #[error(transparent)]
     Modes(#[from] FitError),
     /// The integration cannot continue.

@@ -31,11 +31,11 @@ pub struct Known {
     pub past_curvature: Stages,
     /// ∫ f over the undecayed past.
     pub past_height: Stages,
-    /// Slope of the initial surface, undecayed part.
+    /// Undecayed part of the slope of the initial surface.
     pub relief_slope: Stages,
-    /// Curvature of the initial surface, undecayed part.
+    /// Undecayed part of the curvature of the initial surface.
     pub relief_curvature: Stages,
-    /// Height of the initial surface, undecayed part.
+    /// Undecayed part of the height of the initial surface.
     pub relief_height: Stages,
 }
 

@@ -98,7 +98,8 @@ impl OwnGroove {
         }
     }
 
-    /// Adds the derivatives of this sum with respect to d. (The idle pair adds and subtracts the same value.)
+    /// Adds the derivatives of `Σ_k b_ik f'(d_i - d_k)` with respect to d. (The idle pair adds and subtracts the same
+    /// value.)
     #[inline]
     pub fn add_derivatives(&self, b: &Matrix, derivatives: &mut Matrix) {
         let [ahead, behind] = &self.curvature;

@@ -34,7 +34,7 @@ pub enum TipFunctionError {
         /// Number of the Gaussian, from 1.
         index: usize,
     },
-    /// A Gaussian off the origin without its mirror image, in a sum that must be even or is not level at 0.
+    /// A Gaussian off the origin without its mirror image, in a sum that must be even, or with f'(0) ≠ 0.
     #[error(
         "the tip function is not even: the Gaussian at center {center} lacks a twin of the same amplitude and width at {mirror}; a tip with two different sides, and of f(x,y) the part of each width across, must have its apex at x = 0, where f' = 0",
         mirror = -center

@@ -50,7 +50,7 @@ impl TipFunction {
     /// (48): exp(-ξ²/2) - β/2 (exp(-(ξ+2)²/2) + exp(-(ξ-2)²/2)) with ξ = x/`width`.
     ///
     /// # Errors
-    /// `beta` not finite, `width` not a positive finite number.
+    /// `beta` is not finite, or `width` is not a positive finite number.
     pub fn triple_gaussian(beta: f64, width: f64) -> Result<Self, TipFunctionError> {
         if !beta.is_finite() {
             return Err(TipFunctionError::Beta(beta));
@@ -66,7 +66,7 @@ impl TipFunction {
     /// exp(-x²/(2 `width`²)).
     ///
     /// # Errors
-    /// `width` not a positive finite number.
+    /// `width` is not a positive finite number.
     pub fn gaussian(width: f64) -> Result<Self, TipFunctionError> {
         Self::gaussian_sum(vec![Gaussian { amplitude: 1.0, center: 0.0, width }])
     }

@@ -2,8 +2,8 @@
 //!
 //! On a lattice of spacing Δ, Gaussians of width 1.2 Δ reproduce every function that the lattice resolves: the
 //! saturation error of such a quasi-interpolation is 2 exp(-2π²·1.2²) ≈ 1e-12, and its matrix has a condition number
-//! below 1e3. The lattice is the coarsest one that reproduces the rows to 4e-12, as far as one is found by bisection, or
-//! that of the rows.
+//! below 1e3. The lattice is the coarsest found by bisection that reproduces the rows to 4e-12, or else that of the
+//! rows.
 
 use super::{Gaussian, TipFunctionError};
 use crate::elementary::exp;

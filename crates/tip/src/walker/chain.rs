@@ -226,7 +226,8 @@ fn field_of_past(scenario: &WalkerScenario, directions: &[[f64; 2]]) -> Vec<Comp
 
 /// z of a direction after motion on a circle. The end point has the coordinates `along` and `across` the direction:
 ///
-/// z = e^{i along} Σ_m (-i)^m J_m(r) e^{imψ}/(1/T + imω), ψ the angle from the direction to the point (Jacobi and Anger).
+/// z = e^{i along} Σ_m (-i)^m J_m(r) e^{imψ}/(1/T + imω), with the angle ψ from the direction to the end point (Jacobi
+/// and Anger).
 fn circle(
     orders: &[f64],
     (healing, frequency): (f64, f64),

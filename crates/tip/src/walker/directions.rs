@@ -14,7 +14,7 @@
 //!     |J_n(d)| ≤ g(d/n)^n,   g(z) = z e^{√(1-z²)}/(1 + √(1-z²))
 //! ```
 //!
-//! (W. Kapteyn; NIST Digital Library of Mathematical Functions, 10.14.8), This bound rises with d to 1 and falls as n
+//! (W. Kapteyn; NIST Digital Library of Mathematical Functions, 10.14.8). This bound rises with d to 1 and falls as n
 //! rises.
 
 use crate::elementary::{exp, ln};

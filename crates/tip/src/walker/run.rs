@@ -18,7 +18,7 @@ const LEAST_ERROR: f64 = 1e-16;
 /// Speed for which the directions are sufficient, relative to the largest speed known at the start, or to a speed that
 /// was too large.
 const ROOM: f64 = 1.5;
-/// The same for a particle at rest, as a speed times T.
+/// Least speed for which the directions are sufficient, even for a particle at rest, times T.
 const LEAST_RANGE: f64 = 0.2;
 
 /// A finished run.
@@ -38,7 +38,8 @@ pub struct WalkerRun {
 /// expected, the run is repeated with more of them.
 ///
 /// # Errors
-/// A parameter out of range; a step lost in round-off; a memory too long for the available number of directions.
+/// A parameter is out of range, a step is lost in round-off, or the memory is too long for the available number of
+/// directions.
 pub fn run(scenario: &WalkerScenario) -> Result<WalkerRun, WalkerError> {
     run_observed(scenario, |_, _| ControlFlow::Continue(()))
 }

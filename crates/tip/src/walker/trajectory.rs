@@ -2,7 +2,7 @@
 
 use super::chain::sum;
 
-/// One step.
+/// One step of the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WalkerStep {
     /// Start of the step.

@@ -6,8 +6,7 @@ use crate::elementary::{log10, pow};
 /// Allowed error of x0 due to the fit, in units of the tolerance of the run. Motions near onset amplify it a
 /// hundredfold, as they amplify the error of a step.
 const SHARE: f64 = 0.025;
-/// Factor of this share for a tip with M > 1/2: it turns where its groove does not hold it, and carves another
-/// groove.
+/// Factor of this share for a tip with M > 1/2, which turns where no groove holds it and carves another one.
 const SWINGING: f64 = 0.1;
 /// Distance, in widths of the apex, within which errors of a fit change sign: they act on a moving tip over about
 /// this distance.
@@ -19,7 +18,7 @@ const WIDTHS: f64 = 2.0;
 const CHEAP: f64 = 1e-10;
 const SPARE: f64 = 0.1;
 
-/// Approximate factor by which heights act on the tip for longer than slopes.
+/// Approximate ratio of the times for which heights and slopes act on the tip.
 const HEIGHTS: f64 = 4.0;
 /// Finest accuracy of a fit. Heights do not require more, nor does a tip that swings back, whose fit must be valid
 /// farther behind.

@@ -227,12 +227,13 @@ impl Fit {
         self.wanted
     }
 
-    /// Distance behind the farthest point within which the sum is valid.
+    /// Distance behind the farthest point within which the sum is valid, in σ.
     pub fn retreat(&self) -> f64 {
         self.retreat
     }
 
-    /// Largest distance behind the farthest point at which a step may begin, so that all its evaluations are valid.
+    /// Largest distance behind the farthest point at which a step may begin, so that all its evaluations are valid; in
+    /// σ.
     pub fn retreat_between_steps(&self) -> f64 {
         self.between_steps
     }

@@ -23,9 +23,9 @@ pub(super) struct Bins {
     pub(super) moments: VecDeque<Bin>,
     /// Bin i of the deque is at [i + first, i + first + 1] lengths.
     pub(super) first: i64,
-    /// Whether bins have been dropped behind `first`,
+    /// Whether bins have been dropped behind `first`.
     pub(super) dropped: bool,
-    /// and whether the memory has been evaluated there since.
+    /// Whether the memory has been evaluated at dropped bins.
     pub(super) missed: bool,
 }
 

@@ -316,7 +316,8 @@ impl<'a> PlanarRunning<'a> {
         self.force.iter().map(|force| force.longest_step(self.t)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The length of a motion along the scan that carves as fine a groove: f has other bandwidths along and across.
+    /// The length of a motion along the scan whose groove is as fine as that of this motion: the bandwidths of f along
+    /// and across differ.
     fn effective(&self, [along, across]: [f64; 2]) -> f64 {
         let ratio = BAND_OF_A_GAUSSIAN / (self.products.width() * self.model.tip().band());
         (along * along + (ratio * across) * (ratio * across)).sqrt()

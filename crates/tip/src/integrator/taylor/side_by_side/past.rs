@@ -21,8 +21,8 @@ pub(super) struct Exponentials {
     pub(super) of_tip: [f64; MOST_ORDER],
 }
 
-/// Number of derivatives that are summed together, and room for whole blocks of them. It is as small as the block of an
-/// expansion for the same reason.
+/// Number of derivatives that are summed together, small for the same reason as the block in `expansion`, and room for
+/// whole blocks of derivatives.
 const AT_ONCE: usize = 6;
 const ROOM: usize = MOST_ORDER.next_multiple_of(AT_ONCE);
 
@@ -77,7 +77,7 @@ fn powers_of<const N: usize>(s: Complex<f64>, factor: Complex<f64>) -> [[f64; 2]
 
 /// The states of all motions.
 pub(super) struct Past {
-    /// Real and imaginary part of each.
+    /// Real and imaginary part of each state.
     states: Vec<[Lanes; 2]>,
     /// Room for the results of [`moments_about`].
     moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,

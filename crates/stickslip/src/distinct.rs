@@ -1,11 +1,11 @@
-//! JSON objects whose names stand once. serde_json alone keeps the last of several values and drops the others.
+//! JSON objects in which each name occurs once. serde_json alone keeps the last of several values and drops the others.
 
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 use std::fmt;
 
-/// A JSON value; reading it fails where a name stands twice in one object.
+/// A JSON value; reading it fails if a name occurs twice in one object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distinct(pub Value);
 

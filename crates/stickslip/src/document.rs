@@ -46,7 +46,7 @@ pub struct Document<Q: Question> {
     pub format: String,
     /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the document.
     pub software: Software,
     /// The question.
     pub parameters: Q,
@@ -65,7 +65,7 @@ impl<Q: Question> Document<Q> {
     /// The value of the field `format`.
     pub const FORMAT: &'static str = Q::FORMAT;
 
-    /// The JSON Schema of the document, with its format as name and the description of the answer.
+    /// The JSON Schema of the document, with the format as its title and the description of the answer.
     #[cfg(feature = "schema")]
     pub fn schema() -> schemars::Schema {
         let mut schema = schemars::schema_for!(Self);
@@ -190,7 +190,7 @@ fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
 }
 
 /// A map reader that stores the fields of the envelope and passes on the others. (`#[serde(flatten)]` would copy the
-/// whole content of a document.).
+/// whole content of a document.)
 struct Rest<'a, M, Q> {
     map: M,
     envelope: &'a mut Envelope<Q>,

@@ -6,10 +6,10 @@
 //!   [`outcome`], the regime of a run; [`surface`], u(x,t) afterwards; [`stability`] and [`cycles`]; [`raster`];
 //!   [`measurement`]; [`units`]; [`verify`]; [`convolution`], sums of a kernel.
 //! - Questions and documents. A question, such as [`Cycle`], is data; [`Ask::ask`] answers it with a [`Document`]. The
-//!   other documents are what the program writes and reads as JSON, field by field, with their schemas.
+//!   other documents are the JSON files that the program writes and reads, with their schemas.
 //!
-//! Nothing here knows files or arguments. All numbers are dimensionless (lengths in tip widths σ, times in Γ/k) unless
-//! they say otherwise.
+//! This crate opens no files and reads no command line. All numbers are dimensionless (lengths in tip widths σ, times
+//! in Γ/k) unless their description gives another unit.
 //!
 //! ```
 //! use stickslip::tip::TipFunction;

@@ -1,6 +1,5 @@
-//! The parameters of a question, read from its JSON Schema, a file that is made from the type. Options of the command
-//! line, keywords of Python and parameter files are all made of them, so that a parameter is declared in one place: a
-//! field of a question.
+//! The parameters of a question, read from its JSON Schema, a file made from the type. Options of the command line,
+//! keywords of Python and parameter files follow from them: a parameter is declared once, as a field of a question.
 
 pub use crate::distinct::Distinct;
 use crate::{Refused, Typed};
@@ -13,8 +12,9 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Schema attributes of a parameter, by the key `x-option`: the symbol of its value, its group, and its rank on the help
-/// page. A field without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents but is no option.
+/// Schema attributes of a parameter, by the key `x-option`: the symbol of its value, its group, and its rank on the
+/// help page. A field without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents
+/// but is no option.
 #[cfg_attr(not(feature = "schema"), allow(dead_code, reason = "only schemas need it"))]
 pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
     json!({ "symbol": symbol, "group": group, "place": place })
@@ -55,13 +55,13 @@ pub enum Kind {
     Integer,
     /// True or false.
     Switch,
-    /// One of several names, each with its meaning.
+    /// One name out of this list of names with their meanings.
     Name(Vec<(String, String)>),
     /// Both ends of a range; `points` and `spacing` of the same question define its division.
     Ends,
     /// A list of numbers.
     Numbers,
-    /// A list of such names.
+    /// Several names out of this list of names with their meanings.
     Names(Vec<(String, String)>),
     /// A text, such as a unit.
     Text,
@@ -77,7 +77,8 @@ pub trait Parameters: DeserializeOwned + 'static {
     const SCHEMA: &'static str;
 }
 
-/// The parts of a JSON Schema that define parameters. Only these are read: every command reads one when it starts.
+/// The parts of a JSON Schema that define parameters. No others are parsed: every command parses a schema when it
+/// starts.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 struct Schema<'a> {
@@ -111,7 +112,7 @@ struct PropertySchema<'a> {
     option: Option<OptionSchema>,
 }
 
-/// The description of a property by [`option`].
+/// The value of `x-option`, as [`option`] writes it.
 #[derive(Deserialize)]
 struct OptionSchema {
     symbol: String,
@@ -119,7 +120,7 @@ struct OptionSchema {
     place: u64,
 }
 
-/// The schema of an enumeration, one constant by another; empty for other types.
+/// The schema of an enumeration: its constants; empty for other types.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 struct Enumeration<'a> {
@@ -136,7 +137,7 @@ struct NameSchema<'a> {
     description: Cow<'a, str>,
 }
 
-/// The names that a type has, each with its meaning.
+/// The names of the variants of an enumeration, each with its meaning.
 pub fn names<T: Parameters>() -> Vec<(String, String)> {
     names_of(&Schema::of::<T>().names)
 }
@@ -154,7 +155,7 @@ struct Property {
     is_required: bool,
 }
 
-/// The parsed schema of a question, cached because computing it takes longer than many an answer.
+/// The parsed schema of a question, cached because parsing takes longer than many answers.
 fn described<Q: Parameters>() -> &'static Described {
     static KNOWN: Mutex<BTreeMap<TypeId, &'static Described>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -256,7 +257,7 @@ fn kind_of_list(
     }
 }
 
-/// The names of an enumeration, each with its description; empty if one has no description.
+/// The names of an enumeration, each with its description.
 fn names_of(names: &[NameSchema<'_>]) -> Vec<(String, String)> {
     let named = names.iter().filter_map(|NameSchema { name, description }| {
         let meaning = description.replace('\n', " ");
@@ -304,8 +305,8 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
     })
 }
 
-/// Reads a question and rejects unknown names as [`question`] does; serde alone accepts unknown names in grouped
-/// parameters.
+/// Reads a question and rejects unknown names as [`question`] does; serde alone accepts unknown names where fields are
+/// flattened.
 pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
@@ -316,11 +317,11 @@ pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
     }
 }
 
-/// Least length of a beginning that two names must share for one to be suggested for the other.
+/// Smallest number of initial letters that two names must share for one to be suggested for the other.
 const SHARED: usize = 3;
 
-/// The name of which `name` is a misspelling, or the shortest of those that share the longest beginning with it, which is
-/// at least half of it.
+/// The known name that differs from `name` in the fewest letters, if these are few. Otherwise, of the names that share
+/// the most initial letters with it, the shortest; `None` if they share less than half of `name`.
 fn nearest<'a>(names: impl Iterator<Item = &'a String> + Clone, name: &str) -> Option<&'a String> {
     // Two letters that changed places are two changes.
     let most = (name.len() / 2).min(1 + name.len() / 5);
@@ -333,7 +334,7 @@ fn nearest<'a>(names: impl Iterator<Item = &'a String> + Clone, name: &str) -> O
     (shared(best) >= SHARED.max(name.len().div_ceil(2))).then_some(best)
 }
 
-/// The parameter that cannot be read: without it the others can.
+/// The first parameter without which the others can be read.
 fn culprit<Q: DeserializeOwned>(values: &Map<String, Value>) -> Option<&str> {
     let is_read_without = |name: &&str| {
         let mut others = values.clone();
@@ -384,14 +385,14 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
     })
 }
 
-/// The first of these names that is not a parameter of `Q`.
+/// The first name in `values` that is no parameter of `Q`.
 pub fn stranger<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
     let properties = &described::<Q>().properties;
     values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
 }
 
-/// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) +
-/// D replace each other, a hold replaces the path of a support, and a critical α or r that was computed is computed anew.
+/// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) + D
+/// replace each other, and a hold replaces the path of a support. A computed critical α or r is computed anew.
 pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Map<String, Value> {
     if base.remove("at_critical_point") == Some(Value::Bool(true)) {
         let is_r = base.get("solve_for").is_some_and(|name| name == "r");

@@ -1,12 +1,12 @@
-//! Where the schemas of documents come from: with the feature `schema` from the types, by schemars; without it from
-//! files, which a test compares with them.
+//! Source of the schemas of documents: with the feature `schema` the types, by schemars; without it files, which a test
+//! compares with the types.
 
 #[cfg(feature = "schema")]
 pub use schemars::JsonSchema;
 #[cfg(not(feature = "schema"))]
 pub use stickslip_schemaless::JsonSchema;
 
-/// In place of the trait of schemars, in builds that read schemas from files: every type has it.
+/// Replaces the trait of schemars in builds that read schemas from files; every type implements it.
 #[cfg(not(feature = "schema"))]
 pub trait JsonSchema {}
 

@@ -1,7 +1,6 @@
 //! Conversions between a type of a document and its twin in a library.
 
-/// `From` between types whose variants, or whose fields, have the same names; from a value, or from a reference to one whose
-/// fields are copied.
+/// Implements `From` between types with the same variants, or with the same fields; for `&From` the fields are copied.
 macro_rules! twins {
     ($from:ident => $to:ident: $($variant:ident)|+) => {
         impl From<$from> for $to {

@@ -30,7 +30,7 @@ pub struct Boundary {
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "default_points")]
     pub points: usize,
-    /// Spacing of the values of that range.
+    /// Spacing of the values of the range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
@@ -53,7 +53,7 @@ pub struct BoundaryFound {
     /// Ω = ω/r of the oscillation at onset, in 1/σ.
     #[serde(rename = "Omega")]
     pub wave_number: Vec<f64>,
-    /// r, ascending; those at which steady motion is stable for every α are left out.
+    /// r, ascending, without the values for which there is no critical α.
     pub r: Vec<f64>,
     /// αc(r), the first crossing: steady motion is stable below.
     pub alpha: Vec<f64>,
@@ -63,7 +63,7 @@ pub struct BoundaryFound {
     /// one turns back in r, the parts above αc(r) are crossings of further pairs of roots. Empty for the extended
     /// model.
     pub branches: Vec<BranchDocument>,
-    /// Extended model only: whether linear theory decides, for each r.
+    /// Extended model only: the kind of onset at each r.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub kind: Vec<OnsetKindName>,
     /// Extended model only: conditions under which steady motion is stable at every α.
@@ -182,7 +182,7 @@ fn judge_points(points: usize) -> Result<(), Refused> {
     Err(Refused::number("points", points as f64, why))
 }
 
-/// Rejects a range that is not of finite numbers above 0, the first below the second, or with too few or too many values.
+/// Rejects a range unless its ends are finite, above 0 and ascending, and its number of values is allowed.
 pub(crate) fn judge_range(
     name: &'static str,
     [low, high]: [f64; 2],
@@ -285,18 +285,18 @@ impl SpacingName {
     }
 }
 
-/// Depth limits and memories under which no α makes steady motion unstable.
+/// Depth limits and memory lengths below which no α makes steady motion unstable.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitColumns {
     /// All values of r requested, including those without a critical α.
     pub r: Vec<f64>,
-    /// b_c of each r, in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and
-    /// the inertia of `parameters`. Null if steady motion is stable at every b, if it is unstable at some α for every
-    /// b, or if the height under the steady tip is 0, the kink of |u|.
+    /// Depth limit b_c at each r, in kσ²/a. With a depth limit below b_c, and the healing and inertia of `parameters`,
+    /// steady motion is stable at every α. Null if steady motion is stable at every b, or unstable at some α for every
+    /// b. Also null if the height under the steady tip is 0, the kink of |u|.
     pub least_depth_limit: Vec<Option<f64>>,
-    /// The memory length rT, in σ, below which steady motion is stable at every α, without a depth limit. Null if
-    /// this tip has none.
+    /// The product of r and healing time, in σ, below which steady motion is stable at every α without a depth limit.
+    /// Null if there is none.
     pub memory_length: Option<f64>,
 }
 
@@ -310,13 +310,13 @@ pub struct OnsetColumns {
     pub criticality: Vec<Option<CriticalityName>>,
     /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: Vec<Option<f64>>,
-    /// dT/dα along the branch, in Γ/k.
+    /// dT/dα of the period T along the branch of cycles, in Γ/k.
     pub period_slope: Vec<Option<f64>>,
     /// First Lyapunov coefficient, in k/(Γσ²).
     pub lyapunov: Vec<Option<f64>>,
 }
 
-/// A stretch of the curve, evenly spaced in Ω.
+/// A stretch of the curve (42), (43), evenly spaced in Ω.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchDocument {

@@ -59,7 +59,7 @@ impl Context {
         if self.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
     }
 
-    /// Reports the time t that a run over this span has reached after `steps` steps, at every 32nd: a step takes microseconds.
+    /// Reports, at every 32nd step of a few µs, the time t that a run from `start` to `until` has reached.
     pub(crate) fn stepped(&self, (start, until): (f64, f64), t: f64, steps: usize) {
         const STEPS_PER_REPORT: usize = 32;
         if steps.is_multiple_of(STEPS_PER_REPORT) {

@@ -18,7 +18,7 @@ use stickslip_tip::Trajectory;
 
 /// Largest number of branches of doubled period: a cascade has infinitely many.
 const MOST_BRANCHES: usize = 12;
-/// Period doublings at a smaller relative distance are the same.
+/// Period doublings within this relative distance of each other count as one.
 const SAME: f64 = 1e-6;
 
 /// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
@@ -57,7 +57,7 @@ pub struct Continue {
     /// The continuation parameter.
     #[schemars(extend("x-option" = option("NAME", "Branch", 20)))]
     pub over: OverName,
-    /// Last value of the continuation parameter; without it the branch ends by another criterion.
+    /// Last value of the continuation parameter; by default the branch ends by another criterion.
     #[schemars(extend("x-option" = option("V", "Branch", 21)))]
     #[serde(default)]
     pub to: Option<f64>,
@@ -289,7 +289,7 @@ impl Ask for Continue {
         Ok((self.found(&found, context.is_cancelled()), remarks))
     }
 
-    /// The α and r of the answer are those of the first cycle. Branches found before a cancellation are kept.
+    /// The α and r of the document are those of the first cycle. Branches found before a cancellation are kept.
     fn answered(self, context: &Context) -> Result<ContinueDocument, Failure> {
         let (answer, remarks) = context.keeping(|| self.answer(context))?;
         let first = &answer.branches[0];
@@ -304,7 +304,7 @@ impl Ask for Continue {
     }
 }
 
-/// The reason why a branch is lost, where it is that tips swing back farther.
+/// A remark on a branch that ends only because the tip swings back farther than cycles can be computed.
 fn goes_on(branch: &Branch) -> Option<String> {
     let retreat = branch.last.farthest_retreat().filter(|_| branch.end == End::Lost)?;
     let model = branch.last.model();
@@ -350,8 +350,8 @@ pub struct CycleBranch {
     pub period: Vec<f64>,
     /// Half peak-to-peak of l (the oscillation of x0 about its steady advance), in σ.
     pub amplitude_x0: Vec<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. On a healing surface u at the distance D
-    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; on a healing surface, of U(x) in u = U
+    /// e^{-D/(r T_h)}, with the healing time T_h and the distance D behind the support.
     pub amplitude_u: Vec<f64>,
     /// Whether every small deviation from the cycle, except a shift in time, decays.
     pub stable: Vec<bool>,
@@ -374,7 +374,7 @@ pub enum EndName {
     LongPeriod,
     /// The cycle has shrunk to steady motion.
     Steady,
-    /// It joins the branch of half the period.
+    /// The branch has joined that of half the period.
     Halved,
     /// The branch has the largest number of cycles.
     ManyPoints,
@@ -489,7 +489,7 @@ impl Tabular for ContinueFound {
         self.interrupted.then(|| "interrupted: the branches are incomplete".into())
     }
 
-    /// Arrays of the branches; a branch that was interrupted is marked as such.
+    /// Arrays of the branches, and an array `interrupted` if a signal stopped the computation.
     fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let mark = self.interrupted.then(|| ("interrupted", Array::vector(vec![1.0])));
         as_arrays(self.columns()).chain(mark).collect()

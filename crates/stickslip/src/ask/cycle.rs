@@ -38,12 +38,12 @@ pub struct Cycle {
     #[schemars(extend("x-option" = option("E", "Accuracy", 20)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// Approximate number of intervals of the profile, a lower bound; up to 1,000,000. They are uneven in time: each
-    /// step of the cycle's mesh, short where the motion is fast, is divided evenly, into at least two.
+    /// Least number of intervals of the profile, up to 1,000,000; they are uneven in time. Each step of the cycle's
+    /// mesh, short where the motion is fast, is divided evenly, into at least two.
     #[schemars(extend("x-option" = option("N", "Output", 30)))]
     #[serde(default = "default_points")]
     pub points: usize,
-    /// One period of a similar motion, from which Newton's method starts; without it the small oscillation at αc or a
+    /// One period of a similar motion, from which Newton's method starts; by default the small oscillation at αc or a
     /// short run.
     #[serde(skip)]
     pub start: Option<Trajectory>,
@@ -187,8 +187,8 @@ pub struct CycleFound {
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a. On a healing surface u at the distance D
-    /// behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; on a healing surface, of U(x) in u = U
+    /// e^{-D/(r T_h)}, with the healing time T_h and the distance D behind the support.
     pub amplitude_u: f64,
     /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]
@@ -197,9 +197,9 @@ pub struct CycleFound {
     pub slips: usize,
     /// One period, beginning at the maximum of l, at uneven times: densely sampled where the motion is fast.
     pub profile: CycleProfile,
-    /// Floquet multipliers, the factors of small deviations per period, by falling modulus, down to 1e-6 (0.01 for
-    /// footprints with much detail); of each pair the one above the real axis comes first. One is 1, that of a shift
-    /// in time. The error is at most 5e-8 above 0.01 and at most 1e-6 below.
+    /// Floquet multipliers, the factors of small deviations per period, by falling modulus. The list ends at 1e-6 (0.01
+    /// for footprints with much detail). Of a complex pair, the one above the real axis comes first. One is 1, that of
+    /// a shift in time. The error is at most 5e-8 for moduli above 0.01 and at most 1e-6 below.
     pub floquet: Vec<ComplexDocument>,
     /// Error of the trivial multiplier, |μ - 1|.
     pub floquet_error: f64,
@@ -209,7 +209,7 @@ pub struct CycleFound {
     pub residual: f64,
     /// The dense solution over one period.
     pub history: History,
-    /// Cost of the run.
+    /// Cost of the computation.
     pub work: CycleWork,
 }
 
@@ -243,8 +243,8 @@ impl CycleFound {
     }
 }
 
-/// Columns of equal length, at uneven times: each step of the cycle's mesh, short where the motion is fast, is
-/// divided evenly. The error of the largest velocity is about one per cent.
+/// Columns of equal length, at uneven times: each step of the cycle's mesh, short where the motion is fast, is divided
+/// evenly. The largest velocity is about 0.3 % too small at most.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CycleProfile {

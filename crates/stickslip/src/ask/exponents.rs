@@ -9,8 +9,8 @@ const EXACT: f64 = 1e-10;
 /// Largest number of exponents in a list; fewer lie to the right of [`leftmost`].
 const MOST_ROOTS: usize = 1000;
 
-/// Re λ below which roots are not listed: those of a table are round-off, and the others decay by e^{-60} over a
-/// width of the tip.
+/// Re λ, in k/Γ, below which roots are not listed. There the roots of a footprint fitted to a table are round-off, and
+/// the others decay by e^{-60} or more over one tip width.
 pub(crate) fn leftmost(model: &Model) -> f64 {
     /// Largest number of Gaussians of a tip that was not fitted to a table.
     const FEW: usize = 16;
@@ -31,7 +31,7 @@ pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused>
     Err(Refused::number(parameter, count as f64, format!("must be 1 to {MOST_ROOTS}")))
 }
 
-/// The error of a list that could not be computed, with advice; the question is valid unless α and r are extreme.
+/// The failure for a list that could not be computed, with advice; for extreme α and r, a rejection of both.
 pub fn failed(error: &StabilityError, advice: &str) -> Failure {
     match error {
         StabilityError::Stopped => Failure::Cancelled,

@@ -15,7 +15,7 @@ pub enum Failure {
     /// A parameter is invalid.
     #[error("{}", .0.described(str::to_owned))]
     Refused(Refused),
-    /// The computation found nothing.
+    /// The computation has no result, for this reason.
     #[error("{0}")]
     Failed(String),
     /// The work was cancelled: see [`Context::cancelled_by`].
@@ -51,7 +51,7 @@ impl Refused {
         Self { parameter: parameter.into(), value: Some(value.into()), why: why.to_string() }
     }
 
-    /// A number, if it is finite and above 0.
+    /// The number, if it is finite and above 0; otherwise its rejection.
     pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Self> {
         if value.is_finite() && value > 0.0 {
             return Ok(value);
@@ -59,10 +59,10 @@ impl Refused {
         Err(Self::number(parameter, value, "must be a finite number above 0"))
     }
 
-    /// The value of a unit of lengths, in m.
+    /// The length of the unit, in m.
     ///
     /// # Errors
-    /// It is no unit of length.
+    /// `unit` is no unit of length.
     pub fn metres(parameter: &'static str, unit: &str) -> Result<f64, Self> {
         let why = "must be m, mm, um, nm, pm or Å (angstrom)";
         Unit::Length.one(unit).ok_or_else(|| Self::word(parameter, unit, why))

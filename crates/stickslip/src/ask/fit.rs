@@ -23,7 +23,7 @@ pub struct FitFound {
     pub numbers: Vec<NumberFitted>,
     /// Correlation matrix of the logarithms of the fitted parameters.
     pub correlations: Vec<Vec<f64>>,
-    /// αc at the fitted r, dimensionless; null for a series, or if r is unknown.
+    /// αc at the known or fitted r, dimensionless; null if r is unknown, as for onsets and wavelengths.
     pub critical_alpha: Option<f64>,
     /// Each data set with its fit.
     pub data: Vec<DataFitted>,
@@ -37,11 +37,11 @@ pub struct FitFound {
     /// For several data sets, the probability of an equally large deviation from one common model by chance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint_misfit: Option<f64>,
-    /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
+    /// Other minima of χ² that the data do not exclude at 99.7 %, the likeliest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<AlternativeDocument>,
-    /// The best fit with a depth limit; present if the request has no depth limit, the data do not exclude one at 95
-    /// %, and it changes the parameters.
+    /// The best fit with a depth limit; present if the request has no depth limit, the data do not exclude one at 95 %,
+    /// and it changes the parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_depth_limit: Option<AlternativeDocument>,
 }
@@ -70,7 +70,7 @@ pub struct AlternativeDocument {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Fit {
-    /// Footprint f(x) in its own σ; by default the triple Gaussian with β = 1. Documents contain the fitted β if it is
+    /// Footprint f(x), with x in σ; by default the triple Gaussian with β = 1. Documents contain the fitted β if it is
     /// free.
     #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     pub tip: Option<Tip>,
@@ -108,10 +108,10 @@ pub struct Fit {
     /// Known parameters in documents of older versions.
     #[serde(skip_serializing)]
     pub known: Vec<NumberHeld>,
-    /// Footprints drawn within the error of a measured one, each a sum of Gaussians in its own σ.
+    /// Footprints drawn within the error of a measured one, each a sum of Gaussians with lengths in σ.
     #[serde(skip_serializing)]
     pub draws: Vec<Vec<GaussianDocument>>,
-    /// What was measured: at least one data set. Documents contain them in the answer instead.
+    /// The measured data sets, at least one. Documents contain them in the answer instead.
     #[serde(skip_serializing)]
     pub data: Vec<Measured>,
 }
@@ -130,7 +130,7 @@ pub enum FreeName {
     Inertia,
 }
 
-/// A direction along the positions.
+/// Direction of the scan along the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ScanName {
@@ -164,7 +164,7 @@ pub enum Measured {
         source: String,
         /// Positions of the support.
         x: Vec<f64>,
-        /// Forces; of a loop those of the trace.
+        /// Forces; for a loop, those of the trace.
         y: Vec<f64>,
         /// Forces of the retrace over the same positions.
         back: Option<Vec<f64>>,
@@ -287,7 +287,7 @@ impl Fit {
         Ok(known)
     }
 
-    /// The units of abscissas and ordinates of these data, as far as they are known.
+    /// The units of the abscissas and ordinates of these data; `None` where they are unknown.
     fn units(&self, data: &Measured) -> [Option<String>; 2] {
         let lengths = &self.unit;
         let [x, y] = match data {
@@ -299,7 +299,7 @@ impl Fit {
         [x.clone(), y.clone()]
     }
 
-    /// The unit of a fitted parameter, if it has a known one.
+    /// The unit of a fitted parameter; `None` if it is unknown or the parameter is dimensionless.
     fn unit_of(&self, name: &str) -> Option<String> {
         let of_series = self.data.iter().find_map(|data| match data {
             Measured::Onsets { velocity_unit, load_unit, .. }
@@ -324,7 +324,7 @@ impl Fit {
         self.free.contains(&name)
     }
 
-    /// The fit with the shape of the footprint, and those drawn within its error.
+    /// The request for this fit, with the footprint and those drawn within its error.
     fn request(&self) -> Result<FitRequest, Refused> {
         let (shape, footprints) = if self.is_free(FreeName::Beta) {
             (Shape::Triple, vec![])
@@ -362,7 +362,7 @@ impl Fit {
         Ok(Tip(TipFunction::triple_gaussian(beta, 1.0)?))
     }
 
-    /// The refusal of all data together.
+    /// A rejection that names all data sets.
     fn refused(&self, error: &FitError) -> Refused {
         let sources: Vec<&str> = self.data.iter().map(Measured::source).collect();
         Refused::word("data", sources.join(", "), error)
@@ -444,10 +444,10 @@ pub struct NumberHeld {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumberFitted {
-    /// "alpha" and "r", dimensionless; "width", σ in the unit of lengths; "beta"; "depth_limit" in kσ²/a, "healing_time"
-    /// in Γ/k, "inertia" in Γ²/k; "alpha_per_load" and "r_per_velocity" of a series.
+    /// "alpha" and "r", dimensionless; "width", σ in the unit of lengths; "beta"; "depth_limit" in kσ²/a,
+    /// "healing_time" in Γ/k, "inertia" in Γ²/k. For onsets and wavelengths: "alpha_per_load" and "r_per_velocity".
     pub name: String,
-    /// Its unit, such as nm, or 1/nN for an α per load; null if it has none, or an unknown one.
+    /// Unit of the parameter, such as nm, or 1/nN for an α per load; null if it is dimensionless or its unit is unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// Estimate and interval.
@@ -462,11 +462,11 @@ pub struct NumberFitted {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DataFitted {
-    /// "ripple", "friction", "loop", "onsets" or "wavelengths".
+    /// Kind of the data: "ripple", "friction", "loop", "onsets" or "wavelengths".
     pub kind: String,
     /// Name of the file as given.
     pub source: String,
-    /// Positions, or velocities for a series.
+    /// Positions, or velocities for onsets and wavelengths.
     pub x: Vec<f64>,
     /// Heights, forces (trace of a loop, then retrace), loads at onset or wavelengths.
     pub y: Vec<f64>,
@@ -476,35 +476,35 @@ pub struct DataFitted {
     /// Unit of `y`, such as nm or V; null if it is unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y_unit: Option<String>,
-    /// The model at each of these positions.
+    /// Value of the model for each entry of `y`, in its unit.
     pub model: Vec<f64>,
-    /// Standard deviation of the residuals, relative for a series.
+    /// Standard deviation of the residuals in the unit of `y`, or relative for onsets and wavelengths.
     pub residual: f64,
-    /// Height of the background at position 0.
+    /// Linear background at position 0, in the unit of `y`; null if it is not fitted.
     pub offset: Option<f64>,
-    /// Slope of the background.
+    /// Slope of the background, in the unit of `y` per unit of `x`; null if it is not fitted.
     pub slope: Option<f64>,
     /// Scale factor, fitted or given: k/a for heights, k for forces.
     pub gain: Option<f64>,
     /// Probability of an equally large periodic residual by chance; below 0.005 the model does not explain the data.
     /// Null if there are too few rows.
     pub misfit: Option<f64>,
-    /// Probability by chance of the component of twice the wavelength; below 0.001 the ripples are period-doubled.
+    /// Probability that chance alone makes a component of twice the wavelength; below 0.001 ripples are period-doubled.
     #[serde(default)]
     pub doubling: Option<f64>,
-    /// Probability by chance of a change of the ripples along the track; below 0.001 the motion has not settled.
+    /// Probability that chance alone makes the change of the ripples along the track; below 0.001 the motion has not settled.
     #[serde(default)]
     pub drift: Option<f64>,
     /// Standard deviation of the noise, from the scatter between wavelengths, in the unit of `y`.
     #[serde(default)]
     pub noise: Option<f64>,
-    /// Number of independent rows with the same information as these rows.
+    /// Number of independent rows with as much information as the rows of the data.
     #[serde(default)]
     pub effective_rows: Option<f64>,
     /// Direction of the scan along `x`: "right" or "left"; null for a series.
     #[serde(default)]
     pub scan: Option<String>,
-    /// Number of rows of the file averaged into each of these.
+    /// Number of rows of the file averaged into each entry of `y`.
     #[serde(default = "one")]
     pub averaged: usize,
 }
@@ -604,7 +604,7 @@ impl DataFitted {
 }
 
 impl Tabular for FitFound {
-    /// The parameters as a table, with a row for each.
+    /// The parameters as a table, with a row for each parameter.
     fn columns(&self) -> Vec<Named<'_>> {
         let names = self.numbers.iter().map(|n| n.name.clone()).collect();
         let of = |of: fn(&EstimateDocument) -> Option<f64>| -> Vec<Option<f64>> {

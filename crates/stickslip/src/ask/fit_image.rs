@@ -33,15 +33,15 @@ pub struct FitImageFound {
     pub crest_angle: EstimateDocument,
     /// Half of the peak-to-peak of the first harmonic.
     pub amplitude: EstimateDocument,
-    /// Wave vector along the scan; above 0.
+    /// Wave number along the scan, in rad per unit of length; above 0.
     pub q: f64,
-    /// Wave vector across the scan.
+    /// Wave number across the scan, in rad per unit of length.
     pub kappa: f64,
-    /// φ, in rad: crests lie where qx + κy + φ is a multiple of 2π.
+    /// φ, in rad: crests lie where `q` x + `kappa` y + φ is a multiple of 2π.
     pub phase: f64,
     /// Fitted scale of the heights, k/a: heights are k/a times σ² times those of the model.
     pub height_gain: f64,
-    /// αc of this raster at this r, dimensionless; null if there is none.
+    /// αc of this raster at this r, dimensionless; null if there is none, or if the tip can leave its lines.
     pub critical_alpha: Option<f64>,
     /// α at which a wave with this wave vector neither grows nor decays at this r, dimensionless.
     pub neutral_alpha: f64,
@@ -58,8 +58,8 @@ pub struct FitImageFound {
     /// Probability of an equally large deviation from settled ripples of the model by chance; below 0.005 the model does
     /// not explain the image.
     pub misfit: f64,
-    /// Variation of the first harmonic of the ripples from part to part of the image: its standard deviation, without that of
-    /// the noise, over its size. Above 0.05 the ripples have not settled.
+    /// Standard deviation of the first harmonic of the ripples between parts of the image, without that of the noise,
+    /// over the size of the harmonic. Above 0.05 the ripples have not settled.
     pub modulation: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
@@ -89,7 +89,7 @@ pub type FitImageDocument = Document<FitImage>;
 pub struct FitImage {
     /// Name of the image, such as that of its file.
     pub source: String,
-    /// Footprint f(x,y), or f(x), in its own σ; by default the triple Gaussian with β = 1.
+    /// Footprint f(x,y), or f(x), with lengths in σ; by default the triple Gaussian with β = 1.
     #[schemars(extend("x-option" = option("NAME", "Model", 1)))]
     pub tip: Option<Tip>,
     /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ, for a tip without its own f(x,y); by default the width of the tip's
@@ -101,7 +101,7 @@ pub struct FitImage {
     /// 95 % interval of σ, in the unit of the image: its error is added to those of α and r. By default σ is exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width_interval: Option<[f64; 2]>,
-    /// Distance of the scan lines that made the ripples, in the unit of the image; by default that of its rows.
+    /// Distance of the scan lines that made the ripples, in the unit of the image; by default the distance of its rows.
     pub pitch: Option<f64>,
     /// α, dimensionless, if known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -145,7 +145,7 @@ pub struct FitImage {
     #[serde(skip_serializing)]
     pub retrace_image: Option<MeasuredImage>,
     /// Lateral forces, or deflections of the lever, on the lines that made the ripples, at the same positions: positive
-    /// where the lever is bent back from larger x.
+    /// where the tip hangs back from the support towards smaller x.
     #[serde(skip_serializing)]
     pub lateral_image: Option<MeasuredImage>,
 }
@@ -156,17 +156,17 @@ pub struct FitImage {
 pub struct LateralDocument {
     /// Half of the peak-to-peak of the first harmonic, in the unit of the lateral image.
     pub amplitude: EstimateDocument,
-    /// The same of the lag of the model, in the unit of the image.
+    /// Half of the peak-to-peak of the first harmonic of the lag in the model, in the unit of the image.
     pub lag: EstimateDocument,
-    /// k, the stiffness of the lever, from both; null where deflections were given, which α and r take into account.
+    /// k, the stiffness of the lever, from both amplitudes; null for deflections, which the fit of α and r uses.
     pub stiffness: Option<EstimateDocument>,
     /// Unit of k; null if it is unknown.
     pub stiffness_unit: Option<String>,
     /// Phase of the lateral image minus that of the heights, in degrees.
     pub phase: f64,
-    /// The same of the model.
+    /// Phase of the lag in the model minus that of the heights, in degrees.
     pub model_phase: f64,
-    /// Distance by which the lateral image is further along the lines than the model has it, in the unit of the image.
+    /// Distance along the lines by which the lateral image is ahead of the model, in the unit of the image.
     pub shift: f64,
     /// Standard deviation of this distance.
     pub shift_error: f64,
@@ -176,11 +176,11 @@ pub struct LateralDocument {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RetraceDocument {
-    /// Distance by which its ripples are further along the lines, in the unit of the image; it is removed.
+    /// Shift of the retrace along the lines relative to the trace, in the unit of the image; the fit removes it.
     pub shift: f64,
-    /// Amplitude of its first harmonic over that of the trace.
+    /// Amplitude of the first harmonic of the retrace over that of the trace.
     pub ratio: f64,
-    /// Probability of an equally large difference, beyond the shift, by noise.
+    /// Probability that noise alone makes an equally large difference, beyond the shift.
     pub agreement: f64,
 }
 
@@ -194,7 +194,7 @@ pub enum SlowScanName {
     Down,
 }
 
-/// A part of an image, first and last position.
+/// A part of an image: its first and last position along each axis, in the unit of the image.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SettledPart {
@@ -250,13 +250,13 @@ impl FitImage {
         footprint(self.width_y, &self.tip.clone().unwrap_or_default().0)
     }
 
-    /// σ.
+    /// σ, in the unit of the image.
     fn sigma(&self) -> Result<f64, Refused> {
         let why = "σ of the tip is needed: the ripples contain lengths only in relation to it";
         Refused::positive("width", self.width.ok_or_else(|| Refused::whole("width", why))?)
     }
 
-    /// The distance of the lines.
+    /// The distance of the scan lines, in the unit of the image.
     fn distance(&self) -> Result<f64, Refused> {
         let y = &self.image.y;
         match self.pitch {
@@ -270,7 +270,7 @@ impl FitImage {
         heights("image", &self.image)
     }
 
-    /// The lateral image, with the unit of its deflections if it has those.
+    /// The lateral image, with its unit over that of the lengths if that is known.
     fn lateral(&self) -> Result<Option<Lateral>, Refused> {
         let Some(image) = &self.lateral_image else { return Ok(None) };
         let image = heights("lateral_image", image)?;
@@ -298,7 +298,7 @@ impl FitImage {
         })
     }
 
-    /// The result with the error of σ: α and r are fitted again at both ends of its interval.
+    /// The result with the error of σ: α and r are fitted again at both ends of the interval of σ.
     fn with_error_of_sigma(
         &self,
         found: Ripples,

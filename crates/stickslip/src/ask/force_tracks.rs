@@ -4,10 +4,10 @@ use super::friction::{K_SIGMA, SIGMA};
 use crate::{ForceTrack, Refused, RunDocument, SupportPathParameters};
 use stickslip_tip::friction::ends_of_loops;
 
-/// m in nm, and N in nN.
+/// Number of nm in 1 m, and of nN in 1 N.
 const NANO: f64 = 1e9;
 
-/// Lateral forces at the sample times of a run, against the position of the support: in nm and nN as far as the run has the
+/// Lateral forces at the sample times of a run, against the position of the support: in nm and nN if the run has these
 /// scales, otherwise in σ and kσ.
 #[derive(Debug, Clone)]
 pub struct RunForces {
@@ -54,7 +54,7 @@ impl RunForces {
         })
     }
 
-    /// All samples: one way of a loop.
+    /// All samples, for a run that is one way of a loop.
     pub fn way(&self) -> ForceTrack {
         self.rows.clone()
     }

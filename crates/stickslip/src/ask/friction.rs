@@ -8,22 +8,23 @@ use serde::{Deserialize, Serialize};
 use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
 use stickslip_units::Unit;
 
-/// Friction forces of a loop, with 95 % intervals, in the units that it names.
+/// Friction forces of a loop, with 95 % intervals, in the units given here.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionFound {
     /// Unit of lengths: nm, or σ for a run without scales; null if it is unknown.
     pub length_unit: Option<String>,
-    /// Unit of forces: nN, or that of the data, kσ for a run without scales; null if it is unknown.
+    /// Unit of forces: nN, the unit of the data, or kσ for a run without scales; null if it is unknown.
     pub force_unit: Option<String>,
-    /// Unit of the work: fJ, or kσ²; null if that of lengths or of forces is unknown, for a work in units of force times length.
+    /// Unit of the work: fJ or kσ². Null if lengths or forces have no SI unit: the work is then in units of force times
+    /// length.
     pub work_unit: Option<String>,
-    /// Kinetic friction force: half of the mean difference between trace and retrace beyond twice the distance to the static
-    /// peak.
+    /// Kinetic friction force: half of the mean difference between trace and retrace, over positions more than twice as
+    /// far from the reversals as the static peak.
     pub kinetic: EstimateDocument,
     /// Mean friction force: half of the mean difference between trace and retrace along the whole loop.
     pub mean: EstimateDocument,
-    /// Static friction force: the first maximum after the reversal, less the offset; mean of both ways.
+    /// Static friction force: the first maximum after the reversal, minus the offset; mean of trace and retrace.
     pub static_peak: EstimateDocument,
     /// Static over kinetic friction force.
     pub peak_ratio: f64,
@@ -31,13 +32,13 @@ pub struct FrictionFound {
     pub hysteresis: EstimateDocument,
     /// Work ∮ F dx dissipated in a loop.
     pub work: EstimateDocument,
-    /// Mean of trace and retrace in the sliding part: zero of the instrument, and slope of the sample.
+    /// Mean of trace and retrace over the same positions as `kinetic`: zero of the instrument, and slope of the sample.
     pub offset: EstimateDocument,
-    /// Distance from the reversal to the static peak; mean of both ways.
+    /// Distance from the reversal to the static peak; mean of trace and retrace.
     pub reversal: f64,
     /// Slope of the force after the reversal: stiffness of lever and contact in series, in units of force over length.
     pub stiffness: EstimateDocument,
-    /// Standard deviation of the noise from row to row.
+    /// Standard deviation of the noise of the force from row to row.
     pub noise: f64,
     /// The loop, in these units.
     pub rows: LoopColumns,
@@ -58,7 +59,7 @@ pub struct Friction {
     /// Unit of the forces: N, nN, V, …; that of the data by default.
     #[schemars(extend("x-option" = option("UNIT", "Data", 2)))]
     pub force_unit: Option<String>,
-    /// Force in N of one unit of the forces in the data, if `force_unit` is not one of force.
+    /// Force, in N, that corresponds to 1 in the data, if `force_unit` is no unit of force.
     pub sensitivity: Option<f64>,
     /// Forces of the trace. Documents contain the loop in the answer.
     #[serde(skip_serializing)]
@@ -90,10 +91,11 @@ pub struct LoopColumns {
     pub retrace: Vec<f64>,
 }
 
-/// Part of all positions that trace and retrace have in common in a whole loop.
+/// Least fraction of all positions that trace and retrace have in common in a whole loop.
 const WHOLE: f64 = 0.95;
-/// m in nm, N in nN, and nN nm in fJ.
+/// Number of nm in 1 m, and of nN in 1 N.
 const NANO: f64 = 1e9;
+/// Number of fJ in 1 nN nm.
 const FEMTOJOULES: f64 = 1e-3;
 /// Units of lengths and forces of the model.
 pub(crate) const SIGMA: &str = "σ";
@@ -115,7 +117,7 @@ impl Friction {
         self.unit.as_deref() == Some(SIGMA) && self.force_unit.as_deref() == Some(K_SIGMA)
     }
 
-    /// The factor of the positions to nm, if their unit is known.
+    /// The factor from the positions to nm, if their unit is known.
     fn nanometres(&self) -> Result<Option<f64>, Refused> {
         if self.is_of_model() {
             return Ok(None);
@@ -124,7 +126,7 @@ impl Friction {
         Ok(metres.map(|metres| NANO * metres))
     }
 
-    /// The factor of the forces to nN, if it is known.
+    /// The factor from the forces to nN, if it is known.
     fn nanonewtons(&self) -> Result<Option<f64>, Refused> {
         let of_unit = self.force_unit.as_deref().and_then(|unit| Unit::Force.one(unit));
         let positive = |value| Refused::positive("sensitivity", value);

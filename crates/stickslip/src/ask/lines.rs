@@ -65,8 +65,8 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     }
 }
 
-/// A raster of lines, with a spring across the scan if there is one; a fraction `left` of each groove remains after
-/// another line.
+/// A raster of lines `at` this r and pitch, with a spring across the scan if there is one; a fraction `left` of each
+/// groove remains after another line.
 ///
 /// # Errors
 /// An error of [`Raster::new`] or [`Raster::with_stiffness_across`].
@@ -83,7 +83,7 @@ pub fn raster(
     }
 }
 
-/// The reason why a raster has no threshold, as a rejection of r, of the law, of the path, of the tip or else of the
+/// The rejection of the parameter that leaves a raster without a threshold: r, the law, the path, the tip or else the
 /// pitches.
 pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
     match error {

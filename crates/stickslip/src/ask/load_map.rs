@@ -1,8 +1,9 @@
 //! The question `load-map`: at which load and velocity a tip writes ripples, and how far apart they are.
 //!
-//! One measured point fixes the map: at its load the indentation rate is α and the width of the contact σ, at its velocity r.
-//! Elsewhere α is proportional to the load F. Where the contact grows, as σ(F) = s σ by a power or a table, the same Γ, k and a give α = α (F/F₀)/s² and
-//! r = r/s; lengths are in σ of that point throughout.
+//! One measured point fixes the map: at its load F₀ the indentation rate is α and the width of the contact σ, at its
+//! velocity r. Elsewhere α is proportional to the load F. Where the contact is w times as wide, the same Γ, k and a
+//! give the rate α (F/F₀)/w² and the velocity r/w; w follows from a power of F or a table. Lengths are in σ of the
+//! measured point throughout.
 
 use super::boundary::{judge_range, refused_range};
 use crate::documents::table::{Array, Column, Named, Tabular};
@@ -21,7 +22,7 @@ const MOST_GROWTH: f64 = 0.5;
 const BISECTIONS: u32 = 60;
 /// Factor by which a critical load may lie beyond the loads of the map.
 const BEYOND: f64 = 1e3;
-/// Loads per factor of e at which a critical load is sought.
+/// Number of loads per factor of e in the search for a critical load.
 const PER_E: f64 = 8.0;
 
 /// Regimes and wavelengths of ripples over load and velocity.
@@ -37,8 +38,8 @@ pub struct LoadMap {
     /// Dimensionless support velocity r (12) of the measured point; above 0.
     #[schemars(extend("x-option" = option("R", "Raster", 31)))]
     pub r: f64,
-    /// First and last load, such as 2nN:20nN, in nN, above 0: with `r_range`, where there are ripples, and their wavelength. There are
-    /// as many loads as velocities, 41 by default.
+    /// First and last load, in nN, above 0, such as 2nN:20nN: with `r_range`, compute where there are ripples, and
+    /// their wavelength. There are as many loads as velocities, 41 by default.
     #[schemars(extend("x-option" = option("LO:HI", "Load", 50)))]
     pub load_range: [f64; 2],
     /// First and last r, above 0, and the number of values, both ends included.
@@ -47,11 +48,12 @@ pub struct LoadMap {
     /// Load of the measured point, in nN, such as 10nN; above 0.
     #[schemars(extend("x-option" = option("F", "Load", 51)))]
     pub load: f64,
-    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5. A table in its place: `load_widths`.
+    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5. `load_widths` is the
+    /// alternative.
     #[schemars(extend("x-option" = option("S", "Load", 52)))]
     #[serde(default)]
     pub width_exponent: f64,
-    /// Width of the contact over the load.
+    /// Table of the width of the contact against the load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_widths: Option<LoadWidths>,
     /// Number of loads, and of velocities; from 2 to 1,000.
@@ -67,20 +69,20 @@ fn default_points() -> usize {
     41
 }
 
-/// Widths of the contact at several loads; a power of the load connects neighbours. Their ratio to that at the measured load
-/// counts, so that any unit is possible.
+/// Widths of the contact at several loads; a power of the load connects neighbours. Only ratios of widths count, so
+/// that they may have any unit.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadWidths {
     /// Loads, ascending, in nN.
     #[serde(rename = "load_nN")]
     pub load: Vec<f64>,
-    /// Width of the contact at each, above 0.
+    /// Width of the contact at each load, above 0.
     pub width: Vec<f64>,
 }
 
 impl LoadWidths {
-    /// The reason why this is no table of widths over the whole range of loads.
+    /// The reason why this is no table of widths over the whole range of loads; `None` if it is one.
     fn fault(&self, loads: [f64; 2]) -> Option<String> {
         let Self { load, width } = self;
         let are_good = |values: &[f64]| values.iter().all(|v| v.is_finite() && *v > 0.0);
@@ -118,13 +120,13 @@ pub struct LoadPoint {
     pub load: f64,
     /// Velocity of the support, in kσ/Γ.
     pub velocity: f64,
-    /// α there.
+    /// α of the contact at this load, dimensionless.
     pub alpha: f64,
-    /// Width of the contact, in σ.
+    /// Width of the contact, in σ of the measured point.
     pub width: f64,
     /// The regime that the tip settles into; null if the computation failed.
     pub regime: Option<RegimeName>,
-    /// Distance of the ripples, in σ: the wavelength of the motion over its slips; null of other regimes.
+    /// Distance of the ripples, in σ: the wavelength of the motion over its number of slips; null for regimes without ripples.
     pub wavelength: Option<f64>,
 }
 
@@ -134,10 +136,10 @@ pub struct LoadPoint {
 pub struct LoadMapFound {
     /// The measured point.
     pub lever: LoadPoint,
-    /// Load at the velocity of the measured point above which there are ripples, in nN; null if there is none.
+    /// Load above which there are ripples at the velocity of the measured point, in nN; null if there is none.
     #[serde(rename = "lever_critical_load_nN")]
     pub lever_critical_load: Option<f64>,
-    /// Velocities of the support, in kσ/Γ: r, of a contact of width σ.
+    /// Velocities of the support, in kσ/Γ: the r of a contact of width σ.
     pub velocity: Vec<f64>,
     /// For each velocity the load above which steady motion is unstable, in nN; null if there is none up to a thousand times the
     /// largest load, or within the table of widths.
@@ -189,7 +191,7 @@ impl LoadMap {
         self.load_widths.is_none() && self.width_exponent == 0.0
     }
 
-    /// First and last load among which a critical load is sought: a table of widths ends.
+    /// First and last load between which a critical load is sought; a table of widths bounds them.
     fn sought(&self) -> [f64; 2] {
         match &self.load_widths {
             Some(LoadWidths { load, .. }) => [load[0], load[load.len() - 1]],
@@ -197,13 +199,13 @@ impl LoadMap {
         }
     }
 
-    /// α at a load, and r at a load and a velocity.
+    /// α at a load, and r at a load and a velocity, both in units of the contact there.
     fn numbers(&self, load: f64, velocity: f64) -> (f64, f64) {
         let width = self.width(load);
         (self.alpha * (load / self.load) / (width * width), velocity / width)
     }
 
-    /// The law in units of a contact of this width: heights are in kσ²/a.
+    /// The law in units of a contact of this width: the unit of heights, kσ²/a, grows with its square.
     fn law_at(&self, law: Wider, width: f64) -> Wider {
         Wider { depth_limit: law.depth_limit.map(|b| b / (width * width)), ..law }
     }
@@ -276,7 +278,7 @@ impl LoadMap {
     }
 }
 
-/// The distance of the ripples of a motion: those of a doubled period are two to a wavelength.
+/// The distance of the ripples of a motion: if the period is doubled, a wavelength has two ripples.
 fn apart(wavelength: f64, slips: usize) -> f64 {
     wavelength / slips.max(1) as f64
 }

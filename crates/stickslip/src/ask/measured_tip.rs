@@ -42,13 +42,13 @@ pub struct MeasuredTipFound {
     pub correlation: f64,
     /// Number of Gaussians, where a symmetric pair counts as one.
     pub terms: usize,
-    /// Fits with other numbers of Gaussians.
+    /// Fits with several numbers of Gaussians, the chosen one among them.
     pub candidates: Vec<CandidateDocument>,
     /// αc at the r of the parameters, dimensionless.
     pub critical_alpha: EstimateDocument,
     /// ω at this critical point, in k/Γ.
     pub critical_omega: EstimateDocument,
-    /// Trapping threshold αt at that r, dimensionless; null if there is none.
+    /// Trapping threshold αt at the same r, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
     pub profile: FittedDocument,
@@ -58,7 +58,7 @@ pub struct MeasuredTipFound {
     /// Results for f(x,y) from an image, in addition to the profile through its middle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<AcrossDocument>,
-    /// Footprints of either direction of motion; present if both sides were fitted.
+    /// The footprint of each direction of motion; present if both sides were fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sides: Option<SidesDocument>,
 }
@@ -78,19 +78,19 @@ pub struct MeasuredTip {
     /// Unit of heights, such as nm or V; by default unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_unit: Option<String>,
-    /// The profile is one half of an even one, about position 0; by default if it begins at 0 with its apex.
+    /// The profile is one half of an even one, about position 0. This is the default if it begins at 0 with its apex.
     #[schemars(extend("x-option" = option("", "Data", 2)))]
     pub half: Option<bool>,
     /// Centre of symmetry, in the unit of the positions; fitted by default.
     pub centre: Option<f64>,
-    /// Fit each side of the profile too: a tip that moves forward meets the surface with the side before it alone, so that
-    /// trace and retrace have footprints of their own.
+    /// Also fit each side of the profile: a moving tip meets the surface with its front side only, so that trace and
+    /// retrace have different footprints.
     #[schemars(extend("x-option" = option("", "Data", 8)))]
     #[serde(skip_serializing_if = "is_off")]
     pub both_sides: bool,
     /// σ, in the unit of the positions; computed by default.
     pub sigma: Option<f64>,
-    /// Number of Gaussians, where a symmetric pair counts as one; by Schwarz' criterion by default.
+    /// Number of Gaussians, where a symmetric pair counts as one; chosen by Schwarz' criterion by default.
     #[schemars(extend("x-option" = option("N", "Accuracy", 4)))]
     pub terms: Option<usize>,
     /// Dimensionless support velocity at which onset and trapping threshold are computed.
@@ -105,7 +105,7 @@ pub struct MeasuredTip {
     /// The measured heights. Documents contain them in the answer instead.
     #[serde(skip_serializing)]
     pub profile: MeasuredProfile,
-    /// An image in place of the profile, which is then that through its middle.
+    /// An image in place of the profile; the profile is then taken through its middle.
     #[serde(skip_serializing)]
     pub image: Option<MeasuredImage>,
 }
@@ -155,7 +155,7 @@ pub struct MeasuredProfile {
 pub struct MeasuredImage {
     /// Positions along the scan, in `unit`.
     pub x: Vec<f64>,
-    /// Positions across it, in `unit`.
+    /// Positions across the scan, in `unit`.
     pub y: Vec<f64>,
     /// Heights, a row for each y.
     pub rows: Vec<Vec<f64>>,
@@ -284,9 +284,9 @@ pub struct SidesDocument {
     pub retrace: SideDocument,
     /// Difference of the αc of trace and retrace, relative to their mean.
     pub asymmetry: f64,
-    /// f with the trace's side at x > 0 and the retrace's at x < 0, f(0) = 1. Printed alone, it is a tip file; a tip file
-    /// with this document means it, too. Null if the sides are too different in scale; missing in documents of older
-    /// versions.
+    /// f with the side of the trace at x > 0, that of the retrace at x < 0, and f(0) = 1. Printed alone, it is a tip
+    /// file; it is also the footprint if the whole document is given as tip file. Null if the sides are too different
+    /// in scale; missing in documents of older versions.
     #[serde(default)]
     pub footprint: Option<GaussianSumDocument>,
 }
@@ -313,7 +313,7 @@ pub struct SideDocument {
     pub critical_alpha: EstimateDocument,
     /// ω at this critical point, in k/Γ.
     pub critical_omega: EstimateDocument,
-    /// Trapping threshold αt at that r, dimensionless; null if there is none.
+    /// Trapping threshold αt at the same r, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
 }
 
@@ -396,7 +396,8 @@ pub struct CandidateDocument {
     pub parameters: usize,
     /// Standard deviation of the residuals, in the unit of the heights.
     pub residual: f64,
-    /// Schwarz' criterion, n ln(S/n) + p ln n, minus that of the chosen sum.
+    /// Schwarz' criterion, n ln(S/n) + p ln n for n rows, p parameters and a sum S of squared residuals, minus that of
+    /// the chosen fit.
     pub criterion: f64,
     /// αc of this sum; null if it has none.
     pub critical_alpha: Option<f64>,
@@ -406,7 +407,7 @@ pub struct CandidateDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FittedDocument {
-    /// Position.
+    /// Positions.
     pub x: Vec<f64>,
     /// Measured heights.
     pub f: Vec<f64>,

@@ -113,14 +113,14 @@ impl TipDocument {
     }
 }
 
-/// Largest number of half-waves at the band limit of f within its reach. A Gaussian has about eighty, a table of
-/// 2,000 rows 15,000. A lattice of twice as many cells holds the groove.
+/// Largest number of half-waves at the bandwidth of f within its reach. A Gaussian has about 80, a table of 2,000 rows
+/// 15,000. The lattice of the groove has twice as many cells.
 const MOST_DETAILS: f64 = 1e5;
 
-/// Rejects a tip function with too much detail for its reach: every lattice for it would be as long.
+/// Rejects a tip function with too much detail over its reach: the lattice of the groove would not fit in memory.
 ///
 /// # Errors
-/// The tip has more than 1e5 half-waves at its band limit within its reach.
+/// The tip has more than 1e5 half-waves at its bandwidth within its reach.
 pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
     let details = tip.reach().map_or(0.0, |reach| reach * tip.band());
     if details <= MOST_DETAILS {

@@ -7,8 +7,8 @@ use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
 
 /// A run in progress with a result.
 pub trait Moving: Classified<Step: Moved> {
-    /// The result of the run, which took this many seconds. For a cancelled run only quantities that need no further
-    /// computation are included.
+    /// The result of the run, which has taken `seconds` so far. For a cancelled run only quantities that need no
+    /// further computation are included.
     ///
     /// # Errors
     /// The run has no steps.
@@ -23,7 +23,7 @@ pub trait Moved: Copy + AsRef<Step> {
     /// The motion as a document contains it.
     fn history(whole: &Trajectory<Self>) -> History;
 
-    /// Adds the loops of a support that follows a path, and its stops.
+    /// Adds the friction loops and the holds of a support that follows a path.
     fn along_path(found: RunFound, _whole: &Trajectory<Self>) -> RunFound {
         found
     }

@@ -12,7 +12,7 @@ use stickslip_tip::sorting::sort_by_number;
 const GROUPS_PER_THREAD: usize = 4;
 
 /// A question about a grid of parameters. A point depends on its own parameters alone: points may be computed in any
-/// order, company and place.
+/// order, in any groups and on any machine.
 pub trait Points: Question {
     /// The answer at one point.
     type Point: Send;
@@ -48,8 +48,8 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> R
     Ok(pool(threads)?.install(work))
 }
 
-/// Computes points on this number of threads (0 means one per core), and passes each to `keep` as soon as it is
-/// complete, until one cannot be kept.
+/// Computes points on this number of threads (0 means one per core). Passes each to `keep` as soon as it is complete,
+/// until `keep` returns false.
 ///
 /// # Errors
 /// The work is cancelled, or no threads can be started.
@@ -87,8 +87,8 @@ pub fn each_point<Q: Points>(
     if context.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
 }
 
-/// Computes these points; if a library panics, each of those left by itself, and a point with an error where it
-/// panics again.
+/// Computes these points. If a library panics, the missing points are computed one by one, and a point at which it
+/// panics again gets an error.
 fn safely<Q: Points>(question: &Q, indices: &[usize], take: &mut dyn FnMut(Q::Point)) {
     let mut missing = indices.to_vec();
     let mut each = |point| {

@@ -11,8 +11,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use stickslip_stability as stability;
 use stickslip_tip::{Model, ModelError, TipFunction, Wider};
 
-/// A footprint in a question. It is written as [`TipDocument`] and read from the same form, from a name with `beta`
-/// and `width`, or from a table with the columns `x` and `f`.
+/// A footprint in a question, written as [`TipDocument`]. It is read from this form, from a name with `beta` and
+/// `width`, or from a table with the columns `x` and `f`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tip(pub TipFunction);
 
@@ -87,8 +87,7 @@ impl Default for Tip {
 }
 
 impl Tip {
-    /// # Errors
-    /// The sides of the footprint differ, which `what` does not cover.
+    /// Rejects a footprint whose sides differ, which `what` does not cover.
     pub(crate) fn judge_even(&self, what: &str) -> Result<(), Refused> {
         if self.0.is_even() {
             return Ok(());
@@ -112,7 +111,7 @@ impl Serialize for Tip {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = r#"an object such as {"name": "gaussian"}"#)]
 struct TipFields {
-    /// gaussians, bessel, cosine or footprint, as in documents; or triple-gaussian or gaussian.
+    /// A name as in documents (gaussians, bessel, cosine, footprint), triple-gaussian or gaussian.
     name: Option<String>,
     /// Weight β of the side lobes of triple-gaussian; default 1.
     beta: Option<f64>,
@@ -183,7 +182,7 @@ pub struct Indentation {
     /// Dimensionless indentation rate α = Γ N a/(σ² k²), (13); 0 or above with a spring.
     #[schemars(extend("x-option" = option("A", "Model", 3)))]
     pub alpha: Option<f64>,
-    /// D of α = αc(r) + D, above the critical one (below, if negative); dimensionless.
+    /// D in α = αc(r) + D, the distance from the critical α (negative below it); dimensionless.
     #[schemars(extend("x-option" = option("D", "Model", 4)))]
     pub alpha_above: Option<f64>,
 }
@@ -202,7 +201,7 @@ impl Indentation {
         Self { alpha: None, alpha_above: Some(distance) }
     }
 
-    /// The same with α computed, however it was given. A resolved one is returned unchanged.
+    /// This indentation rate with α as a number. A resolved one is returned unchanged.
     ///
     /// # Errors
     /// Neither is given; both are given and differ; or αc does not exist.

@@ -26,7 +26,7 @@ pub enum PathName {
     /// Every line runs in the same direction from x = 0, with the spring relaxed.
     #[default]
     OneWay,
-    /// The support turns back at the end of a line and moves one pitch further; the tip keeps its position.
+    /// The support turns back at the end of a line and moves on by one pitch; the tip keeps its position.
     Zigzag,
     /// The same line is scanned again from x = 0, with the spring relaxed.
     Repeat,
@@ -76,7 +76,7 @@ pub struct Raster {
     /// Gaussian pulses of external force on the first line; their times count from its start.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pulses: Vec<PulseParameters>,
-    /// Largest error of x0 on each line, in σ; from 1e-13 to 1e-2.
+    /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "super::run::default_tolerance")]
     pub tolerance: f64,
@@ -258,7 +258,7 @@ impl Raster {
         }
     }
 
-    /// Times since the start of each line at which it is sampled; their number is that of the longest line.
+    /// Times at which each line is sampled, from its start; they extend over the longest line.
     ///
     /// # Errors
     /// A time is out of range, or there would be more samples than allowed.
@@ -296,8 +296,7 @@ impl Raster {
         }
     }
 
-    /// The document of these lines of its plan; each line is sampled at these times since its start, as far as it
-    /// lasts.
+    /// The document of these lines of `plan`. Each line is sampled at `times`, counted from its start, up to its end.
     #[must_use]
     pub fn document(self, plan: &Plan, lines: &[Line], times: &[f64]) -> RasterDocument {
         let (found, remarks) = RasterFound::of(plan, lines, times);

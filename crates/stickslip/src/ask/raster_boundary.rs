@@ -36,14 +36,14 @@ pub struct RasterBoundary {
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "super::boundary::default_points")]
     pub points: usize,
-    /// Spacing of the values of that range.
+    /// Spacing of the values of the range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
     /// Terms added to the basic model.
     #[serde(flatten)]
     pub law: Law,
-    /// X, the distance that the support moves along each line, in σ, for a surface that heals meanwhile.
+    /// X, the distance that the support moves along each line, in σ; needed for a surface that heals, and only then.
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -103,8 +103,8 @@ impl Ask for RasterBoundary {
     }
 }
 
-/// The thresholds of one-way lines, of each kind by rising α, and the critical α of a zigzag; the latter is missing
-/// on a healing surface and under a depth limit for a tip whose sides differ, and both are missing if nothing grows.
+/// The lowest threshold of each kind for one-way lines, by rising α, and the critical α of a zigzag. The latter is
+/// `None` if nothing grows, on a healing surface, and under a depth limit for a tip whose sides differ.
 fn thresholds(
     footprint: &Footprint,
     law: Wider,
@@ -146,17 +146,17 @@ pub struct RasterBoundaryFound {
     pub kappa: Vec<f64>,
     /// Angle between crests and scan axis, in degrees.
     pub crest_angle: Vec<f64>,
-    /// Critical α of a zigzag; null if nothing grows, on a healing surface, where zigzags have no threshold, and under a
-    /// depth limit for a tip whose sides differ.
+    /// Critical α of a zigzag. Null if nothing grows, on a healing surface, where zigzags have no threshold, and under
+    /// a depth limit for a tip whose sides differ.
     pub alpha_zigzag: Vec<Option<f64>>,
     /// With a spring across the scan: the kind of wave that grows at `alpha`, and the threshold of each kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thresholds: Option<ThresholdColumns>,
 }
 
-/// Thresholds of one-way lines by kind, for each pitch: minima of the critical α over wave vectors. If a band of
-/// waves merges with another of lower α, the threshold of its kind is that of another band, or null if there is none.
-/// Only the lowest of all thresholds is certain.
+/// Thresholds of one-way lines by kind, for each pitch: minima of the critical α over wave vectors. If a band of waves
+/// merges with one of lower α, the threshold of its kind is that of a further band, or null. Only the lowest of all
+/// thresholds is certain.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ThresholdColumns {

@@ -26,19 +26,19 @@ const SHOWN: f64 = 0.4;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterStabilityFound {
-    /// The critical ripple, or with a spring across the scan the critical wave of any kind: the first that does not
-    /// decay from line to line; null for a repeated line, where some ripple grows at every α.
+    /// The first wave that does not decay from line to line: a ripple, or with a spring across the scan a wave of any
+    /// kind. Null if none grows at any α, and for a repeated line, where some ripple grows at every α.
     pub critical: Option<RasterCriticalDocument>,
     /// With a spring across the scan: the lowest threshold of each kind that has one, by rising α. The first is
-    /// `critical`, and only it is certain to be the lowest of its kind: the others have a tolerance of 1 and no
-    /// cells.
+    /// `critical`, and only it is certain to be the lowest of its kind: the certificates of the others have a tolerance
+    /// of 1 and no cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thresholds: Option<Vec<RasterCriticalDocument>>,
     /// Whether every ripple, or with a spring across the scan every wave, decays from line to line at the α of
-    /// `parameters`; null if no α was given.
+    /// `parameters`; null if no α was given, and for a repeated line.
     pub stable: Option<bool>,
-    /// Growth of ripples e^{iqx} from line to line at the α of `parameters`, along the scan and with a spring across
-    /// it in both directions; null if no α was given.
+    /// Growth of waves e^{iqx} from line to line at the α of `parameters`: of ripples, or with a spring across the scan
+    /// of motions in both directions. Null if no α was given, and for a zigzag.
     pub growth: Option<RasterGrowth>,
 }
 
@@ -72,7 +72,7 @@ pub struct RasterStability {
     #[schemars(extend("x-option" = option("D", "Raster", 30)))]
     #[serde(default)]
     pub pitch: Option<f64>,
-    /// X, the distance that the support moves along each line, in σ, for a surface that heals meanwhile.
+    /// X, the distance that the support moves along each line, in σ; needed for a surface that heals, and only then.
     #[schemars(extend("x-option" = option("X", "Raster", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -225,14 +225,14 @@ impl RasterGrowth {
     }
 }
 
-/// Kinds of waves of the tracks of a raster.
+/// Kinds of waves of the scan lines of a raster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RasterKindName {
     /// Crests across the lines or oblique, at 22.5° or more to them.
     Ripples,
-    /// Crests nearly along the lines, which move into the grooves of earlier ones: trenches along the scan, or pairs
-    /// of lines.
+    /// Crests nearly along the lines: lines move into the grooves of earlier ones and form trenches along the scan, or
+    /// pairs of lines.
     Bunching,
     /// Deviations across the lines, caused mainly by each line's own groove.
     Snaking,
@@ -249,7 +249,7 @@ pub struct RasterCriticalDocument {
     pub alpha: f64,
     /// r, dimensionless.
     pub r: f64,
-    /// Its wave number along the lines, in 1/σ.
+    /// Wave number of the critical wave along the lines, in 1/σ.
     pub q: f64,
     /// κ, the phase from line to line over the pitch, in 1/σ; null for a zigzag, where the phase alternates.
     pub kappa: Option<f64>,
@@ -257,7 +257,7 @@ pub struct RasterCriticalDocument {
     pub crest_angle: Option<f64>,
     /// 2π/q, in σ; null if the lines stay straight, q = 0, as for lines that bunch in pairs.
     pub wavelength_x: Option<f64>,
-    /// Phase from one line to the next, from -π to π; for a zigzag that from a trace to the retrace after it.
+    /// Phase from one line to the next, in rad, from -π to π; for a zigzag, from a trace to the next retrace.
     pub phase_per_line: f64,
     /// Evidence for the threshold; missing in documents of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -278,11 +278,11 @@ pub struct RasterCertificateDocument {
     /// Number of waves that grow below the threshold (pairs ±z for a zigzag); null if the lines interact too weakly
     /// for a count.
     pub growing_below: Option<usize>,
-    /// Number of waves that grow above it.
+    /// Number of waves that grow above the threshold; null if `growing_below` is.
     pub growing_above: Option<usize>,
 }
 
-/// Growth of ripples over wave numbers along the lines.
+/// Growth of ripples against their wave number along the lines.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterGrowth {
@@ -291,7 +291,7 @@ pub struct RasterGrowth {
     /// |z|: for one-way lines the factor from line to line after many lines; for a repeated line the factor of its
     /// groove from the first pass to the second.
     pub factor: Vec<f64>,
-    /// arg z, the phase from line to line.
+    /// arg z, the phase from line to line, in rad.
     pub phase: Vec<f64>,
 }
 

@@ -17,7 +17,7 @@ use stickslip_tip::{Model, RunError, Wider};
 
 const MOST_POINTS: usize = 100_000;
 
-/// A grid of pitches times α, the last varying fastest, and the common parameters.
+/// A grid of pitches times α, with α varying fastest, and the common parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct RasterSweep {
@@ -57,7 +57,7 @@ pub struct RasterSweep {
     /// X: distance that the support moves along each line, in σ.
     #[schemars(extend("x-option" = option("X", "Scan", 42)))]
     pub length: f64,
-    /// Largest error of x0 on each line, in σ; from 1e-13 to 1e-2.
+    /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
@@ -66,7 +66,7 @@ pub struct RasterSweep {
     pub shard: Option<ShardDocument>,
 }
 
-/// A regime needs no more.
+/// Sufficient for regimes.
 fn default_tolerance() -> f64 {
     1e-6
 }
@@ -181,7 +181,7 @@ impl RasterSweep {
         Ok(plan)
     }
 
-    /// The point with its results; depends on this point alone.
+    /// The point with its results, which depend on its own parameters alone.
     fn point(&self, index: usize) -> RasterSweepPoint {
         let (pitch, alpha) = self.place(index);
         let point = RasterSweepPoint::at(index, (pitch, alpha), self.threshold(pitch));

@@ -32,8 +32,8 @@ pub struct ResponseFound {
     /// Σ residue e^{λ(t-t0)}.
     pub origin: f64,
     /// Time after the last pulse, in Γ/k, from which the omitted modes contribute less than `valid_to` of the leading
-    /// mode, by an estimate. During a pulse the sum over modes is off by up to a half: before `valid_from` the
-    /// samples come from the inverse Laplace transform instead, to 1e-9 of their largest.
+    /// mode, by an estimate. Earlier samples come from the inverse Laplace transform, to 1e-9 of their largest: during
+    /// a pulse the sum over modes is off by up to a half.
     pub valid_from: f64,
     /// Largest contribution of the omitted modes relative to the leading one; 1e-6.
     pub valid_to: f64,
@@ -61,12 +61,12 @@ pub struct Response {
     pub law: Law,
     /// Gaussian pulses of external force.
     pub pulses: Vec<PulseParameters>,
-    /// Least number of modes in the list, which has all of them to the right of a vertical line.
+    /// Least number of modes in the list. It has all modes to the right of a vertical line in the complex plane.
     #[schemars(extend("x-option" = option("N", "Accuracy", 50)))]
     #[serde(default = "default_modes")]
     pub modes: usize,
-    /// X, in σ: the samples begin at the time at which a run with this start position and a steady start begins, so
-    /// that the two can be compared sample by sample.
+    /// X, in σ: the samples begin when a run from this start position with a steady start begins, so that both can be
+    /// compared sample by sample.
     #[schemars(extend("x-option" = option("X", "Output", 62)))]
     #[serde(default = "super::run::default_start_position")]
     pub start_position: f64,
@@ -173,7 +173,7 @@ impl Pulsed {
         Ok(Self { model, pulses, origin })
     }
 
-    /// The modes, with residues that refer to the origin: e^{-λT} of a late pulse would overflow.
+    /// The modes, with residues that refer to the origin: those of a late pulse at t = 0 would overflow.
     fn response(&self, modes: usize) -> Result<theory::Response, Failure> {
         let shifted = self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p });
         let shifted: Vec<Pulse> = shifted.collect();
@@ -181,7 +181,7 @@ impl Pulsed {
         found.map_err(|error| failed(&error, "ask for another number with {modes}"))
     }
 
-    /// The time from which the modes beyond those of `listed` are negligible against the leading one.
+    /// The time from which the modes beyond those of `listed` are negligible compared with the leading one.
     fn valid_from(&self, listed: &theory::Response) -> Result<f64, Failure> {
         let more = self.response(listed.modes.len() + 20)?;
         let beyond = more.modes.get(listed.modes.len()..).unwrap_or_default();
@@ -277,9 +277,9 @@ pub struct ModeDocument {
 pub struct ResponseSamples {
     /// Times, in Γ/k.
     pub t: Vec<f64>,
-    /// l = rt - r - x0, in σ; null where it exceeds all numbers.
+    /// l = rt - r - x0, in σ; null where it overflows.
     pub l: Vec<Option<f64>>,
-    /// l - l0, in σ, without cancellation where it is small.
+    /// l - l0, in σ, without cancellation where it is small; null where it overflows.
     pub deviation: Vec<Option<f64>>,
 }
 

@@ -43,19 +43,19 @@ pub struct Run {
     #[schemars(extend("x-option" = option("X", "Start", 22)))]
     #[serde(default = "default_start_position")]
     pub start_position: f64,
-    /// D: the tip starts at X - D, in σ, so that l is D above its start value.
+    /// D: the tip starts at X - D, in σ, which increases l by D.
     #[schemars(extend("x-option" = option("D", "Start", 23)))]
     #[serde(default)]
     pub kick: f64,
-    /// Motion of a support with its own path: R minus its initial value, linear between the knots.
+    /// Path of the support: R minus its initial value, linear between the knots.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support_path: Option<SupportPathParameters>,
-    /// T,H: the support stops for a time H at the time T after the start, which then is at t = 0, and moves on with
-    /// the velocity r (slide, hold, slide); in Γ/k. Documents contain the path of the support instead.
+    /// T,H in Γ/k, to slide, hold and slide: the run starts at t = 0, and the support stops at t = T for a time H. Then
+    /// it moves on with the velocity r. Documents contain the path of the support instead.
     #[schemars(extend("x-option" = option("T,H", "Start", 25)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hold: Option<Vec<f64>>,
-    /// Initial velocity of a tip with inertia, in kσ/Γ; by default r on a steady start, else 0.
+    /// Initial velocity of a tip with inertia, in kσ/Γ; by default r with a steady start, else 0.
     #[schemars(extend("x-option" = option("V", "Start", 24)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start_velocity: Option<f64>,
@@ -75,7 +75,7 @@ pub struct Run {
     /// about t = 16 by default.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
     pub until: f64,
-    /// Largest error of l(t) and x0(t), in σ; from 1e-13 to 1e-2.
+    /// Target for the error of l(t) and x0(t), in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
@@ -97,8 +97,8 @@ pub struct Run {
     #[schemars(extend("x-option" = option("V", "Across the scan", 32)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
-    /// Distance of independent rows of noise across the scan, its correlation length, in σ, if the tip is free to move
-    /// there; by default noise does not depend on y.
+    /// Correlation length of the noise across the scan, in σ, for a tip that is free to move there: rows of noise at
+    /// this distance are independent. By default noise does not depend on y.
     #[schemars(extend("x-option" = option("C", "Across the scan", 33)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise_spacing_across: Option<f64>,
@@ -163,9 +163,9 @@ impl Document<Run> {
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "a run has one")]
 pub enum RunScenario {
-    /// Of a tip that is held on its line.
+    /// A tip that is held on its line.
     Along(Scenario),
-    /// Of a tip that is free to move across the scan, whose model has f(x,y).
+    /// A tip that is free to move across the scan; its model has f(x,y).
     Across(PlanarScenario),
 }
 
@@ -217,7 +217,7 @@ fn default_seed() -> u64 {
 /// The noise of the paper's simulations, but on a grid that resolves its slope.
 const PAPERS_NOISE: NoiseParameters = NoiseParameters { amplitude: 1e-4, spacing: 0.05, seed: 1 };
 
-/// Knots of a piecewise linear path.
+/// Knots of the piecewise linear path of the support.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SupportPathParameters {
@@ -238,14 +238,14 @@ pub struct Profile {
     pub u: Vec<f64>,
 }
 
-/// Heights u at the points (x, y) of a grid; a bicubic spline interpolates them. It is 0 before the first x and behind
-/// the last, and beyond the first and last y it is that of the nearest row.
+/// Heights u at the points (x, y) of a grid, interpolated by a bicubic spline. Before the first x and after the last, u
+/// is 0; beyond the first and last y, it is that of the nearest row.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTable {
     /// Positions along the scan, ascending, in σ.
     pub x: Vec<f64>,
-    /// Positions across it, ascending, in σ.
+    /// Positions across the scan, ascending, in σ.
     pub y: Vec<f64>,
     /// Heights in kσ²/a, one row for each y.
     pub u: Vec<Vec<f64>>,
@@ -339,7 +339,7 @@ impl Run {
         ModelParameters::asked(&self.tip, self.indentation, self.r.unwrap_or(f64::NAN), self.law)
     }
 
-    /// The law and the velocity of the support; a footprint without decay requires healing.
+    /// The velocity of the support; 0 without a spring.
     fn velocity(&self) -> Result<f64, Refused> {
         if self.law.no_spring {
             return match self.r.filter(|r| r.abs() > 0.0) {
@@ -373,8 +373,8 @@ impl Run {
     }
 
     /// The question with the paper's initial condition expressed by the other parameters. The paper sets the tip down
-    /// at X with the spring stretched by r + α/r on the steady surface, which it takes as flat if f has no volume
-    /// (docs/findings/corrections.md, 13).
+    /// at X with the spring stretched by r + α/r on the steady surface. It takes this surface as flat if f has no
+    /// volume (docs/findings/corrections.md, 13).
     fn started(self, model: &Model) -> Self {
         let usual = if model.wider().spring { StartName::Steady } else { StartName::Flat };
         let start = self.start.unwrap_or(usual);
@@ -435,7 +435,7 @@ impl Run {
         Ok(Self { start: Some(StartName::Steady), ..self.clone() }.checked()?.start_time())
     }
 
-    /// The motion along the scan of a resolved question.
+    /// The scenario along the scan of a resolved question.
     pub(super) fn checked(&self) -> Result<Scenario, Failure> {
         let scenario = self.assembled()?;
         scenario.validate().map_err(|error| self.refused(&error))?;
@@ -466,7 +466,7 @@ impl Run {
         })
     }
 
-    /// The motion along the scan of a question that was read from a document and may be invalid.
+    /// The scenario along the scan of a question that was read from a document and may be invalid.
     ///
     /// # Errors
     /// The parameters define no run.
@@ -500,7 +500,7 @@ impl Run {
         }
     }
 
-    /// The scenario of a tip that is free to move across the scan, from the motion along it.
+    /// The scenario of a tip that is free to move across the scan, from the scenario along it.
     fn across(&self, along: Scenario, stiffness: f64) -> Result<PlanarScenario, Failure> {
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
         let (alpha, r) = (self.indentation.alpha.unwrap_or(f64::NAN), self.velocity()?);

@@ -13,7 +13,7 @@ use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::friction::{Hold, Loop, Peak, holds, loops};
 use stickslip_tip::{InitialSurface, Scenario, Support, Trajectory};
 
-/// A tip run. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
+/// The motion of a tip, and its regime. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunFound {
@@ -30,11 +30,11 @@ pub struct RunFound {
     /// Period and amplitudes, if the regime is snaking.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub snaking: Option<SwingDocument>,
-    /// The closed loops of a support that follows a path, and the work of each; null if the history is left out.
+    /// The closed loops of a support that follows a path; null without a path, or if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loops: Option<Vec<LoopDocument>>,
-    /// The rests of such a support after which it moves on, and the peak of the lateral force after each; null without
-    /// rests, or if the history is left out.
+    /// The holds of a support that follows a path, and the peak of the lateral force after each; null without holds, or
+    /// if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holds: Option<Vec<HoldDocument>>,
     /// The rate of creep, if the regime is trapped.
@@ -81,14 +81,14 @@ impl RunFound {
         }
     }
 
-    /// Adds the loops of a support that follows a path, and its stops.
+    /// Adds the closed loops and the holds of a support that follows a path.
     #[must_use]
     pub fn along_path(self, trajectory: &Trajectory) -> Self {
         let (loops, holds) = Self::of_path(trajectory);
         Self { loops, holds, ..self }
     }
 
-    /// The loops of a support that follows a path, and its stops.
+    /// The closed loops and the holds of a support that follows a path; `None` without them.
     pub fn of_path(
         trajectory: &Trajectory,
     ) -> (Option<Vec<LoopDocument>>, Option<Vec<HoldDocument>>) {
@@ -122,7 +122,7 @@ pub(super) fn no_steps() -> Failure {
     Failure::Failed("the run has no steps".into())
 }
 
-/// l, x0 and x0' at one time.
+/// The motion at one time.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleLine {
@@ -151,7 +151,7 @@ pub struct SampleLine {
     pub velocity_y: Option<f64>,
 }
 
-/// The result of a run, in its last line.
+/// The result of a run; in a file of lines it is the last line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunEnd {
@@ -210,9 +210,9 @@ impl RunEnd {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoopDocument {
-    /// Time at which it begins, in Γ/k.
+    /// Time at which the loop begins, in Γ/k.
     pub from: f64,
-    /// Time at which it ends, in Γ/k.
+    /// Time at which the loop ends, in Γ/k.
     pub to: f64,
     /// ∮ (R - x0)dR, the work that the support does, in kσ².
     pub work: f64,
@@ -220,16 +220,16 @@ pub struct LoopDocument {
 
 twins!(Loop => LoopDocument { from, to, work });
 
-/// A rest of the support.
+/// A hold: the support stops, and later moves on.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HoldDocument {
     /// Time at which the support stops, in Γ/k.
     pub from: f64,
-    /// Time at which it moves on, in Γ/k.
+    /// Time at which the support moves on, in Γ/k.
     pub to: f64,
-    /// The peak of the lateral force while the support then moves in one direction; null if the force is largest at
-    /// the end of that motion.
+    /// The peak of the lateral force in the motion after the hold, up to the next turn or stop of the support; null if
+    /// the force is largest at the end of this motion.
     pub peak: Option<PeakDocument>,
 }
 
@@ -249,7 +249,7 @@ impl From<Hold> for HoldDocument {
     }
 }
 
-/// Adds an entry to a column; without one the column is removed.
+/// Adds an entry to a column; without a value the column is removed.
 fn add(column: &mut Option<Vec<f64>>, value: Option<f64>) {
     match (column.as_mut(), value) {
         (Some(column), Some(value)) => column.push(value),
@@ -257,7 +257,7 @@ fn add(column: &mut Option<Vec<f64>>, value: Option<f64>) {
     }
 }
 
-/// Columns of equal length.
+/// Samples of a motion; columns of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Samples {
@@ -303,7 +303,7 @@ impl Samples {
         }
     }
 
-    /// Adds a sample. A column that one of the samples lacks is `None`.
+    /// Adds a sample. A column is `None` if any of the samples lacks its value.
     pub fn push(&mut self, sample: &SampleLine) {
         let (is_first, room) = (self.t.is_empty(), self.t.capacity());
         self.t.push(sample.t);

@@ -1,4 +1,4 @@
-//! Many runs at once.
+//! Many runs, integrated together.
 
 use super::moving::sampled;
 use super::run_found::observed;
@@ -32,9 +32,9 @@ impl Extend<Step> for Followed {
 /// complete. The order is not specified; invalid questions come first.
 ///
 /// Runs share SIMD lanes where [`collect_each`] allows it; `work.memory_reason` says so. Their motion is as accurate as
-/// that of [`Run::ask`] but differs in the last bits; it does not depend on the other questions. All other runs are
-/// those of [`Run::ask`]. `work.seconds` is the time since the end of the run before, so that their sum is the time of
-/// all.
+/// that of [`Run::ask`] but differs in the last bits; it does not depend on the other questions. All other runs equal
+/// those of [`Run::ask`]. `work.seconds` is the time since the previous run ended: the sum over all runs is the total
+/// time.
 ///
 /// ```
 /// use stickslip::{Context, Indentation, RegimeName, Run, Tip, ask_runs};
@@ -88,7 +88,7 @@ pub fn ask_runs(
     }
 }
 
-/// The question, resolved; or, if the tip is free to move across the scan, the question for a run of its own.
+/// The resolved question with its scenario; or the resolved question alone if the tip is free to move across the scan.
 fn begun(question: Run, context: &Context) -> Result<Result<Begun, Run>, Failure> {
     let question = question.resolved(context)?;
     if question.stiffness_across.is_some() {

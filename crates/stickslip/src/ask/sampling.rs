@@ -9,7 +9,7 @@ use stickslip_tip::sorting::ascending;
 /// Times at which a motion is sampled; by default 2,001 times at even intervals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sampling {
-    /// Time between two samples, in Γ/k; by default a 2,000th of the motion.
+    /// Time between two samples, in Γ/k; by default a 2,000th of the duration of the motion.
     #[schemars(extend("x-option" = option("DT", "Output", 60)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample_every: Option<f64>,
@@ -20,10 +20,9 @@ pub struct Sampling {
 }
 
 const DEFAULT_INTERVALS: u64 = 2000;
-/// Largest number of samples kept in memory: with their columns and text they take 240 MB. There is no limit for
-/// lines.
+/// Largest number of samples kept in memory: with their columns and text they take 240 MB.
 const MOST_SAMPLES: f64 = 2.5e6;
-/// Largest number of lines: a petabyte.
+/// Largest number of samples that are written as lines: a petabyte.
 const MOST_LINES: f64 = 1e13;
 
 fn most(are_kept: bool) -> f64 {
@@ -31,8 +30,8 @@ fn most(are_kept: bool) -> f64 {
 }
 
 impl Sampling {
-    /// The sample times, all between the start and the end of `what`; if samples are kept in memory, their number is
-    /// limited.
+    /// The sample times, all between the start and the end of `what`. If samples are kept in memory (`are_kept`), fewer
+    /// are allowed.
     ///
     /// # Errors
     /// A time is out of range, an interval is not above 0, or there are too many samples.
@@ -98,7 +97,7 @@ pub enum Times {
 }
 
 impl Times {
-    /// Whether the times ascend, and their number is finite.
+    /// Whether the interval, if there is one, is above 0.
     pub fn are_usable(&self) -> bool {
         match self {
             Self::Every { every, .. } => *every > 0.0,
@@ -119,7 +118,7 @@ impl Times {
         }
     }
 
-    /// The time with index i.
+    /// The time with index i; `None` beyond the last.
     pub fn at(&self, i: u64) -> Option<f64> {
         match self {
             Self::Every { start, every, end, intervals } => {

@@ -1,5 +1,5 @@
-//! The question `snaking-boundary`: the threshold above which a single line snakes, over the stiffness across the scan
-//! or over the velocity, and the onset of stick-slip beside it.
+//! The question `snaking-boundary`: the threshold above which a single line snakes, against the stiffness across the
+//! scan or the velocity, and for comparison the onset of stick-slip.
 
 use super::boundary::{judge_range, refused_range};
 use super::lines::footprint;
@@ -27,11 +27,11 @@ pub struct SnakingBoundary {
     #[schemars(extend("x-option" = option("LO:HI:N", "Boundary", 20)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub r_range: Option<[f64; 2]>,
-    /// Dimensionless support velocity r (12), above 0, of a range of κ_y.
+    /// Dimensionless support velocity r (12), above 0, for a range of κ_y.
     #[schemars(extend("x-option" = option("R", "Raster", 31)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub r: Option<f64>,
-    /// κ_y, above 0, of a range of r.
+    /// κ_y, above 0, for a range of r.
     #[schemars(extend("x-option" = option("K", "Raster", 34)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness_across: Option<f64>,
@@ -44,7 +44,7 @@ pub struct SnakingBoundary {
     #[schemars(extend("x-option" = option("N", "Boundary", 21)))]
     #[serde(default = "super::boundary::default_points")]
     pub points: usize,
-    /// Spacing of the values of that range.
+    /// Spacing of the values of the range.
     #[schemars(extend("x-option" = option("NAME", "Boundary", 22)))]
     #[serde(default)]
     pub spacing: SpacingName,
@@ -56,16 +56,16 @@ pub struct SnakingBoundary {
 /// A boundary of snaking and the question that it answers.
 pub type SnakingBoundaryDocument = Document<SnakingBoundary>;
 
-/// Threshold of snaking over κ_y or r. The columns have equal lengths; values at which a line never snakes are left
+/// Threshold of snaking against κ_y or r. The columns have equal lengths; values at which a line never snakes are left
 /// out.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SnakingBoundaryFound {
     /// κ_y, in units of the spring along the scan.
     pub stiffness: Vec<f64>,
-    /// r
+    /// r, dimensionless.
     pub r: Vec<f64>,
-    /// α_y, above which the line snakes. A search over all wave numbers certifies that none grows below it.
+    /// α_y, above which the line snakes. A search over all wave numbers certifies that no wave grows below α_y.
     pub alpha: Vec<f64>,
     /// Angular frequency at the threshold, in k/Γ.
     pub omega: Vec<f64>,
@@ -73,19 +73,19 @@ pub struct SnakingBoundaryFound {
     pub wavelength: Vec<f64>,
     /// αc(r), above which the line sticks and slips; null if it does not at any α.
     pub alpha_stick_slip: Vec<Option<f64>>,
-    /// Places between the values at which both thresholds are equal.
+    /// Points within the range at which both thresholds are equal.
     pub crossings: Vec<SnakingCrossing>,
 }
 
-/// A place at which a line begins to snake and to stick and slip at the same α.
+/// A point at which a line begins to snake and to stick and slip at the same α.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SnakingCrossing {
-    /// κ_y
+    /// κ_y, in units of the spring along the scan.
     pub stiffness: f64,
-    /// r
+    /// r, dimensionless.
     pub r: f64,
-    /// α
+    /// α, dimensionless.
     pub alpha: f64,
 }
 
@@ -94,7 +94,7 @@ impl Question for SnakingBoundary {
     type Answer = SnakingBoundaryFound;
 }
 
-/// Both thresholds at one place.
+/// Both thresholds at one point.
 struct Place {
     stiffness: f64,
     r: f64,
@@ -115,9 +115,9 @@ struct Line {
     /// Name of the range.
     name: &'static str,
     ends: [f64; 2],
-    /// Whether κ_y varies, and not r.
+    /// Whether κ_y varies; otherwise r does.
     over_stiffness: bool,
-    /// The other of the two.
+    /// The value of r or κ_y that is fixed.
     fixed: f64,
 }
 
@@ -182,7 +182,7 @@ fn place(
     Ok(Place { stiffness, r, snaking, stick_slip })
 }
 
-/// The place between two values at which both thresholds are equal.
+/// The point between two values at which both thresholds are equal; `None` if one of them does not exist.
 fn crossing(
     [mut low, mut high]: [f64; 2],
     at: impl Fn(f64) -> Result<Place, StabilityError>,

@@ -54,8 +54,8 @@ pub struct Stability {
     #[schemars(extend("x-option" = option("V", "Across the scan", 26)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_y: Option<f64>,
-    /// Least number of growth exponents in the list, which has all of them to the right of a vertical line; 10 if no
-    /// bound is given.
+    /// Least number of growth exponents in the list; 10 if no bound is given. The list has all exponents to the right
+    /// of a vertical line in the complex plane.
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]
     pub roots: Option<usize>,
@@ -138,7 +138,7 @@ impl Stability {
         }
     }
 
-    /// Rejects models whose critical r cannot be solved for.
+    /// Rejects questions about a critical r that cannot be computed.
     fn judge_solved_for(&self, law: &Wider) -> Result<(), Refused> {
         if self.solve_for == SolveFor::Alpha {
             return Ok(());
@@ -180,7 +180,7 @@ impl Stability {
         Ok(Self { indentation, r: Some(at.r), at_critical_point: true, ..self })
     }
 
-    /// Rejects a number of exponents, or a lower bound on their real parts, that is too large to list.
+    /// Rejects too many exponents, and too low a bound on their real parts.
     fn judge_extent(&self, model: &Model) -> Result<(), Refused> {
         let Some(bound) = self.re_above else {
             return judge_count("roots", self.roots.unwrap_or(Self::DEFAULT_ROOTS));
@@ -315,7 +315,7 @@ fn uncertain(error: StabilityError) -> Failure {
     }
 }
 
-/// A warning that explains a null.
+/// A warning with the reason why a field is null.
 fn why(name: &str, error: Option<StabilityError>) -> Option<String> {
     error.map(|error| format!("{name}: {error}"))
 }

@@ -19,7 +19,7 @@ use stickslip_tip::{Scenario, Wider};
 const MOST_POINTS: usize = 10_000_000;
 /// Largest number of footprints; each is prepared separately.
 const MOST_TIPS: usize = 10_000;
-/// Largest number of runs that share SIMD lanes in turn: at the end of a group lanes are empty.
+/// Largest number of runs that share SIMD lanes in turn: at the end of a group some lanes are empty.
 const MOST_RUNS_TOGETHER: usize = 128;
 /// Largest integer seed that f64 represents exactly.
 const LARGEST_SEED: f64 = 9_007_199_254_740_992.0;
@@ -30,12 +30,12 @@ const START_POSITION: f64 = 14.0;
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// Footprints f: widths times β, if they vary.
+    /// Footprints f: each width with each β, if they vary.
     pub tips: Vec<Tip>,
-    /// Width of each footprint, if they vary in width.
+    /// Widths of the footprints, in σ, if they vary.
     #[serde(default)]
     pub width: Option<Vec<f64>>,
-    /// Side-lobe weight β of each footprint, if given.
+    /// Side-lobe weights β of the footprints, if given.
     #[serde(default)]
     pub beta: Option<Vec<f64>>,
     /// Dimensionless support velocities r = Γ v0/(k σ), (12); above 0.
@@ -66,8 +66,8 @@ pub struct Sweep {
     #[schemars(extend("x-option" = option("", "Extended model", 13)))]
     #[serde(default)]
     pub no_spring: bool,
-    /// Make each point a run to this time, in Γ/k, as of "stickslip run", instead of the motion that the tip settles
-    /// into.
+    /// Compute at each point a run to this time, in Γ/k, as "stickslip run" does, instead of the motion that the tip
+    /// settles into.
     #[schemars(extend("x-option" = option("T", "Runs", 40)))]
     #[serde(default)]
     pub until: Option<f64>,
@@ -100,8 +100,8 @@ pub struct Sweep {
     #[schemars(extend("x-option" = option("RANGE", "Runs", 47)))]
     #[serde(default)]
     pub seed: Vec<f64>,
-    /// Largest residual of the equation of motion (18) on a cycle, in units of kσ/Γ; or error of a run, in σ; from
-    /// 1e-11 to 1e-4.
+    /// Largest residual of the equation of motion (18) on a cycle, in kσ/Γ, or target for the error of a run, in σ;
+    /// from 1e-11 to 1e-4.
     #[schemars(extend("x-option" = option("E", "Accuracy", 50)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
@@ -114,7 +114,7 @@ fn default_tolerance() -> f64 {
     1e-9
 }
 
-/// Parameters that vary, in the order of the grid; one that has a single value is a constant.
+/// Parameters that vary, in the order of the grid; a parameter with a single value is a constant.
 #[derive(Default)]
 struct Axes(Vec<AxisDocument>);
 
@@ -129,7 +129,7 @@ impl Axes {
 }
 
 impl Sweep {
-    /// The law with one of the values of each parameter.
+    /// The law with the value that `one` returns for each parameter.
     fn law(&self, mut one: impl FnMut(AxisName, &[f64]) -> Option<f64>) -> Law {
         let mut law = Law { no_spring: self.no_spring, ..Law::default() };
         law.depth_limit = one(AxisName::DepthLimit, &self.depth_limit);
@@ -218,7 +218,7 @@ impl Sweep {
         }
     }
 
-    /// All parameters with several values except footprints and α.
+    /// All lists of values with their names, except footprints and α.
     fn lists(&self) -> [(&'static str, &[f64]); 10] {
         [
             ("r", &self.r),

@@ -14,8 +14,8 @@ use stickslip_stability::{StabilityError, critical, critical_r, unstable_count};
 use stickslip_tip::{Model, Wider};
 use stickslip_units::{Physical, Scales};
 
-/// The quantities given; null for a quantity that is solved for. All six give α and r; one may be left out if r or α
-/// is given, two if both are.
+/// The quantities given; null for a quantity that is solved for. All six give α and r; one may be left out if r or α is
+/// given, two if both are given.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Units {
@@ -45,7 +45,7 @@ pub struct Units {
     #[schemars(extend("x-option" = option("A", "Model", 3)))]
     #[serde(default)]
     pub alpha: Option<f64>,
-    /// Indentation rate given as αc(r) + D, D above the critical one (below, if negative).
+    /// D in α = αc(r) + D, the distance from the critical α (negative below it); dimensionless.
     #[schemars(extend("x-option" = option("D", "Model", 4)))]
     #[serde(default)]
     pub alpha_above: Option<f64>,
@@ -95,7 +95,7 @@ impl Units {
         Ok(UnitsDocument::new(parameters, &physical, &model, critical, stable, remarks.collect()))
     }
 
-    /// The quantities left out, of six.
+    /// Number of quantities left out, of six.
     pub fn left_out(&self) -> usize {
         self.values().iter().filter(|value| value.is_none()).count()
     }
@@ -153,9 +153,9 @@ impl Units {
 pub struct UnitsDocument {
     /// "stickslip/units"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the document.
     pub software: Software,
     /// The quantities given.
     pub parameters: Units,
@@ -252,7 +252,7 @@ pub struct ScalesDocument {
     pub force: f64,
 }
 
-/// The onset of stick-slip if one quantity is varied and all others are fixed. Null if there is none.
+/// The onset of stick-slip if one quantity is varied and all others are fixed. A field is null if there is no onset.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalUnits {

@@ -21,15 +21,15 @@ use stickslip_tip::walker::{
 /// Q = ∫ J0(|x - x(t')|) exp(-(t-t')/T) dt'. It starts at t = 0.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Walker {
-    /// A walker: a particle in the plane with the footprint J0(|x|), on no spring, that its own field drives. It is
-    /// free, in a rotating frame, or in a trap.
+    /// Compute a walker: a particle in the plane without a spring, driven by its own field, with the footprint J0(|x|).
+    /// It is free, in a rotating frame, or in a trap.
     #[schemars(extend("x-option" = option("", "Walker", 70)))]
     #[serde(default = "yes")]
     pub walker: bool,
     /// α, below 0 for a particle that its field drives.
     #[schemars(extend("x-option" = option("A", "Model", 3)))]
     pub alpha: f64,
-    /// T, the time in which the field decays, in Γ/k; above 0.
+    /// T, the time in which the field decays by a factor e, in Γ/k; above 0.
     #[schemars(extend("x-option" = option("T", "Extended model", 11)))]
     #[serde(default = "one")]
     pub healing_time: f64,
@@ -45,13 +45,13 @@ pub struct Walker {
     #[schemars(extend("x-option" = option("K", "Walker", 72)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trap: Option<f64>,
-    /// Initial condition. Steady, the default: a straight walk along x for infinite time, with --rotation or --trap a
-    /// circular orbit; flat: no field, which needs a pulse to set the particle going.
+    /// Initial condition. Steady, the default: as after an infinitely long straight walk along x, or on a circular
+    /// orbit with --rotation or --trap. Flat: no field, so that a pulse must set the particle in motion.
     #[schemars(extend("x-option" = option("START", "Start", 21)))]
     #[serde(default)]
     pub start: Option<StartName>,
-    /// X: the particle starts at (X, 0), in σ; on a circular orbit it starts at that of the radius nearest to X. By
-    /// default 0, and for orbits the smallest one that is stable.
+    /// X, in σ: the particle starts at (X, 0), or on the circular orbit whose radius is nearest to |X|. By default X is
+    /// 0, and the orbit is the smallest one that is stable.
     #[schemars(extend("x-option" = option("X", "Start", 22)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start_position: Option<f64>,
@@ -73,7 +73,7 @@ pub struct Walker {
     /// Time at which the run ends, in Γ/k; it starts at 0.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
     pub until: f64,
-    /// Largest error of the position in a time unit, in σ; from 1e-13 to 1e-2.
+    /// Target for the error of the position per unit of time, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
@@ -111,7 +111,7 @@ pub struct WalkerFound {
     pub orbits: Option<Vec<OrbitDocument>>,
     /// Motion at the end of the run, in its last quarter.
     pub regime: WalkerRegime,
-    /// Mean speed there, in kσ/Γ.
+    /// Mean speed in the last quarter of the run, in kσ/Γ.
     pub speed: f64,
     /// The circle, if the particle moves on one.
     pub circle: Option<CircleDocument>,
@@ -129,13 +129,13 @@ pub struct WalkerFound {
 pub struct OrbitDocument {
     /// Radius, in σ.
     pub radius: f64,
-    /// Angular frequency, in k/Γ; above 0 against the clock.
+    /// Angular frequency, in k/Γ; above 0 if counterclockwise.
     pub omega: f64,
     /// Speed, in kσ/Γ.
     pub speed: f64,
-    /// Whether small deviations decay, except shifts of the orbit; null if the memory is too long for that to be computed.
+    /// Whether small deviations decay, except shifts of the orbit; null if the memory is too long to compute this.
     pub stable: Option<bool>,
-    /// The growth exponents with the largest real parts, at most six, in k/Γ; those of shifts are included.
+    /// The growth exponents with the largest real parts, at most six, in k/Γ, with those of shifts; null if `stable` is.
     pub roots: Option<Vec<ComplexDocument>>,
 }
 

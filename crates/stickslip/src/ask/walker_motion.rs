@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use stickslip_tip::walker::WalkerTrajectory;
 
-/// The last part of a run, as a fraction of it, that is judged, and the number of points in it.
+/// Length of the last part of a run, which is classified, as a fraction of the run, and the number of points in it.
 const LATE: f64 = 0.25;
 const POINTS: u32 = 2000;
 /// Largest deviation of a line or circle, relative to its length or radius.
 const ROUGH: f64 = 1e-3;
-/// A particle rests if it moves by less than this in the last part.
+/// A particle rests if it moves by less than this, in σ, in the last part.
 const STILL: f64 = 1e-6;
 
 /// The motion at the end of a run.
@@ -19,11 +19,11 @@ const STILL: f64 = 1e-6;
 pub enum WalkerRegime {
     /// The particle rests.
     Resting,
-    /// It walks straight on.
+    /// The particle walks on a straight line at constant speed.
     Straight,
-    /// It moves on a circle.
+    /// The particle moves on a circle.
     Circling,
-    /// It does none of these.
+    /// The motion is none of these.
     Irregular,
 }
 
@@ -33,7 +33,7 @@ pub enum WalkerRegime {
 pub struct CircleDocument {
     /// Radius, in σ.
     pub radius: f64,
-    /// Mean angular frequency, in k/Γ; above 0 against the clock.
+    /// Mean angular frequency, in k/Γ; above 0 if counterclockwise.
     pub omega: f64,
     /// Center along x, in σ.
     pub center_x: f64,

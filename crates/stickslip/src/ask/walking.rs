@@ -16,8 +16,8 @@ use stickslip_tip::Model;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WalkingFound {
-    /// 1/(T² f''(0)), with a depth limit b times exp(f(0)/(bT|f''(0)|)): below this α, which is negative, a tip at
-    /// rest begins to walk. Null if the surface does not heal.
+    /// The negative α below which a tip at rest begins to walk: 1/(T² f''(0)) with the healing time T; a depth limit b
+    /// multiplies it by exp(f(0)/(bT|f''(0)|)). Null if the surface does not heal.
     pub walking_alpha: Option<f64>,
     /// All walks by rising speed; of each walk and its mirror image only one is listed.
     pub walks: Vec<WalkDocument>,
@@ -122,10 +122,10 @@ pub struct WalkDocument {
     /// Whether every deviation decays, except a shift along the scan; null if an error of the roots could change it,
     /// as next to the onset of walking.
     pub stable: Option<bool>,
-    /// Growth exponents λ by falling real part, in k/Γ; of each pair the one above the real axis comes first. The 0
-    /// of a shift is included.
+    /// Growth exponents λ by falling real part, in k/Γ; of each complex pair the one above the real axis comes first.
+    /// The 0 of a shift is included.
     pub roots: Vec<ComplexDocument>,
-    /// Evidence that none is missing.
+    /// Evidence that no exponent is missing.
     pub certificate: CertificateDocument,
 }
 

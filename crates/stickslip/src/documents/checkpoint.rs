@@ -8,19 +8,19 @@ use std::path::PathBuf;
 
 /// The first line of a checkpoint: definition and progress of the run.
 ///
-/// The line is followed by `words` 64-bit words in little-endian order, the state of the computation, and by the
+/// The line is followed by the state of the computation, `words` 64-bit words in little-endian order. Then follows the
 /// CRC-32 (IEEE) of everything before it, also in little-endian order.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckpointHead {
     /// "stickslip/checkpoint"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the checkpoint.
     pub software: Software,
-    /// Floating-point arithmetic of the machine that made it, such as "x86_64+sse4.1+avx+fma-1c291ca3": only a
-    /// machine with the same arithmetic continues with identical bits.
+    /// Floating-point arithmetic of the machine that made the checkpoint, such as "x86_64+sse4.1+avx+fma-1c291ca3":
+    /// only a machine with the same arithmetic continues with identical bits.
     #[serde(default)]
     pub arithmetic: Option<String>,
     /// The request of the run command.
@@ -52,7 +52,7 @@ pub struct Order {
     pub format: RunFormat,
     /// Whether the document contains the dense history.
     pub history: bool,
-    /// Figure to draw, relative to the folder of the checkpoint.
+    /// File of the figure to draw, relative to the folder of the checkpoint; null without a figure.
     pub plot: Option<PathBuf>,
     /// Whether the run is repeated to verify it.
     pub verify: bool,

@@ -40,7 +40,7 @@ pub struct CompareParameters {
     pub run: Run,
     /// Discretisation.
     pub grid: GridName,
-    /// Δx, in σ.
+    /// Δx, the distance of grid points, in σ.
     pub spacing: f64,
     /// Local error allowed in a step, of x0 in σ and of heights in kσ²/a; null if the step is constant.
     pub grid_tolerance: Option<f64>,
@@ -128,7 +128,7 @@ pub struct GridWork {
     pub right_hand_sides: u64,
     /// Number of evaluations of the right-hand side of (11), summed over the cells.
     pub cells_updated: u64,
-    /// Shortest time in seconds of repetitions during half a second, at least one.
+    /// Shortest time of all repetitions within half a second, at least one, in seconds.
     pub seconds: f64,
 }
 

@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct FigureDocument {
     /// "stickslip/figure"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the document.
     pub software: Software,
     /// Name of the figure's files, without extension.
     pub name: String,
@@ -52,7 +52,7 @@ impl FigureDocument {
         }
     }
 
-    /// The value of r, if all models have the same.
+    /// The r of all models; `None` if they differ in r, or if r is on an axis.
     pub fn one_r(&self) -> Option<f64> {
         let is_axis = |label: &str| label == "r" || label.starts_with("r = ");
         let mut labels = self.panels.iter().flat_map(|panel| [&panel.x_label, &panel.y_label]);
@@ -216,7 +216,7 @@ pub enum ColourName {
 pub struct CurveDocument {
     /// Name in the legend; null if it is not listed.
     pub name: Option<String>,
-    /// How it is drawn.
+    /// Style of the curve.
     pub style: StyleName,
     /// Abscissas, in the unit of `x_label`.
     pub x: Vec<f64>,
@@ -301,9 +301,9 @@ pub struct CellsDocument {
 pub struct NoteDocument {
     /// The text.
     pub text: String,
-    /// x of its middle, in the unit of `x_label`.
+    /// x of the middle of the text, in the unit of `x_label`.
     pub x: f64,
-    /// y of its middle, in the unit of `y_label`.
+    /// y of the middle of the text, in the unit of `y_label`.
     pub y: f64,
     /// An arrow that points to something outside the axes; none by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]

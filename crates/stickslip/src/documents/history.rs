@@ -9,14 +9,14 @@ use stickslip_tip::{Heights, STAGES, Step, Support, Trajectory, Wider, nodes_and
 /// Farthest position, in σ: beyond it round-off exceeds a thousandth of σ, a tenth of the largest tolerance.
 pub const FARTHEST: f64 = 1e13;
 
-/// Largest excursion within a step, in distances between its ends or in σ, by which damaged histories are recognised.
+/// Largest excursion within a step, relative to the distance between its ends or to σ: a larger one is damage.
 const LEAP: f64 = 1000.0;
 
 /// The accepted steps, each a polynomial: x0(t) at every t of the run.
 ///
-/// In step i, from t[i] to t[i+1], x0(t) = R(t[i]) - extension[i] + p(τ), τ = (t - t[i])/(t[i+1] - t[i]), where R =
-/// rt, or the path of the support, and p is the polynomial through 0 at τ = 0 and displacement[i][j] at τ = nodes[j].
-/// `surface` uses the residence of the tip: the time weights[j] (t[i+1] - t[i]) at each of the nodes.
+/// In step i, from t[i] to t[i+1], x0(t) = R(t[i]) - extension[i] + p(τ) with τ = (t - t[i])/(t[i+1] - t[i]). R is rt,
+/// or the path of the support. The polynomial p is 0 at τ = 0 and displacement[i][j] at τ = nodes[j]. `surface` uses
+/// the residence of the tip: the time weights[j] (t[i+1] - t[i]) at each of the nodes.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct History {
@@ -71,7 +71,7 @@ impl History {
     }
 }
 
-/// The values at the start and at the nodes.
+/// The heights at the start of a step and at its nodes.
 fn row(heights: Heights) -> Vec<f64> {
     [heights.start].into_iter().chain(heights.nodes).collect()
 }

@@ -1,4 +1,4 @@
-//! Reading and writing of the documents that may be large, compiled and optimised here.
+//! Reading and writing of documents that may be large: this code is compiled here, with optimisation.
 
 use crate::{
     RasterDocument, RasterSurfaceDocument, RasterSweepDocument, RunDocument, SurfaceDocument,
@@ -50,7 +50,7 @@ written! {
     write_raster_surface: RasterSurfaceDocument, "the surface of a raster";
 }
 
-/// Writes a document of any kind as JSON, more slowly, by code that is compiled once for all.
+/// Writes a document of any kind as JSON, more slowly, by code that is compiled once for all kinds.
 ///
 /// # Errors
 /// As [`write`].

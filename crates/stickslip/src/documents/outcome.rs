@@ -33,8 +33,8 @@ impl std::fmt::Display for RegimeName {
     }
 }
 
-/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak. The limit of the motion lies within
-/// the error of each number.
+/// The periodic motion at the end of the run. Amplitudes are half peak-to-peak. Period, wavelength and amplitudes of
+/// the settled motion lie within the errors.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillationDocument {
@@ -53,11 +53,11 @@ pub struct OscillationDocument {
     /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; null if less than one wavelength lies out
-    /// of reach of the tip, or if f does not decay. On a healing surface u at the distance D behind the support is
-    /// U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, (35), in kσ²/a; on a healing surface, of U(x) in u = U
+    /// e^{-D/(r T_h)}, with the healing time T_h and the distance D behind the support. Null if less than one
+    /// wavelength lies out of reach of the tip, or if f does not decay.
     pub amplitude_u: Option<f64>,
-    /// Error of `amplitude_u`, in kσ²/a; null if that is null.
+    /// Error of `amplitude_u`, in kσ²/a; null if `amplitude_u` is.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
     /// Number of maxima of l in one period.
@@ -101,16 +101,16 @@ twins!(Creeping => CreepDocument { rate, attracting });
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DriftDocument {
-    /// x0' at the end of the run, in kσ/Γ; negative to the left.
+    /// x0' at the end of the run, in kσ/Γ; negative towards smaller x.
     pub velocity: f64,
-    /// Error of the velocity, in kσ/Γ: the limit of the velocity lies within it.
+    /// Error of the velocity, in kσ/Γ; the velocity of the settled motion lies within it.
     pub velocity_error: f64,
 }
 
 twins!(Drift => DriftDocument { velocity, velocity_error });
 
-/// The periodic motion of a tip that oscillates across the scan. Amplitudes are half peak-to-peak. The limit of the
-/// motion lies within the error of each number, provided that its changes from period to period decay geometrically.
+/// The periodic motion of a tip that oscillates across the scan. Amplitudes are half peak-to-peak. Period and amplitudes of the
+/// settled motion lie within the errors, provided that changes from period to period decay geometrically.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SwingDocument {
@@ -158,7 +158,7 @@ impl SwingDocument {
 pub struct TransientDocument {
     /// The predicted regime; null if there is no prediction.
     pub towards: Option<RegimeName>,
-    /// Predicted time until then, in Γ/k; null if there is no prediction.
+    /// Predicted time until the motion has settled, in Γ/k; null if there is no prediction.
     pub time: Option<f64>,
 }
 

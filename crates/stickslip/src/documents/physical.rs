@@ -29,11 +29,11 @@ pub trait Physical: Serialize + Sized {
     }
 }
 
-/// A column under its name, in the unit of the document.
+/// A column with its name, which contains the unit of the numbers if it is known.
 pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
 
-/// The columns of a table; those with a dimension are converted to nm, s and nN and named accordingly, as far as the
-/// document contains the scales. The names of measured columns contain their unit.
+/// The columns of a table. Those with a dimension are converted to nm, s and nN and named accordingly, if the document
+/// contains the scales for it. The names of measured columns contain their unit.
 pub fn columns<'a>(table: &'a dyn Tabular) -> Vec<InUnit<'a>> {
     let columns = table.columns();
     let Some(physical) = table.physical() else {
@@ -54,7 +54,7 @@ fn in_unit<'a>((name, column): Named<'a>, scales: &KnownScales) -> InUnit<'a> {
     }
 }
 
-/// The arrays of a document, converted in the same way, each made when its turn comes.
+/// The arrays of a document, converted as in [`columns`], each computed only when it is needed.
 pub fn arrays<'a>(table: &'a dyn Tabular) -> impl Iterator<Item = (Cow<'static, str>, Array<'a>)> {
     let scales = table.physical().map(|physical| physical.scales).unwrap_or_default();
     let in_unit = move |(name, array): (&'static str, Array<'a>)| match scaled(name, &scales) {

@@ -59,7 +59,7 @@ pub fn read<D: DeserializeOwned>(text: &str, wanted: &str) -> Result<D, Unusable
     read_from(text.as_bytes(), wanted)
 }
 
-/// Reads a document from a stream. A stream of another kind is read only as far as necessary to recognise that.
+/// Reads a document from a stream. Of a document of another format, only the beginning is read.
 ///
 /// # Errors
 /// As [`read`]; or the stream fails.
@@ -67,7 +67,7 @@ pub fn read_from<D: DeserializeOwned>(mut source: impl Read, wanted: &str) -> Re
     read_through(&mut source, wanted)
 }
 
-/// Reads a document from a stream of any type: the code that reads documents, which is long, exists once.
+/// Reads a document from a stream of any type: the long code that reads documents is compiled once for all types.
 fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Result<D, Unusable> {
     let (kind, whole) = identified(source, wanted)?;
     kind.judge(wanted)?;
@@ -114,7 +114,7 @@ fn no_document(error: &serde_json::Error, wanted: &str) -> Unusable {
 /// The kind of a document, from its beginning. The format is the first field unless the fields were reordered.
 ///
 /// # Errors
-/// It is not JSON, or ends before the format.
+/// The source is not JSON, or ends before the format.
 pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
     let mut kind = Kind { format: None, format_version: None };
     let source = BufReader::new(source.take(LARGEST_BEGINNING));

@@ -31,15 +31,15 @@ pub struct ReproductionParameters {}
 pub struct NumberDocument {
     /// Name of the quantity.
     pub quantity: String,
-    /// Tip and parameters.
+    /// Footprint and parameters of the model.
     pub case: String,
     /// Section, equation or figure of the paper.
     pub place: String,
     /// The number as printed.
     pub printed: String,
-    /// Its value, in the dimensionless units of the paper.
+    /// Value of the printed number, in the dimensionless units of the paper.
     pub value: f64,
-    /// Half a unit of its last digit; 1e-9 for whole numbers, which are exact, 0.005 for exponents.
+    /// Half a unit of the last printed digit; 1e-9 for whole numbers, which are exact, 0.005 for exponents.
     pub precision: f64,
     /// Our value, in the same unit.
     pub ours: f64,

@@ -34,9 +34,9 @@ impl RunLine {
 pub struct RunHead {
     /// "stickslip/run-lines"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the file.
     pub software: Software,
     /// Everything that defines the run.
     #[serde(deserialize_with = "strictly")]

@@ -19,8 +19,8 @@ pub struct StabilityFound {
     pub stable: bool,
     /// The logarithmic creep of a trapped tip.
     pub trapping: TrappingDocument,
-    /// Growth exponents λ at the α and r of `parameters`, by falling real part; of each pair the one above the real
-    /// axis comes first.
+    /// Growth exponents λ at the α and r of `parameters`, by falling real part; of each complex pair the one above the
+    /// real axis comes first.
     pub roots: Vec<ComplexDocument>,
     /// Evidence that no growth exponent is missing.
     pub certificate: CertificateDocument,
@@ -34,7 +34,7 @@ pub struct StabilityFound {
     pub snaking: Option<Option<SnakingDocument>>,
 }
 
-/// Onset of snaking of a tip on a single line that is free to move across the scan.
+/// Onset of snaking on a single line, for a tip that is free to move across the scan.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SnakingDocument {
@@ -86,7 +86,7 @@ pub struct CriticalDocument {
     pub period: f64,
     /// 2πr/ω, in σ.
     pub wavelength: f64,
-    /// Extended model only: whether linear theory decides at this point.
+    /// Extended model only: the kind of onset at this point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<OnsetKindName>,
 }
@@ -95,16 +95,16 @@ pub struct CriticalDocument {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsDocument {
-    /// b_c(r), in kσ²/a: at a depth limit b below it steady motion is stable at every α, with the healing and the
-    /// inertia of `parameters`. Null if steady motion is stable at every b, if it is unstable at some α for every b, or
-    /// if the height under the steady tip is 0, the kink of |u|.
+    /// Depth limit b_c, in kσ²/a. With a depth limit below b_c, and the healing and inertia of `parameters`, steady
+    /// motion is stable at every α. Null if steady motion is stable at every b, or unstable at some α for every b. Also
+    /// null if the height under the steady tip is 0, the kink of |u|.
     pub least_depth_limit: Option<f64>,
-    /// The memory length rT, in σ, below which steady motion is stable at every α and r, without a depth limit. Null
-    /// if this tip has none.
+    /// The product of r and healing time, in σ, below which steady motion is stable at every α and r without a depth
+    /// limit. Null if there is none.
     pub memory_length: Option<f64>,
 }
 
-/// The equation of small deviations at the critical point.
+/// Kinds of onset, by the equation of small deviations at the critical point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OnsetKindName {
@@ -126,8 +126,8 @@ pub struct TrappingDocument {
     /// The stable rate, which a trapped tip approaches, in 1/σ; null if there is none, or if a complex root lies to
     /// the right of all rates: then every stick ends in a slip.
     pub attracting: Option<f64>,
-    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; null if they could
-    /// not be computed, see `remarks`.
+    /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; G is the one-sided
+    /// Laplace transform of f''. Null if they could not be computed, see `remarks`.
     pub creep_roots: Option<Vec<ComplexDocument>>,
 }
 
@@ -146,7 +146,7 @@ pub struct CertificateDocument {
     pub counted: usize,
     /// Number of different listed roots that solve the equation.
     pub found: usize,
-    /// Whether the two numbers agree, and every listed root solves the equation.
+    /// Whether `counted` and `found` agree, and every listed root solves the equation.
     pub complete: bool,
     /// Largest residual of a listed root, relative to the terms of the equation.
     pub largest_residual: f64,
@@ -173,9 +173,9 @@ pub struct OnsetDocument {
     pub criticality: CriticalityName,
     /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: f64,
-    /// dT/dα along the branch, in Γ/k.
+    /// dT/dα of the period T along the branch of cycles, in Γ/k.
     pub period_slope: f64,
-    /// dω/dα along the branch, in k/Γ.
+    /// dω/dα along the branch of cycles, in k/Γ.
     pub omega_slope: f64,
     /// d(Re λ)/dα of the critical pair, in k/Γ.
     pub growth_slope: f64,

@@ -43,8 +43,8 @@ pub struct SurfaceParameters {
 pub struct AcrossParameters {
     /// V in f(x,y) = f(x) exp(-y²/(2V²)), in σ; null if the tip has its own f(x,y).
     pub width_y: Option<f64>,
-    /// k'/k above which y0 = 0 is certainly stable in steady motion, k' the transverse spring constant (52); null if
-    /// no k' is known to be sufficient.
+    /// k'/k above which y0 = 0 is certainly stable in steady motion, where k' is the transverse spring constant (52);
+    /// null if no k' is known to be sufficient.
     pub transverse_stiffness_needed: Option<f64>,
 }
 

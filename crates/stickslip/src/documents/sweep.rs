@@ -48,9 +48,9 @@ impl Question for SweepParameters {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct SweepParameters {
-    /// Footprints f: widths times β, if they vary.
+    /// Footprints f: each width with each β, if they vary.
     pub tips: Vec<Tip>,
-    /// Widths of the footprints, if several were given.
+    /// Widths of the footprints, in σ, if several were given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<Vec<f64>>,
     /// Side-lobe weights β of the footprints, if given.
@@ -59,9 +59,9 @@ pub struct SweepParameters {
     pub r: Vec<f64>,
     /// Dimensionless indentation rates α (13), if given as such.
     pub alpha: Option<Vec<f64>>,
-    /// D, if they were given as αc(r) + D.
+    /// D, if the indentation rates were given as αc(r) + D.
     pub alpha_above: Option<Vec<f64>>,
-    /// Largest residual of (18) on a cycle, kσ/Γ.
+    /// Largest residual of (18) on a cycle, in kσ/Γ, or target for the error of a run, in σ.
     pub tolerance: f64,
     /// Part of the points in this document; by default all.
     pub shard: Option<ShardDocument>,
@@ -124,7 +124,7 @@ impl Tabular for SweepDocument {
         self.physical.as_ref()
     }
 
-    /// The points as a table. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 3 transient.
+    /// The points as a table. The regime in an array: 0 steady, 1 stick-slip, 2 trapped, 5 transient, NaN if unknown.
     fn columns(&self) -> Vec<Named<'_>> {
         let (points, count) = (&self.points, self.points.len());
         let number = |of: fn(&SweepPoint) -> Option<f64>| -> Column {
@@ -201,8 +201,8 @@ impl ShardDocument {
     }
 }
 
-/// Runs from a given initial condition, instead of the motion that the tip settles into; parameters of it that vary
-/// are among the axes.
+/// Runs from a given initial condition, instead of the motion that the tip settles into. Parameters that vary are among
+/// the axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SweepRunParameters {

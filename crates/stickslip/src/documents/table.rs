@@ -101,13 +101,13 @@ pub trait Tabular {
         as_arrays(self.columns()).collect()
     }
 
-    /// The same arrays, of which a document with many rows makes one at a time.
+    /// The same arrays, one at a time: a document with many rows computes each when it is needed.
     fn each_array(&self) -> Box<dyn Iterator<Item = (&'static str, Array<'_>)> + '_> {
         Box::new(self.arrays().into_iter())
     }
 }
 
-/// Columns of numbers in variables, named after them.
+/// Columns of numbers from variables, each named after its variable.
 macro_rules! columns {
     ($($column:ident),+) => {
         vec![$((stringify!($column), $crate::Column::from($column))),+]
@@ -116,7 +116,7 @@ macro_rules! columns {
 
 pub(crate) use columns;
 
-/// The columns as arrays, without words that have no numbers.
+/// The columns as arrays, except columns of words without numbers.
 pub(crate) fn as_arrays(
     columns: Vec<Named<'_>>,
 ) -> impl Iterator<Item = (&'static str, Array<'_>)> {

@@ -15,8 +15,8 @@ pub struct VerificationDocument {
     pub memory: String,
     /// Tolerance of the repetition, in σ.
     pub tolerance: f64,
-    /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, difference of
-    /// l and x0 at its samples.
+    /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, the largest
+    /// difference of l and x0 at its samples.
     pub l: LargestDifferenceDocument,
     /// Difference of y0, with the same limit, of a tip that is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -39,7 +39,7 @@ pub struct VerificationDocument {
 pub struct LargestDifferenceDocument {
     /// The difference: of l and y0 in σ, of u in kσ²/a.
     pub largest: f64,
-    /// Time (of l and y0, in Γ/k) or position (of u, in σ).
+    /// Place of this difference: time for l and y0, in Γ/k; position for u, in σ.
     pub at: f64,
     /// The limit at this place, in the unit of the difference.
     pub allowed: f64,
@@ -49,7 +49,7 @@ pub struct LargestDifferenceDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LinesDocument {
-    /// Number of samples compared; all are.
+    /// Number of samples, which are all compared.
     pub samples: u64,
     /// Time of the last sample, in Γ/k.
     pub verified_until: f64,
@@ -60,7 +60,7 @@ pub struct LinesDocument {
     /// Number of samples with a difference beyond its limit: few if lines were damaged, most of the later ones if the
     /// motion amplifies errors.
     pub wrong: u64,
-    /// Number of the first of these lines.
+    /// Number of the first of these lines; null if there is none.
     pub first_wrong_line: Option<u64>,
 }
 

@@ -13,9 +13,9 @@ use serde_json::Value;
 pub struct VerifyDocument {
     /// "stickslip/verify"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the document.
     pub software: Software,
     /// Everything that defines the run.
     #[serde(deserialize_with = "strictly")]

@@ -1,5 +1,5 @@
-//! JSON of documents, written by one thread or several. One goes through the document and leaves each number as its bits;
-//! all of them turn numbers into text, piece by piece.
+//! JSON of documents, written by one thread or several. One thread goes through the document but leaves each number as
+//! its bits; all threads turn numbers into text, piece by piece.
 
 use serde::Serialize;
 use serde_json::Serializer;
@@ -10,13 +10,13 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// Stands before the bits of a number; no byte of UTF-8.
+/// Marks the bits of a number; this byte does not occur in UTF-8.
 const NUMBER: u8 = 0xff;
 /// Length at which a piece is full, in bytes.
 const PIECE: usize = 1 << 16;
 /// Largest number of pieces that wait for their text.
 const WAITING: usize = 8;
-/// Largest number of threads that have something to do: going through a document takes a third of the time.
+/// Largest useful number of threads: the one that goes through the document takes a third of the time.
 const MOST_THREADS: usize = 4;
 
 /// A JSON formatter that escapes all characters that could control a terminal, also those that JSON allows.
@@ -92,7 +92,7 @@ pub fn write_on_threads(
     })
 }
 
-/// A piece, and the place for its text.
+/// A piece, and the channel that takes its text.
 type Task = (Vec<u8>, Sender<Vec<u8>>);
 
 /// Turns the numbers of a piece into text.
@@ -115,7 +115,7 @@ struct Pieces<'a> {
 }
 
 impl Pieces<'_> {
-    /// Begins a new piece.
+    /// Passes the piece to the threads, and begins a new one.
     fn pass_on(&mut self) -> io::Result<()> {
         let (send, receive) = mpsc::channel();
         let piece = std::mem::replace(&mut self.piece, Vec::with_capacity(PIECE + 64));

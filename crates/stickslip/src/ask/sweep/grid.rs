@@ -6,7 +6,7 @@ use stickslip_stability::critical;
 use stickslip_tip::{Model, Wider};
 
 impl SweepParameters {
-    /// A point without its motion, its model, and the parameters of its run if it is one.
+    /// A point without its motion, its model, and the parameters of its run, if the points are runs.
     pub(super) fn placed(
         &self,
         index: usize,
@@ -62,7 +62,7 @@ impl SweepParameters {
         (law, run)
     }
 
-    /// Rejects invalid runs by checking the first and the last one, which include every error.
+    /// Rejects invalid runs. If any is invalid, so is the first or the last: only these are checked.
     pub(super) fn judge_runs(&self) -> Result<(), Failure> {
         if self.alpha.is_none() || self.run.is_none() {
             return Ok(());

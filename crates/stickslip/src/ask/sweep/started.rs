@@ -10,7 +10,7 @@ use stickslip_surface::{Surface, ripple_behind};
 use stickslip_tip::motion::{Extremum, extrema_within};
 use stickslip_tip::{Model, Scenario, Step, collect_each};
 
-/// The run of this model.
+/// The scenario of a point: a run of this model.
 pub(super) fn scenario(
     model: Model,
     run: &SweepRunParameters,
@@ -44,7 +44,7 @@ pub(super) fn scenario(
 const SAMPLES: usize = 2001;
 /// Largest number of extrema of l kept, the last ones.
 const MOST_EXTREMA: usize = 8192;
-/// Least number of slips with a mean distance.
+/// Least number of slips from which a mean distance is computed.
 const FEWEST_SLIPS: usize = 3;
 
 /// Statistics of l in the second half of a run, accumulated during the run.
@@ -87,7 +87,7 @@ impl Swing {
         }
     }
 
-    /// Mean and standard deviation.
+    /// Mean and standard deviation of l; `None` if some of the samples are missing.
     fn found(&self) -> (Option<f64>, Option<f64>) {
         let count = self.l.len() as f64;
         let mean = self.l.iter().sum::<f64>() / count;
@@ -106,7 +106,7 @@ impl Swing {
     }
 }
 
-/// The maxima from which l falls by more than `least` before it rises by more than that.
+/// The maxima of l that exceed the minima before and after by more than `least`.
 fn slips(extrema: &VecDeque<Extremum>, least: f64) -> impl Iterator<Item = Extremum> {
     let (mut top, mut bottom): (Option<Extremum>, f64) = (None, f64::INFINITY);
     extrema.iter().filter_map(move |extremum| {

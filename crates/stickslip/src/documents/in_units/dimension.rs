@@ -78,8 +78,8 @@ impl Dimension {
 
     /// A quantity in nm, s and nN as a number of the model; `None` if a scale that it needs is unknown.
     ///
-    /// Products of decimals such as 40 nm/(20 nm) miss the decimal that they stand for by units of the last place: within four of
-    /// them the number of 15 digits is taken, so that a quantity has the bits of the number that is typed in its place.
+    /// Ratios of decimals such as 40 nm/(20 nm) may miss the exact decimal by a few units of the last place. Within
+    /// four units the number of 15 digits is returned: a quantity has the same bits as the dimensionless number.
     pub fn number(self, quantity: f64, scales: &KnownScales) -> Option<f64> {
         Some(Self::rounded(quantity / self.factor(scales)?))
     }
@@ -91,7 +91,7 @@ impl Dimension {
         if is_same { typed } else { number }
     }
 
-    /// The suffix of names of such numbers, such as `nm_per_s`.
+    /// The suffix of names of numbers with this dimension, such as `nm_per_s`.
     pub fn suffix(self) -> String {
         let written = |(unit, power): (&str, i32)| match power.abs() {
             1 => unit.to_owned(),

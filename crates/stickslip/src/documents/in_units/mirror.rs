@@ -50,7 +50,7 @@ pub(super) fn of_parameters(
     named.into_iter().filter_map(one).collect()
 }
 
-/// The values along the axes of a grid, over several α, by names with units; `None` if none has a dimension.
+/// The values along the axes of a grid, under names with units; `None` without a list of α, or if no value has a dimension.
 pub(super) fn of_axes(fields: &Map<String, Value>, scales: &KnownScales) -> Option<Value> {
     ["alpha", "alpha_above"].iter().find_map(|name| fields.get(*name)?.as_array())?;
     let more = fields.get("axes").and_then(Value::as_array);

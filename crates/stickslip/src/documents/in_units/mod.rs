@@ -1,5 +1,5 @@
-//! Documents in nm, s and nN: the dimensionless numbers are kept, and copies are multiplied by the scales of an
-//! experiment, σ for lengths, Γ/k for times, kσ²/a for heights and kσ for forces.
+//! Documents in nm, s and nN. The dimensionless numbers are kept, and copies are multiplied by the scales of an
+//! experiment: σ for lengths, Γ/k for times, kσ²/a for heights and kσ for forces.
 //!
 //! All documents, tables and figures follow one rule: [`dimension`] defines the dimension of each number by its name,
 //! and [`Dimension`] converts it to a number with a unit. Numbers whose scale is unknown are omitted.
@@ -29,7 +29,7 @@ pub struct KnownScales {
     pub force: Option<f64>,
 }
 
-/// Numbers of a document in nm, s and nN, under the same names followed by the unit, in parts of the same names.
+/// Numbers of a document in nm, s and nN. Each has its name followed by the unit, in a part of the same name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InUnits {
     /// Scales of the conversion.

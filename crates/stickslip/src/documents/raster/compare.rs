@@ -15,7 +15,7 @@ pub struct RasterCompareFound {
     pub lines: Vec<ComparedLine>,
     /// Positions of the surfaces below, in σ; the surfaces are those after the last line.
     pub x: Vec<f64>,
-    /// The rows, one at the y of every line, ascending, in σ.
+    /// y of the rows, one for every line, ascending, in σ.
     pub y: Vec<f64>,
     /// Heights from the closed equation, in kσ²/a: a row for each y.
     pub closed_u: Vec<Vec<f64>>,
@@ -85,7 +85,7 @@ pub struct RasterComparedWork {
     pub rejected: u64,
     /// Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Shortest time in seconds of repetitions during half a second, at least one.
+    /// Shortest time of all repetitions within half a second, at least one, in seconds.
     pub seconds: f64,
 }
 

@@ -18,7 +18,7 @@ pub struct RasterFound {
     pub regime: RasterRegimeName,
     /// The ripple; null where there is none.
     pub pattern: Option<PatternDocument>,
-    /// ∫∫ u dx dy, in kσ⁴/a: -α (X/r) ∫∫f for each line.
+    /// ∫∫ u dx dy, in kσ⁴/a; in the basic model -α (X/r) ∫∫f for each line.
     pub volume: f64,
     /// The dense history of all lines, from which `surface` is computed.
     pub history: RasterHistory,
@@ -45,8 +45,7 @@ pub struct RasterWork {
 }
 
 impl RasterFound {
-    /// The result for these lines of a plan, each sampled at these times since its start, as far as it lasts; and
-    /// warnings.
+    /// The result for these lines of `plan`, each sampled at `times` from its start, up to its end; and warnings.
     pub(crate) fn of(plan: &Plan, lines: &[Line], times: &[f64]) -> (Self, Vec<String>) {
         let Written { regime, pattern: found, doubts } = pattern(plan, lines);
         let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();

@@ -67,7 +67,7 @@ fn rows_between(plan: &Plan, pitch: f64) -> Vec<f64> {
     (0..=parts * (plan.lines() - 1)).map(row).collect()
 }
 
-/// y of the rows: the lines, or at most as many evenly spaced rows over the same range.
+/// y of the rows: those of the lines, or evenly spaced rows over the same range.
 fn rows(plan: &Plan) -> Vec<f64> {
     if let (Some(_), Some(pitch)) = (&plan.free, plan.area.pitch(plan.path)) {
         return rows_between(plan, pitch);

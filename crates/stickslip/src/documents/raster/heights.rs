@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct RasterSurfaceDocument {
     /// "stickslip/raster-surface"
     pub format: String,
-    /// 1
+    /// Version of the format; 1.
     pub format_version: u32,
-    /// The program that wrote it.
+    /// The program that wrote the document.
     pub software: Software,
     /// The parameters of the raster.
     #[serde(deserialize_with = "strictly")]

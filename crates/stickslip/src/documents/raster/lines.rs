@@ -61,7 +61,7 @@ pub struct RasterSamples {
 }
 
 /// The accepted steps of all lines, each a polynomial, in the frame of its line: the support starts at 0 and moves to
-/// larger x. On the retrace of a zigzag the position of the tip on the surface is X - x0.
+/// larger x. On the retrace of a zigzag of length X, the position of the tip on the surface is X - x0.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterHistory {
@@ -115,7 +115,7 @@ pub struct KeptLine {
 }
 
 impl RasterLine {
-    /// The samples of a line, at those of these times at which it lasts.
+    /// The samples of a line at `times`, up to its end.
     pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
         let duration = line.trajectory().end();
         let lasts = times.iter().filter(|t| **t <= duration * (1.0 + 1e-12));
@@ -184,7 +184,7 @@ impl LineHistory {
     }
 }
 
-/// A step of a line at y, from y0 at its start and nodes; `None` for another number of them, or positions out of range.
+/// A step of a line at y, from y0 at its start and nodes; `None` for a wrong number of nodes or positions out of range.
 fn free_step(along: Step, y0: &[f64], y: f64) -> Option<planar::Step> {
     let (start, nodes) = y0.split_first()?;
     let nodes: [f64; STAGES] = nodes.try_into().ok()?;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct AxisDocument {
     /// The parameter.
     pub name: AxisName,
-    /// Its values, in its own unit.
+    /// Values of the parameter, in its own unit.
     pub values: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ pub enum AxisName {
 }
 
 impl AxisName {
-    /// The name of its option without hyphens, used for columns.
+    /// The name of the option with underscores, which is that of its column.
     pub fn column(self) -> &'static str {
         match self {
             Self::DepthLimit => "depth_limit",

@@ -55,11 +55,11 @@ pub struct RegimeCounts {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticsDocument {
-    /// How many numbers there are.
+    /// Number of values.
     pub count: usize,
     /// Mean.
     pub mean: f64,
-    /// Standard deviation of a single number, with N - 1; null if there is only one.
+    /// Standard deviation of a single number, with `count` - 1 in the denominator; null if there is only one.
     pub deviation: Option<f64>,
     /// Standard error of the mean; null if there is only one number.
     pub error: Option<f64>,

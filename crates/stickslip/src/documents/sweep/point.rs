@@ -14,7 +14,7 @@ pub enum SourceName {
     Stability,
     /// The stable periodic solution of (18).
     Cycle,
-    /// The end of a run, from a disturbed steady state unless the sweep says otherwise.
+    /// The end of a run, from a disturbed steady state unless the sweep sets another start.
     Run,
 }
 
@@ -50,45 +50,44 @@ pub struct SweepPoint {
     pub regime: Option<RegimeName>,
     /// The method that found the regime.
     pub source: Option<SourceName>,
-    /// Period of l(t), Γ/k.
+    /// Period of l(t), in Γ/k.
     pub period: Option<f64>,
-    /// Error of `period`, Γ/k.
+    /// Error of `period`, in Γ/k.
     #[serde(default)]
     pub period_error: Option<f64>,
-    /// Wavelength of the surface far behind the tip, σ.
+    /// Wavelength of the surface far behind the tip, in σ.
     pub wavelength: Option<f64>,
-    /// Error of `wavelength`, σ.
+    /// Error of `wavelength`, in σ.
     #[serde(default)]
     pub wavelength_error: Option<f64>,
-    /// Half peak-to-peak of l, σ.
+    /// Half peak-to-peak of l, in σ.
     pub amplitude_x0: Option<f64>,
-    /// Error of `amplitude_x0`, σ.
+    /// Error of `amplitude_x0`, in σ.
     #[serde(default)]
     pub amplitude_x0_error: Option<f64>,
-    /// Half peak-to-peak of the surface far behind the tip, kσ²/a; for cycles, and for requested runs. On a healing
-    /// surface u at the distance D behind the support is U(x) e^{-D/(rT)} with a periodic U(x), and the amplitude is
-    /// half peak-to-peak of U.
+    /// Half peak-to-peak of the surface far behind the tip, in kσ²/a; on a healing surface, of U(x) in u = U e^{-D/(r
+    /// T_h)}, with the healing time T_h and the distance D behind the support. For cycles, and for requested runs.
     pub amplitude_u: Option<f64>,
-    /// Error of `amplitude_u`, kσ²/a.
+    /// Error of `amplitude_u`, in kσ²/a.
     #[serde(default)]
     pub amplitude_u_error: Option<f64>,
-    /// Mean of l at 2,001 evenly spaced times in the second half of the run, σ; for requested runs.
+    /// Mean of l at 2,001 evenly spaced times in the second half of the run, in σ; for requested runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_l: Option<f64>,
-    /// Standard deviation of l at these times, σ, a measure of oscillation in stick-slip or by noise.
+    /// Standard deviation of l at these times, in σ: a measure of oscillation or noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviation_l: Option<f64>,
-    /// Mean distance that the tip moves from one slip to the next, σ, in the second half of a requested run, periodic or
-    /// not. A slip is a fall of l by more than `deviation_l`. Null of steady and trapped tips, and with fewer than three slips.
+    /// Mean distance that the tip moves between slips in the second half of a requested run, in σ. A slip is a fall of
+    /// l by more than `deviation_l`. Null for steady and trapped tips, and for fewer than three slips.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slip_distance: Option<f64>,
-    /// Standard error of `slip_distance`, σ, from the scatter of the distances.
+    /// Standard error of `slip_distance`, in σ, from the scatter of the distances.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slip_distance_error: Option<f64>,
     /// Number of maxima of l in one period.
     pub slips: Option<usize>,
-    /// Largest modulus of the Floquet multipliers except that of a shift in time; for cycles only. The error is at
-    /// most 5e-8 above 0.01 and at most 1e-6 below.
+    /// Largest modulus of the Floquet multipliers except that of a shift in time; for cycles only. The error is at most
+    /// 5e-8 for a modulus above 0.01 and at most 1e-6 below.
     pub multiplier: Option<f64>,
     /// The reason why there is no result.
     pub error: Option<String>,

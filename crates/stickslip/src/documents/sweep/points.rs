@@ -25,7 +25,7 @@ impl SweepPoints {
         self.starts.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.starts.is_empty()
     }
@@ -119,7 +119,7 @@ impl<'de> Visitor<'de> for Points {
 /// Number of fields of a point that are a number or nothing.
 const NUMBERS: usize = 17;
 
-/// These fields, in the order in which they are packed.
+/// The fields that are a number or nothing, in the order in which they are packed.
 fn numbers(point: &mut SweepPoint) -> [&mut Option<f64>; NUMBERS] {
     [
         &mut point.width,
@@ -155,7 +155,7 @@ const SOURCES: [SourceName; 3] = [SourceName::Stability, SourceName::Cycle, Sour
 /// Bytes of a point besides its numbers and its error.
 const SHORT: usize = 26;
 
-/// Appends a point: its index and r, which of the other fields it has, and these.
+/// Appends a point: its index and r, a mask of the other fields that it has, and these fields.
 fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
     let SweepPoint { index, r, regime, source, slips, .. } = point;
     let (at, error) = (std::mem::take(&mut point.at), point.error.take());
@@ -176,7 +176,7 @@ fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
     bytes.extend(error.unwrap_or_default().as_bytes());
 }
 
-/// The point that begins here.
+/// The point at the beginning of `bytes`.
 fn unpack(bytes: &mut &[u8]) -> SweepPoint {
     let index = index(bytes);
     let r = f64::from_le_bytes(take(bytes));

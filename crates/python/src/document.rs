@@ -87,7 +87,7 @@ impl Document {
 
 #[pymethods]
 impl Document {
-    /// The names of its fields.
+    /// The names of the fields of the document.
     fn names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let names = py.detach(|| fields::names(self.locked().serialized()));
         names.map_err(unusable)
@@ -134,7 +134,7 @@ impl Document {
         text.map_err(unusable)
     }
 
-    /// A picture of it, as `stickslip plot` draws it: "svg", "png" or "pdf".
+    /// A picture of the document, as `stickslip plot` draws it: "svg", "png" or "pdf".
     #[pyo3(signature = (format, width=None, dpi=None, x_range=None, y_range=None))]
     fn picture<'py>(
         &self,
@@ -157,7 +157,7 @@ impl Document {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// An animation of it, as `stickslip plot` makes it: "gif", "webp" or "apng".
+    /// An animation of the document, as `stickslip plot` makes it: "gif", "webp" or "apng".
     #[pyo3(signature = (format, times=None, seconds=None, fps=None, width=None))]
     fn animation<'py>(
         &self,

@@ -31,7 +31,7 @@ impl Taken {
         self.0.iter().map(|(name, array)| (*name, array))
     }
 
-    /// Copies for the document.
+    /// Copies of the columns, for the document.
     pub(crate) fn copies(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
         let copy = |(name, column): (_, &Py<PyArray1<f64>>)| Ok((name, column.bind(py).to_vec()?));
         self.columns().map(copy).collect()
@@ -56,7 +56,7 @@ pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Ve
     }
 }
 
-/// Removes the copies.
+/// Removes the copies from the document.
 pub(crate) fn forget(document: &mut dyn Document) {
     if let Some(samples) = samples(document.any_mut()) {
         drop(columns(samples));

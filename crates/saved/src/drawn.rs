@@ -21,8 +21,7 @@ pub trait Taker {
     fn take<D: Drawn + Tabular + Saved>(self, document: D) -> Self::Taken;
 }
 
-/// The document in a stream, of any kind that has a figure; a stream of another kind is read only as far as necessary
-/// to recognise that.
+/// The document in a stream, of any kind that has a figure. Of another document, only the beginning is read.
 ///
 /// # Errors
 /// The stream is not JSON, is a document without a figure, or is damaged.
@@ -32,7 +31,7 @@ pub fn drawn(source: impl Read) -> Result<Box<dyn Drawn>, Unusable> {
 
 macro_rules! by_format {
     ($($document:ident),+ $(,)?) => {
-        /// Applies a function to the document in a stream, with its own type.
+        /// Applies a function to the document in a stream, with the type of this document.
         ///
         /// # Errors
         /// As [`drawn`].

@@ -1,8 +1,8 @@
-//! Documents, read back, written and handed on whatever their kind.
+//! Documents of any kind: reading, writing and passing on.
 //!
-//! The code that reads and writes documents is a third of what a program of all commands compiles, and most of it runs
-//! once for a file. It is compiled here, once. A release build does not optimise this crate; the documents that may be
-//! large are read and written by code of `stickslip`, which it does.
+//! The code that reads and writes documents is a third of what a program of all commands compiles. Most of it runs once
+//! for a file, so that it is compiled here, once. A release build does not optimise this crate; the documents that may
+//! be large are read and written by code of `stickslip`, which is optimised.
 
 mod drawn;
 

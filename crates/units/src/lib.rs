@@ -1,7 +1,8 @@
 //! SI quantities to the dimensionless numbers of the model, and back.
 //!
-//! A tip of width σ and friction Γ on a spring k, dragged at v0, indents at the rate N and is pushed
-//! down slopes with strength a, (1) to (7). In units of σ and Γ/k
+//! A tip of width σ and friction Γ hangs on a spring k, which is dragged at v0. It indents at the rate N and is pushed
+//! down slopes with strength a, (1) to (7). In units of σ and Γ/k its velocity is r and its indentation rate α; D is
+//! its lag in steady motion:
 //!
 //! ```text
 //!     r = Γ v0/(kσ)    (12)        α = Γ N a/(σ²k²)    (13)        D = (Γ v0 + N a f(0)/v0)/k    (23)
@@ -72,7 +73,7 @@ pub enum UnitsError {
     NotPositive {
         /// Name of the quantity.
         name: &'static str,
-        /// Value as given.
+        /// Value as given, in SI units.
         value: f64,
     },
     /// The dimensionless numbers are out of range.
@@ -81,8 +82,10 @@ pub enum UnitsError {
 }
 
 impl Physical {
+    /// Rejects a quantity that is not finite and above 0; N may be 0.
+    ///
     /// # Errors
-    /// [`UnitsError::NotPositive`]; N may be 0.
+    /// [`UnitsError::NotPositive`].
     pub fn validated(self) -> Result<Self, UnitsError> {
         let positive = [
             ("the damping Γ", self.damping),
@@ -122,7 +125,7 @@ impl Physical {
         Ok(Model::new(tip, self.alpha(), self.r())?)
     }
 
-    /// Steady lag D of the tip behind the support in m, (23). The paper's Na/v0 is N a f(0)/v0 if f(0) is not 1.
+    /// Steady lag D of the tip behind the support in m, (23). The paper prints N a/v0 in place of N a f(0)/v0, for f(0) = 1.
     pub fn lag(&self, tip: &TipFunction) -> f64 {
         let groove = self.indentation_rate * self.slope_force * tip.value(0.0) / self.velocity;
         (self.damping * self.velocity + groove) / self.stiffness

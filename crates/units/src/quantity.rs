@@ -86,7 +86,7 @@ impl Unit {
         spelt.or_else(|| self.in_words(&unit.to_lowercase()))
     }
 
-    /// The same for units written as words, in small letters, and for the ångström.
+    /// The value of a unit written in words, in small letters, or of the ångström.
     fn in_words(self, unit: &str) -> Option<f64> {
         const ANGSTROM: [&str; 7] =
             ["å", "a\u{30a}", "angstrom", "angstroms", "ångström", "ångstrom", "ångströms"];

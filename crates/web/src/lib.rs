@@ -1,7 +1,7 @@
 //! Functions of the libraries for the web page `crates/web/page`, which calls them in its workers.
 //!
-//! Parameters and results are JSON texts, columns of numbers are arrays. Documents are those of the program (`stickslip`), and
-//! each comes with the command line that computes the same.
+//! Parameters and results are JSON texts, columns of numbers are arrays. Documents are those of the program
+//! (`stickslip`), and each comes with the command line that computes it.
 
 mod declared;
 mod limits;
@@ -64,10 +64,11 @@ impl Tip {
         self.0.columns()
     }
 
-    /// Heights u at time t at `count` points from `from` to `to` along the scan, at the y of the tip.
+    /// Heights u at `count` points from `from` to `to` along the scan, at the y of the tip, at time t; at the nearer
+    /// end of the run for a time outside of it.
     ///
     /// # Errors
-    /// A time outside of the run, or an x that is not finite.
+    /// An x that is not finite.
     pub fn heights(&self, t: f64, from: f64, to: f64, count: usize) -> Result<Vec<f64>, JsError> {
         self.0.heights(t, (from, to), count).map_err(|refusal| js_error(&refusal))
     }
@@ -85,7 +86,7 @@ impl Tip {
     /// The classification of the run with its numbers, as in its document.
     ///
     /// # Errors
-    /// A run without steps.
+    /// A value that is not representable in JSON.
     pub fn summary(&self) -> Result<String, JsError> {
         let document = self.0.document();
         let mut found = document.answer.clone();
@@ -96,7 +97,7 @@ impl Tip {
     /// The document of the run, as the program writes it.
     ///
     /// # Errors
-    /// A run without steps.
+    /// A value that is not representable in JSON.
     pub fn document(&self) -> Result<String, JsError> {
         json(Ok(self.0.document()))
     }
@@ -149,8 +150,8 @@ pub fn boundary(parameters: &str, velocities: &[f64]) -> Result<Vec<f64>, JsErro
 
 /// Scans line by line and returns the pattern.
 ///
-/// After each line, `on_line(line, row, columns, heights)` receives the rows of the surface that the line has changed, from
-/// number `row` on, with `columns` heights each.
+/// After each line, `on_line(line, row, columns, heights)` receives the rows of the surface that the line has changed.
+/// The first of them has the number `row`; each has `columns` heights.
 ///
 /// # Errors
 /// A parameter out of range, or a line that fails.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use stickslip::Context;
 
-/// Largest end time of a run: the history of a fast motion then takes some 100 MB.
+/// Largest end time of a run, in Γ/k: the history of a fast motion then takes some 100 MB.
 pub(crate) const MOST_TIME: f64 = 20_000.0;
 /// Largest number of lines of a raster.
 pub(crate) const MOST_LINES: usize = 400;

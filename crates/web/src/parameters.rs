@@ -5,7 +5,7 @@ use serde::Deserialize;
 use stickslip::{Indentation, Run, StartName, Tip};
 use stickslip_tip::{Model, TipFunction, Wider};
 
-/// Lengths in σ, times in Γ/k, heights in kσ²/a.
+/// Values of the sliders. Lengths in σ, times in Γ/k, heights in kσ²/a.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Parameters {
@@ -14,11 +14,11 @@ pub(crate) struct Parameters {
     /// Side-lobe weight of the triple Gaussian; 0 for a Gaussian.
     pub(crate) beta: f64,
     pub(crate) width: f64,
-    /// b
+    /// Depth limit b.
     pub(crate) depth_limit: Option<f64>,
-    /// T
+    /// Healing time T.
     pub(crate) healing_time: Option<f64>,
-    /// M
+    /// Inertia M.
     #[serde(default)]
     pub(crate) inertia: Option<f64>,
     /// κ_y; absent if the tip is held on its line.

@@ -9,18 +9,18 @@ use stickslip::{
 };
 use stickslip_raster::{Plan, Scanned, Scanning, pattern};
 
-/// Tolerance of each line. A picture needs less, but transforms round differently in the browser, and a step that is accepted
-/// here and repeated there changes the pattern by a part of the tolerance. With 1e-8 the patterns agree to 1e-9.
+/// Tolerance of each line. A picture needs less. But transforms round differently in the browser: a step that is accepted here
+/// and repeated there changes the pattern by a part of the tolerance. With 1e-8 the patterns agree to 1e-9.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 /// Heights per tip width along a line, and rows per pitch.
 const COLUMNS: f64 = 4.0;
 const ROWS: usize = 2;
 /// Distance across, in tip widths, beyond which a line changes no rows: its depth is below e^{-18} there.
 const REACH: f64 = 6.0;
-/// Distance, in tip widths, within which a tip on a spring stays of its line, to the accuracy of a picture.
+/// Largest distance from its line, in tip widths, of a tip with a spring across the scan, to the accuracy of a picture.
 const AWAY: f64 = 4.0;
 
-/// Lengths in σ.
+/// The raster to scan. Lengths in σ.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Scan {
@@ -104,7 +104,7 @@ pub(crate) fn raster(
 
 /// The points of the surface that are shown.
 struct View {
-    /// Lines that coincide give one row each: the groove after the line.
+    /// Whether all lines coincide; each then has one row, the groove after the line.
     is_repeated: bool,
     x: Vec<f64>,
     row: f64,

@@ -122,7 +122,7 @@ impl Window {
     /// The transform `φ̂(κ) = ∫ φ(m/8) cos(κm) dm` over distances in cells, for `κ = k·spacing`
     /// with |κ| ≤ π.
     ///
-    /// The trapezoidal rule, whose error is φ̂ at 4π − κ: round-off, like φ at its ends.
+    /// It is computed by the trapezoidal rule. The error is φ̂ at 4π − κ: round-off, like φ at its ends.
     pub fn transform(&self, kappa: f64) -> f64 {
         let step = kappa / NODES_PER_CELL as f64;
         let off_center: f64 =

@@ -131,8 +131,8 @@ pub fn work(motion: &Trajectory, from: f64, to: f64) -> f64 {
     motion.steps().iter().map(of_step).sum()
 }
 
-/// Times after the start at which the support is at its first position again, and moves in its first direction or is
-/// at the end of its path: there a closed loop ends.
+/// Times at which closed loops of the support end: it is at its first position again, and moves in its first direction
+/// or is at the end of its path.
 pub fn ends_of_loops(path: &SupportPath) -> Vec<f64> {
     let (t, way) = path.knots();
     let pieces = || t.windows(2).zip(way.windows(2));

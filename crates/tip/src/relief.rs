@@ -114,8 +114,8 @@ impl Relief {
     }
 
     /// The groove of other scans of a tip: its height and slope as fields on one lattice. Beyond the ends of the
-    /// fields, where both must have decayed, they are 0. With `along` = (X, mirrored) the relief at x is the field at X
-    /// + x, or at X - x if mirrored.
+    /// fields, where both must have decayed, they are 0. With `along` = (X, mirrored) the relief at x is the field at
+    /// `X + x`, or at `X - x` if mirrored.
     pub fn on_lattice(heights: Field, slopes: Field, along: (f64, bool)) -> Self {
         Self(Shape::OnLattice(OnLattice::new(heights, slopes, along)))
     }

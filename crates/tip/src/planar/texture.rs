@@ -7,10 +7,10 @@ use crate::series::{SeriesError, checked};
 use crate::spline::Ends;
 use thiserror::Error;
 
-/// Heights u at the points (`x_i`, `y_j`) of a grid, in kσ²/a and σ.
+/// Heights u, in kσ²/a, at the points (`x_i`, `y_j`) of a grid, in σ.
 ///
 /// Between the points u is a bicubic spline. It is 0 before the first x and behind the last, with slope 0 along the
-/// scan there; beyond the first and last y it is that of the nearest row.
+/// scan there; beyond the first and last y it equals that of the nearest row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightTable {
     x: Vec<f64>,

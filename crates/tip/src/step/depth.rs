@@ -44,7 +44,7 @@ pub struct Known {
 pub struct Missed {
     /// Residual d - hAv of the displacements.
     pub displacement: Stages,
-    /// Residual of the heights: η minus the right-hand side of its equation.
+    /// Residual of the heights: η minus the right-hand side of the equation for η.
     pub height: Stages,
 }
 

@@ -51,7 +51,7 @@ impl OwnGroove {
         Self { slope: [[0.0; PAIRS.len()]; 2], curvature: [[0.0; PAIRS.len()]; 2] }
     }
 
-    /// The contribution under stages at these displacements.
+    /// The values for stages at the displacements d.
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let ahead = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
         if tip.is_even() {

@@ -125,8 +125,8 @@ impl Line {
         self.velocity(self.trajectory.end())
     }
 
-    /// The residence of the tip on the surface at the end of the line, t = X/r: positions `x_j` and weights `w_j` such
-    /// that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ `w_j` g(`x_j`), with w and T of the extended model.
+    /// The residence of the tip on the surface at the end of the line, of length X: positions `x_j` and weights `w_j`
+    /// such that ∫ w(t) e^{-(X/r-t)/T} g(x0(t))dt = Σ `w_j` g(`x_j`), with w and T of the extended model.
     pub fn residence(&self) -> (Vec<f64>, Vec<f64>) {
         let (mut positions, weights) = self.trajectory.residence(self.trajectory.end());
         positions.iter_mut().for_each(|x| *x = self.track.x(*x));

@@ -27,7 +27,7 @@ const DECADES_ABOVE: u32 = 3;
 const LARGEST_RESIDUAL: f64 = 1e-9;
 /// Relative round-off in G, of closed forms and of tables.
 const ROUNDOFF: (f64, f64) = (1e-15, 1e-11);
-/// A crossing is rejected if its A is so large that this round-off exceeds this fraction of Mv²Λ² + vΛ + κ.
+/// A crossing is rejected if its A is so large that the round-off in AG exceeds this fraction of Mv²Λ² + vΛ + κ.
 const LARGEST_NOISE: f64 = 1e-3;
 
 /// Relative distance from the Ω of a resonance to the nearest samples, in units of 1/√M, its relative width.

@@ -56,8 +56,8 @@ impl Orbit {
     }
 }
 
-/// All circular orbits with radii up to `largest`, by rising radius: in both senses, or without rotation, where both are
-/// alike, the counterclockwise ones. Two orbits of the same sense whose radii differ by less than 0.02 may both be missed.
+/// All circular orbits with radii up to `largest`, by rising radius. Without rotation the two senses are alike, and only
+/// the counterclockwise orbits are given. Two orbits of one sense whose radii differ by less than 0.02 may both be missed.
 ///
 /// # Errors
 /// [`StabilityError::Alpha`] if a free particle does not walk, -αT² ≤ 2.

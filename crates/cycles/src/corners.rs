@@ -95,7 +95,7 @@ impl Orbit {
         Some(mesh)
     }
 
-    /// The interior point of the mesh that is nearest.
+    /// The interior point of the mesh that is nearest to `at`.
     fn nearest(&self, at: f64) -> usize {
         let after = self.mesh.partition_point(|end| *end < at).clamp(1, self.mesh.len() - 1);
         let is_before = after > 1 && at - self.mesh[after - 1] < self.mesh[after] - at;

@@ -81,6 +81,6 @@ pub struct Drift {
 pub struct Prospect {
     /// The regime that the run approaches; `None` if it cannot be predicted.
     pub towards: Option<Regime>,
-    /// Further time until that regime is reached, in Γ/k; `None` if it cannot be predicted.
+    /// Further time until `towards` is reached, in Γ/k; `None` if it cannot be predicted.
     pub time: Option<f64>,
 }

@@ -60,7 +60,7 @@ pub struct Point {
 /// A branch, in the order of the continuation.
 #[derive(Debug, Clone)]
 pub struct Branch {
-    /// Its cycles.
+    /// Cycles of the branch.
     pub points: Vec<Point>,
     /// Special points, in order.
     pub special: Vec<Special>,

@@ -301,9 +301,8 @@ fn what_is_not_there_across_the_scan_is_refused_by_name() {
         &format!("{line} --stiffness-across 1 --tip-file rough.csv"),
         &["products", "smooth its table"],
     );
-    folder.refuses("surface run.json --far-behind", &["--far-behind", "across"]);
-    folder
-        .refuses("surface run.json --y-range -1:1 --width-y 1", &["--width-y", "part of the run"]);
+    folder.refuses("surface run.json --far-behind", &["--far-behind", "held on its line"]);
+    folder.refuses("surface run.json --y-range -1:1 --width-y 1", &["--width-y", "set by the run"]);
     let remarks = said(&folder.stickslip(&format!("{line} --stiffness-across 1 -o other.json")));
     assert!(remarks.contains("steady"), "{remarks}");
 }

@@ -1,9 +1,9 @@
 //! `stickslip`: the tip of an atomic force microscope on a soft surface, from the command line; and [the
 //! same](hosted) in-process.
 //!
-//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit status is 0, 1
-//! for an error at run time, 2 for invalid input, 3 for a verified run that is correct but incomplete, 130 (143) when
-//! interrupted by SIGINT (SIGTERM).
+//! Results go to standard output or to `-o FILE`, messages and progress to standard error. The exit status is 0 for
+//! success, 1 for an error at run time, and 2 for invalid input. It is 3 for a verified run that is correct but
+//! incomplete, and 130 (143) for an interrupt by SIGINT (SIGTERM).
 
 // All that is said goes through `message`.
 #![deny(clippy::print_stderr, clippy::print_stdout)]

@@ -6,8 +6,8 @@
 //!
 //! `animate` returns an animation of a run or a raster, made of a `Scene`: axes that stay, and their content at any time.
 //!
-//! Features: `png` paints pixels, `pdf` writes vector graphics, `animation` writes GIF, WebP and APNG. All have texts as outlines
-//! of the font DejaVu Sans; an SVG file only names it, and the viewer supplies it.
+//! Features: `png` paints pixels, `pdf` writes vector graphics, `animation` writes GIF, WebP and APNG. Their texts are outlines of
+//! the font DejaVu Sans; an SVG file only names this font, and the viewer supplies it.
 
 #[cfg(feature = "animation")]
 mod animation;

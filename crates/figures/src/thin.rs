@@ -3,7 +3,7 @@
 /// A point of a figure.
 pub(crate) type Point = (f64, f64);
 
-/// Number of columns for each column of pixels where a path turns back: there a column contains an arc, no spike.
+/// Number of columns into which a column of pixels is divided if the path turns back: it then contains arcs, not spikes.
 const FINER: usize = 8;
 
 /// The visible points of a stretch of curve, if `columns` columns of pixels span `low` to `high`: of consecutive

@@ -8,9 +8,9 @@ use stickslip_tip::{RunError, Scenario, Step, Support};
 pub struct Growth {
     /// The largest resulting difference in l, over the initial one.
     pub amplification: f64,
-    /// Estimate of the leading Lyapunov exponent, in k/Γ: the rate at which the difference grows (decays, if
-    /// negative) in the second half of the time in which it is above the errors and below the size of the motion.
-    /// `None` if that time is too short.
+    /// Estimate of the leading Lyapunov exponent, in k/Γ: the rate at which the difference grows, or decays if it is
+    /// negative. The rate is that of the second half of the time in which the difference is above the errors and below
+    /// the size of the motion; `None` if that time is too short.
     pub exponent: Option<f64>,
 }
 
@@ -96,8 +96,7 @@ impl Witness for Probes {
     }
 }
 
-/// The growth from two runs to the same tolerance, one of which is shifted by `shift` in l at the start or some time
-/// after it.
+/// The growth from two runs to the same tolerance. One of them is shifted by `shift` in l, at the start or later.
 pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
     growth_within(one, twin, shift, (tolerance, one.range()))
 }

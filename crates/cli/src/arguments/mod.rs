@@ -77,7 +77,7 @@ pub(crate) struct Cli {
     pub(crate) command: Command,
 }
 
-/// The output for the program name alone.
+/// The output of a call without arguments.
 pub(crate) const FIRST_SCREEN: &str = "\
 stickslip: stick-slip of an AFM tip on a soft surface, from one closed delay equation
 

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 /// Draw a saved document: a run, a surface, a cycle, a sweep, or any other JSON output that has a picture.
 ///
 /// The picture is that of the command's own `--plot`, with a width, a resolution and axes of your choice. A name that
-/// ends in .gif, .webp or .apng makes an animation of a run (the tip carves the surface, seen from above if it moves
-/// across the scan) or of a raster (which grows line by line). Its first frame shows the end of the motion.
+/// ends in .gif, .webp or .apng makes an animation of a run or a raster. The tip carves the surface, seen from above if it
+/// moves across the scan; a raster grows line by line. The first frame shows the end of the motion.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct PlotArguments {

@@ -19,7 +19,7 @@ const RANGE: &str = "RANGE";
 pub(crate) trait Questions {
     /// The parameters of all of them.
     fn parameters() -> Vec<&'static Parameter>;
-    /// The formats of their documents; none if no document has such parameters.
+    /// The formats of their documents; empty if no document has these parameters.
     fn formats() -> Vec<&'static str>;
 }
 
@@ -63,7 +63,7 @@ pub(crate) struct Given {
     pub(crate) tip: TipArguments,
     /// A file with further parameters.
     pub(crate) parameters: Option<PathBuf>,
-    /// Ranges by their options.
+    /// Ranges, each with its option.
     pub(crate) ranges: Vec<(String, Interval)>,
     /// The option that gives the number of values in a range.
     pub(crate) counted_by: Option<&'static str>,

@@ -87,8 +87,8 @@ pub(crate) struct RunArguments {
     )]
     pub(crate) checkpoint_every: Option<f64>,
 
-    /// Resume the run from the checkpoint FILE, with the same output as an uninterrupted run, to the files that the
-    /// checkpoint names if they are in its folder, or else to -o and --plot; all other options come from FILE.
+    /// Resume the run from the checkpoint FILE, with the same output as an uninterrupted run. The output goes to the files
+    /// that the checkpoint names if they are in its folder, or else to -o and --plot; all other options come from FILE.
     #[arg(long, value_name = "FILE", help_heading = "Long runs")]
     pub(crate) resume: Option<PathBuf>,
 }
@@ -141,8 +141,8 @@ const EXAMPLES: &str = "Examples:
   A walker in a rotating frame, on a circular orbit, and all orbits that exist there:
     stickslip run --walker --alpha=-3 --rotation 0.3 --until 100 \\
         -o orbit.json --plot orbit.svg
-  A long run that writes its samples as it goes, and survives a loss of power (errors of the period add
-  up: `verify`, which takes twenty times as long, reports until when l is right to ten tolerances):
+  A long run that writes its samples as it goes, and survives a loss of power (errors of the period
+  add up: `verify`, in twenty times the time, reports until when l is right to ten tolerances):
     stickslip run --alpha 1.2 --r 1 --until 1e6 --tolerance 1e-6 \\
         --sample-every 10 -o long.jsonl --checkpoint long.checkpoint
     stickslip run --resume long.checkpoint";

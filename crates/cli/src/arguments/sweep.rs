@@ -66,7 +66,7 @@ pub(crate) struct SweepArguments {
     pub(crate) plot: Option<PathBuf>,
 }
 
-/// The parameters of a sweep. No document has these: that of a sweep lists all values of each parameter.
+/// The parameters of a sweep, which are those of no document: documents of sweeps list all values of each parameter.
 #[derive(Debug)]
 pub(crate) struct Swept;
 

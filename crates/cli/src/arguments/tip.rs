@@ -9,10 +9,10 @@ use stickslip::MeasuredTip;
 
 /// Fit a footprint to a measured profile, which may be noisy, tilted, off centre, and in nanometres.
 ///
-/// Fits a sum of Gaussians on a sloping background, with their number determined by the data, and reports the width
-/// of the tip, the α at the onset of stick-slip, and their uncertainty. The output is a tip file, which every command
-/// reads by --tip-file. Lengths in it are in σ, the width of the Gaussian with the same full width at half maximum,
-/// and f(0) is 1, unless --sigma is given.
+/// Fits a sum of Gaussians on a sloping or curved background; the data determine their number. Reports the width of the
+/// tip, the α at the onset of stick-slip, and their uncertainty. The output is a tip file, which every command reads by
+/// --tip-file: f(0) is 1, and lengths are in σ. By default σ is the width of the Gaussian with the same full width at half
+/// maximum.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, brief())]
 pub(crate) struct MeasuredTipArguments {

@@ -61,7 +61,7 @@ impl Questions for Given {
 const USAGE: &str =
     "stickslip units --damping <Γ> --stiffness <k> --tip-width <σ> --indentation-rate <N>
            --slope-force <a> --velocity <v0> [OPTIONS]
-       of these one may be left out for --r or --alpha, two for both";
+       one of these may be replaced by --r or --alpha, two by both";
 
 const EXAMPLES: &str = "Examples:
   α, r, the lag, and the distance from the onset of stick-slip:

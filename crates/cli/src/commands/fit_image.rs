@@ -81,7 +81,7 @@ fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<
     })
 }
 
-/// The options without --width, which is σ of measured data, and no width of a footprint.
+/// The options without --width, which here is σ of the data and not the width of a footprint.
 pub(super) fn without_width(arguments: &FitArguments) -> Options<Either<Fit, FitImage>> {
     let mut options = arguments.options.clone();
     options.0.tip.width = None;

@@ -147,7 +147,7 @@ impl Given {
             (
                 "--velocity",
                 velocity.is_some() && scales.time.is_none(),
-                "--sigma and, with one r, no more; with several r give --damping and --stiffness in its place",
+                "--sigma and one r; with several r give --damping and --stiffness in its place",
             ),
             ("--damping", damping.is_some() && scales.time.is_none(), "--stiffness"),
             ("--slope-force", slope_force.is_some() && height.is_none(), "--stiffness and --sigma"),

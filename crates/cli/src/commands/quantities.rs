@@ -46,7 +46,7 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
     })
 }
 
-/// The kind of SI unit in which a number with this unit of the model is typed, and the number of nm, s or nN in that unit.
+/// The quantity that a unit of the model measures, and the number of nm, s or nN in its SI unit.
 fn measured_in(unit: &str) -> (Unit, f64) {
     const NANO: f64 = 1e9;
     match unit {

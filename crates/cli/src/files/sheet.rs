@@ -543,7 +543,7 @@ fn headings(rows: &[Vec<&str>], count: usize) -> Result<Vec<Heading>, String> {
     }
 }
 
-/// The text after the mark of a comment.
+/// The text after the mark of a comment; `None` for any other line.
 fn comment(line: &str) -> Option<&str> {
     const ERRORS: [&str; 5] = ["#n/a", "#nv", "#num!", "#value!", "#div/0!"];
     let line = line.trim();

@@ -15,7 +15,7 @@ pub(super) trait Writer {
     fn finish(self: Box<Self>) -> Result<Vec<u8>, FigureError>;
 }
 
-/// A rectangle of pixels; `None` for one that is unchanged. Its left and upper edges are even, as WebP requires.
+/// A rectangle of pixels; an unchanged pixel is `None`. Its left and upper edges are even, as WebP requires.
 pub(super) struct Patch {
     pub(super) left: usize,
     pub(super) top: usize,

@@ -193,7 +193,7 @@ fn patch(map: &HeightMap) -> Option<([f64; 2], [f64; 2])> {
     Some((x, [middle - half, middle + half]))
 }
 
-/// Phase φ of the sum Σ w u e^{-i(qx + κy)} over the patch, with the heights u minus the mean of their row and a window w.
+/// Phase φ of the sum Σ w u e^{-i(qx + κy)} over the patch; u are the heights minus the mean of their row, w is a window.
 fn phase(map: &HeightMap, (x, y): (&[f64; 2], &[f64; 2]), (q, kappa): (f64, f64)) -> Option<f64> {
     let part = |at: f64, ends: &[f64; 2]| (at - ends[0]) / (ends[1] - ends[0]);
     let window = |part: f64| {

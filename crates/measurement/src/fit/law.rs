@@ -1,7 +1,7 @@
 //! Test of a depth limit as an alternative explanation of the data.
 //!
-//! A depth limit gives ripples of nearly the same shape as the basic model at another α and r, and heights of unknown
-//! gain contain only this shape. Therefore the parameters are fitted once more with a depth limit.
+//! A depth limit gives ripples of nearly the same shape as the basic model at another α and r. Heights of unknown gain
+//! contain only this shape. Therefore the parameters are fitted once more with a depth limit.
 
 use super::data::Data;
 use super::likelihood::Around;

@@ -1,5 +1,5 @@
-//! 95 % intervals by profile likelihood: the range over which a parameter can be fixed while the refitted residuals
-//! of the others stay below a limit.
+//! 95 % intervals by profile likelihood: the range over which a parameter can be fixed while the residuals, after a new
+//! fit of the other parameters, stay below a limit.
 
 use super::parameters::Name;
 use super::problem::Problem;
@@ -19,8 +19,8 @@ pub struct Fitted {
     /// Estimate with interval; ends that the data do not exclude are 0 or infinite.
     pub estimate: Estimate,
     /// The profile likelihood: values at which the parameter was held, each with ±√(n (S/S0 - 1))/c. S is the least sum
-    /// of squares at this value, S0 that of the best fit, n the number of degrees of freedom, and c the factor by which
-    /// correlations widen the interval.
+    /// of squares at this value, and S0 that of the best fit; n is the number of degrees of freedom. Correlations widen
+    /// the interval by the factor c.
     pub profile: Vec<(f64, f64)>,
 }
 

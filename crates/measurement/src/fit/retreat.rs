@@ -1,7 +1,7 @@
 //! Reduction of diverged parameters of the extended model to the range in which they have an effect on the data.
 //!
-//! A search may end with a healing time of 1e30, where neither this value nor a change of it has an effect: from
-//! there its interval cannot be found, nor those of other parameters at shorter healing times.
+//! A search may end with a healing time of 1e30, where neither this value nor a change of it has an effect. From such a
+//! value no search finds the interval of the healing time, nor the parts of other intervals at shorter healing times.
 
 use super::parameters::Name;
 use super::problem::Problem;

@@ -1,4 +1,4 @@
-//! Settled ripples of a one-way raster whose tip gives way across the lines.
+//! Settled ripples of a one-way raster whose tip gives way across the lines, on a spring κ_y.
 //!
 //! As in `travelling`, every line repeats the one before it, shifted along the scan: s(φ) = θ' and the distance Y(φ) of the tip
 //! from its line are functions of the phase φ = qx + κdn on line n. With f(x,y) = g(x) h(y) the force balances at the tip are
@@ -179,8 +179,8 @@ impl Lines {
         Weights { slope, value }
     }
 
-    /// Calls `each` for every pair of a point on the line and a point on the line itself or an earlier one, with the weights of
-    /// g' and g, and with h, h' and h'' for the distance of the two points across the lines.
+    /// Calls `each` for every pair of a point on the line and a point on the same or an earlier line. Further arguments are the
+    /// weights of g' and g, and h, h' and h'' for the distance of the points across the lines.
     fn pairs(
         &self,
         weights: &Weights,

@@ -298,9 +298,9 @@ impl Residuals for Problem<'_> {
 struct Around<'a> {
     problem: &'a Problem<'a>,
     best: &'a Minimum,
-    /// Covariance of the parameters if the model is linear in them. It is not multiplied by the reduced χ²: where χ² is larger
-    /// than by chance there are no intervals, and with this factor 99 % of the intervals of settled ripples, not 95 %, contained
-    /// the true value.
+    /// Covariance of the parameters if the model is linear in them. It is not multiplied by the reduced χ²: with this factor
+    /// 99 % of the intervals of settled ripples, not 95 %, contained the true value. Where χ² is larger than by chance there are
+    /// no intervals.
     covariance: DMatrix<f64>,
     /// Half of a 95 % interval, in standard deviations.
     quantile: f64,

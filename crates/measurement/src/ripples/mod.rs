@@ -2,7 +2,7 @@
 //!
 //! Two steps: the wave in the image (wave vector and three harmonics, [`wave`]) and the settled pattern of the model with
 //! the same wave (`travelling`). For a given pitch the wave vector alone determines α and r of the neutral wave; the
-//! harmonics tell how far α is above that. The gain of the heights and the phase of the wave are fitted along.
+//! harmonics determine how far α is above this value. The gain of the heights and the phase of the wave are fitted too.
 
 mod across;
 mod direction;

@@ -49,7 +49,7 @@ impl Part {
     }
 }
 
-/// The largest part in which the ripples have settled; of several the most uniform one.
+/// The largest part in which the ripples have settled; among several of equal area, the most uniform.
 fn largest(image: &Pair) -> Option<Part> {
     let coarse = image.each(|image| coarse_image(image, COARSE)).ok()?;
     let mut parts: Vec<[[usize; 2]; 2]> =

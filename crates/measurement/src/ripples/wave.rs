@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Offset and slope of every row are projected out. The start is the largest value of the periodogram; the rest is least
-//! squares. Errors follow from the scatter of the scores between blocks of the image, which counts noise that is correlated
+//! squares. Errors follow from the scatter of the scores between blocks of the image. This includes noise that is correlated
 //! from pixel to pixel, and slow changes of the pattern across the image.
 
 use super::RippleError;

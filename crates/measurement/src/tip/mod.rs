@@ -121,7 +121,7 @@ pub enum TipError {
         /// Fitted centre of symmetry.
         centre: f64,
     },
-    /// Steady motion of such a tip is stable at any α.
+    /// With the fitted footprint steady motion is stable at any α.
     #[error("the fitted footprint has no onset of stick-slip at r = {r}")]
     NoOnset {
         /// The r requested.

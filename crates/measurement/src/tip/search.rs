@@ -144,8 +144,8 @@ const ABOVE_NOISE: f64 = 1.2;
 /// Orders of the background: straight, curved, or S-shaped.
 const ORDERS: std::ops::RangeInclusive<usize> = 1..=3;
 
-/// The best fits with one, two … Gaussians, up to `asked`, or up to the number that the rows permit and the data may
-/// require, on the best background; fits on other backgrounds are in [`Found::others`].
+/// The best fits, on the best background, with one, two … Gaussians up to `asked`, or up to the number that the rows
+/// permit and the data may require. Fits on other backgrounds are in [`Found::others`].
 pub(super) fn candidates(profile: &Profile, centre: Option<f64>, asked: Option<usize>) -> Found {
     let mut chosen = on_ground(profile, (centre, 1), asked);
     for order in ORDERS.skip(1) {

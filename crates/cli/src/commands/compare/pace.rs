@@ -10,7 +10,7 @@ use stickslip_tip::stop;
 
 /// Time in seconds after which the total is extrapolated, and no repetition is made.
 const PATIENCE: f64 = 0.5;
-/// Number of repetitions; the time of either side is the shortest, because a run may take only a millisecond.
+/// Number of repetitions of each side, of which the shortest time counts, because a run may take only a millisecond.
 const REPETITIONS: usize = 5;
 
 /// A result with its time in seconds, the shortest of several calls of `once`.

@@ -58,7 +58,7 @@ fn with_files(
         let seed = arguments.seed.unwrap_or(NoiseParameters::SEED);
         run.noise = Some(NoiseParameters { amplitude, spacing, seed });
     } else if let Some(name) = arguments.of_noise() {
-        return Err(Failure::input(name, "belongs to a noise: give --noise too"));
+        return Err(Failure::input(name, "has no effect without noise: give --noise too"));
     }
     Ok(run)
 }

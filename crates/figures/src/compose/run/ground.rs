@@ -12,7 +12,7 @@ use stickslip_surface::Surface;
 pub(super) const MARGIN: f64 = 12.0;
 /// Length of the tip's own groove behind it, in σ.
 const GROOVE: f64 = 4.0;
-/// Ripples lower than this fraction of all heights fill the axes alone; the rest of the surface is cut off.
+/// If the ripples take less than this fraction of the range of heights, the axes show the ripples alone.
 const LEAST_PART: f64 = 0.3;
 /// Smallest number of slips that count as ripples.
 const FEW: usize = 4;

@@ -5,7 +5,8 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use std::fmt::Display;
 use stickslip_cli::hosted::Refusal;
 
-/// A ValueError for unusable input, a RuntimeError for a failure at run time, with the message of the program.
+/// A ValueError for unusable input, a RuntimeError for a failure at run time, or a KeyboardInterrupt for cancelled work,
+/// with the message of the program.
 pub(crate) fn raised(refusal: Refusal) -> PyErr {
     match refusal {
         Refusal::Input(message) => PyValueError::new_err(message),

@@ -129,7 +129,7 @@ fn supply(py: Python<'_>, given: Given<'_>) -> PyResult<Supply> {
 
 type Work = Box<dyn FnOnce() + Send>;
 
-/// Idle threads, and the process that they belong to: a fork has none of them.
+/// Idle threads, and the process that they belong to: a forked process has none of them.
 static IDLE: Mutex<(u32, Vec<Sender<Work>>)> = Mutex::new((0, vec![]));
 
 fn idle() -> MutexGuard<'static, (u32, Vec<Sender<Work>>)> {

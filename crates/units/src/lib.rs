@@ -1,4 +1,4 @@
-//! SI quantities to the dimensionless numbers of the model, and back.
+//! Conversion of SI quantities to the dimensionless numbers of the model, and back.
 //!
 //! A tip of width σ and friction Γ hangs on a spring k, which is dragged at v0. It indents at the rate N and is pushed
 //! down slopes with strength a, (1) to (7). In units of σ and Γ/k its velocity is r and its indentation rate α; D is

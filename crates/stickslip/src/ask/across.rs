@@ -10,7 +10,7 @@ use stickslip_tip::{Support, Wider};
 
 /// A deviation across the scan counts as decayed if it is at most this many tolerances at the end of a run.
 const DIED_OUT: f64 = 10.0;
-/// Length of the last part of a run, as a fraction of the run, in which the deviation must be as small as this.
+/// Length of the last part of a run, as a fraction of the run, in which a deviation must not exceed [`DIED_OUT`] tolerances.
 const LATE: f64 = 0.25;
 
 impl Moving for WatchedAcross<'_> {

@@ -304,7 +304,7 @@ impl Ask for Continue {
     }
 }
 
-/// A remark on a branch that ends only because the tip swings back farther than cycles can be computed.
+/// A remark on a branch that ends where the tip swings back too far for cycles to be computed.
 fn goes_on(branch: &Branch) -> Option<String> {
     let retreat = branch.last.farthest_retreat().filter(|_| branch.end == End::Lost)?;
     let model = branch.last.model();

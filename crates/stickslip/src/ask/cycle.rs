@@ -201,7 +201,7 @@ pub struct CycleFound {
     /// for footprints with much detail). Of a complex pair, the one above the real axis comes first. One is 1, that of
     /// a shift in time. The error is at most 5e-8 for moduli above 0.01 and at most 1e-6 below.
     pub floquet: Vec<ComplexDocument>,
-    /// Error of the trivial multiplier, |μ - 1|.
+    /// Error |μ - 1| of the multiplier μ of a shift in time.
     pub floquet_error: f64,
     /// Whether every small deviation except a shift in time decays.
     pub stable: bool,
@@ -214,7 +214,7 @@ pub struct CycleFound {
 }
 
 impl CycleFound {
-    /// The document of a cycle with about `points` intervals of its profile and its cost.
+    /// The document of a cycle with at least `points` intervals of its profile and its cost.
     fn of(cycle: &cycles::Cycle, points: usize, seconds: f64) -> Self {
         let multipliers = cycle.multipliers();
         let distances = multipliers.iter().map(|m| (m - 1.0).norm());
@@ -260,8 +260,8 @@ pub struct CycleProfile {
 }
 
 impl CycleProfile {
-    /// A profile of about `points` intervals. The steps are short where the motion is fast: even times would miss the
-    /// slips.
+    /// A profile of at least `points` intervals. The steps are short where the motion is fast: even times would miss
+    /// the slips.
     fn of(cycle: &cycles::Cycle, points: usize) -> Self {
         let motion = cycle.motion();
         let steps = motion.steps();

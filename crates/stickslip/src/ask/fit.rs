@@ -40,8 +40,8 @@ pub struct FitFound {
     /// Other minima of χ² that the data do not exclude at 99.7 %, the likeliest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<AlternativeDocument>,
-    /// The best fit with a depth limit; present if the request has no depth limit, the data do not exclude one at 95 %,
-    /// and it changes the parameters.
+    /// The best fit with a depth limit. Present if none was given, the data do not exclude one at 95 %, and it changes
+    /// the parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_depth_limit: Option<AlternativeDocument>,
 }
@@ -492,7 +492,7 @@ pub struct DataFitted {
     /// Probability that chance alone makes a component of twice the wavelength; below 0.001 ripples are period-doubled.
     #[serde(default)]
     pub doubling: Option<f64>,
-    /// Probability that chance alone makes the change of the ripples along the track; below 0.001 the motion has not settled.
+    /// Probability that chance alone changes the ripples along the track; below 0.001 the motion has not settled.
     #[serde(default)]
     pub drift: Option<f64>,
     /// Standard deviation of the noise, from the scatter between wavelengths, in the unit of `y`.
@@ -501,7 +501,7 @@ pub struct DataFitted {
     /// Number of independent rows with as much information as the rows of the data.
     #[serde(default)]
     pub effective_rows: Option<f64>,
-    /// Direction of the scan along `x`: "right" or "left"; null for a series.
+    /// Direction of the scan along `x`: "right" or "left"; null for onsets and wavelengths.
     #[serde(default)]
     pub scan: Option<String>,
     /// Number of rows of the file averaged into each entry of `y`.

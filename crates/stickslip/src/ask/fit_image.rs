@@ -49,8 +49,8 @@ pub struct FitImageFound {
     pub scan: ScanName,
     /// Direction in which the lines followed each other.
     pub slow_scan: SlowScanName,
-    /// The part of the image in which the ripples have settled, from which all numbers are; null if they are from the whole
-    /// image.
+    /// The part of the image in which the ripples have settled, and which gives all numbers; null if the whole image
+    /// does.
     #[serde(default)]
     pub settled_part: Option<SettledPart>,
     /// Whether the ripples are uniform and the model explains them; otherwise α and r have no intervals.

@@ -48,8 +48,8 @@ pub struct LoadMap {
     /// Load of the measured point, in nN, such as 10nN; above 0.
     #[schemars(extend("x-option" = option("F", "Load", 51)))]
     pub load: f64,
-    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5. `load_widths` is the
-    /// alternative.
+    /// Exponent s of a contact that grows with the load F, σ ∝ F^s: 1/3 by Hertz; 0 to 0.5. `load_widths` gives a table
+    /// instead.
     #[schemars(extend("x-option" = option("S", "Load", 52)))]
     #[serde(default)]
     pub width_exponent: f64,

@@ -278,14 +278,14 @@ fn symmetrised(asymmetry: f64) -> String {
 pub struct SidesDocument {
     /// Position of the apex between the sides, in the unit of the positions.
     pub apex: f64,
-    /// Motion towards larger positions: twice the side at larger positions.
+    /// Footprint of motion towards larger positions: the side at larger positions, and its mirror image.
     pub trace: SideDocument,
-    /// Motion towards smaller positions: twice the side at smaller positions.
+    /// Footprint of motion towards smaller positions: the side at smaller positions, and its mirror image.
     pub retrace: SideDocument,
     /// Difference of the αc of trace and retrace, relative to their mean.
     pub asymmetry: f64,
     /// f with the side of the trace at x > 0, that of the retrace at x < 0, and f(0) = 1. Printed alone, it is a tip
-    /// file; it is also the footprint if the whole document is given as tip file. Null if the sides are too different
+    /// file; it is also the footprint if the whole document is given as a tip file. Null if the sides are too different
     /// in scale; missing in documents of older versions.
     #[serde(default)]
     pub footprint: Option<GaussianSumDocument>,
@@ -342,7 +342,7 @@ impl From<&Measured> for SideDocument {
     }
 }
 
-/// A warning if the fit leaves more of the image than its noise.
+/// A warning if the residual of the image is larger than its noise.
 fn unexplained(across: &Across) -> Option<String> {
     (across.residual > ABOVE_NOISE * across.noise).then(|| {
         format!(

@@ -87,7 +87,7 @@ impl Default for Tip {
 }
 
 impl Tip {
-    /// Rejects a footprint whose sides differ, which `what` does not cover.
+    /// Rejects a footprint whose sides differ; `what` names the computation that needs equal sides.
     pub(crate) fn judge_even(&self, what: &str) -> Result<(), Refused> {
         if self.0.is_even() {
             return Ok(());

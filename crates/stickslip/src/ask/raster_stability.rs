@@ -26,8 +26,8 @@ const SHOWN: f64 = 0.4;
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterStabilityFound {
-    /// The first wave that does not decay from line to line: a ripple, or with a spring across the scan a wave of any
-    /// kind. Null if none grows at any α, and for a repeated line, where some ripple grows at every α.
+    /// The first wave, as α rises, that does not decay from line to line: a ripple, or with a spring across the scan a
+    /// wave of any kind. Null if none grows at any α, and for a repeated line, where some ripple grows at every α.
     pub critical: Option<RasterCriticalDocument>,
     /// With a spring across the scan: the lowest threshold of each kind that has one, by rising α. The first is
     /// `critical`, and only it is certain to be the lowest of its kind: the certificates of the others have a tolerance

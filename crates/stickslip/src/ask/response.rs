@@ -31,7 +31,7 @@ pub struct ResponseFound {
     /// Time t0, in Γ/k, to which the residues refer, the center of the last pulse: from `valid_from` on, l(t) - l0 =
     /// Σ residue e^{λ(t-t0)}.
     pub origin: f64,
-    /// Time after the last pulse, in Γ/k, from which the omitted modes contribute less than `valid_to` of the leading
+    /// Time t after the last pulse, in Γ/k, from which the omitted modes contribute less than `valid_to` of the leading
     /// mode, by an estimate. Earlier samples come from the inverse Laplace transform, to 1e-9 of their largest: during
     /// a pulse the sum over modes is off by up to a half.
     pub valid_from: f64,
@@ -173,7 +173,7 @@ impl Pulsed {
         Ok(Self { model, pulses, origin })
     }
 
-    /// The modes, with residues that refer to the origin: those of a late pulse at t = 0 would overflow.
+    /// The modes, with residues that refer to the origin: at t = 0 those of a late pulse would overflow.
     fn response(&self, modes: usize) -> Result<theory::Response, Failure> {
         let shifted = self.pulses.iter().map(|p| Pulse { time: p.time - self.origin, ..*p });
         let shifted: Vec<Pulse> = shifted.collect();

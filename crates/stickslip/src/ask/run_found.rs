@@ -321,7 +321,7 @@ impl Samples {
         add(&mut self.lag, sample.lag);
     }
 
-    /// The samples by ascending `places`, of which there is at least one for each sample.
+    /// The samples sorted by `places`, which has at least one entry for each sample.
     #[must_use]
     pub fn ordered_by(self, places: &[usize]) -> Self {
         let mut order: Vec<usize> = (0..self.t.len()).collect();

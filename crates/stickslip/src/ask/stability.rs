@@ -59,7 +59,7 @@ pub struct Stability {
     #[schemars(extend("x-option" = option("N", "Growth exponents", 40)))]
     #[serde(default)]
     pub roots: Option<usize>,
-    /// All growth exponents whose real part is at least this, in k/Γ; replaces their number.
+    /// Lower bound on real parts, in k/Γ: list all growth exponents at or above it, instead of a number of them.
     #[schemars(extend("x-option" = option("BOUND", "Growth exponents", 41)))]
     #[serde(default)]
     pub re_above: Option<f64>,

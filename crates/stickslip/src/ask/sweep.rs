@@ -26,7 +26,7 @@ const LARGEST_SEED: f64 = 9_007_199_254_740_992.0;
 /// Default start position of a run, in σ.
 const START_POSITION: f64 = 14.0;
 
-/// A grid of parameters, each with one value or several. [`Sweep::grid`] gives the question with its axes in order.
+/// A grid of parameters, each with one value or several. [`Sweep::grid`] makes the question, with its axes in order.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {

@@ -260,9 +260,9 @@ pub struct CriticalUnits {
     pub alpha: Option<f64>,
     /// N in m/s above which there is stick-slip.
     pub indentation_rate: Option<f64>,
-    /// Period at that N, in s.
+    /// Period at this onset, in s.
     pub period: Option<f64>,
-    /// Wavelength at that N, in m.
+    /// Wavelength at this onset, in m.
     pub wavelength: Option<f64>,
     /// rc(α), the largest one, dimensionless.
     pub r: Option<f64>,

@@ -98,7 +98,7 @@ fn default_largest_radius() -> f64 {
     30.0
 }
 
-/// Largest radius up to which orbits are listed.
+/// Largest value of `largest_radius`, in σ.
 const MOST_RADIUS: f64 = 200.0;
 
 /// The motion of a walker. Lengths in σ, the inverse wave number of J0; times in Γ/k.

@@ -19,8 +19,8 @@ pub struct CompareFound {
     pub grid: GridDocument,
     /// Largest differences between the two.
     pub max_difference: DifferenceDocument,
-    /// Seconds of the grid over seconds of the closed equation, each per unit of simulated time. It differs from run
-    /// to run, as `work.seconds` does.
+    /// Computing time of the grid over that of the closed equation, each per unit of simulated time. This ratio differs
+    /// from run to run, as `work.seconds` does.
     pub speedup: f64,
 }
 

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 /// A document that may contain its numbers in physical units too.
 pub trait Physical: Serialize + Sized {
-    /// The field with the physical units.
+    /// The field with the numbers in physical units.
     fn physical_mut(&mut self) -> &mut Option<InUnits>;
 
     /// The document as JSON, without large parts that are not converted to physical units.
@@ -33,7 +33,7 @@ pub trait Physical: Serialize + Sized {
 pub type InUnit<'a> = (Cow<'static, str>, Column<'a>);
 
 /// The columns of a table. Those with a dimension are converted to nm, s and nN and named accordingly, if the document
-/// contains the scales for it. The names of measured columns contain their unit.
+/// contains the scales. The names of measured columns contain their unit.
 pub fn columns<'a>(table: &'a dyn Tabular) -> Vec<InUnit<'a>> {
     let columns = table.columns();
     let Some(physical) = table.physical() else {

@@ -18,7 +18,7 @@ pub struct VerificationDocument {
     /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, the largest
     /// difference of l and x0 at its samples.
     pub l: LargestDifferenceDocument,
-    /// Difference of y0, with the same limit, of a tip that is free to move across the scan.
+    /// Difference of y0, with the same limit, if the tip is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<LargestDifferenceDocument>,
     /// Difference of the surface at the end; null for a run without its history, and in two coordinates. The limit is the effect of an

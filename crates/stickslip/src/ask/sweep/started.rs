@@ -52,7 +52,7 @@ struct Swing {
     r: f64,
     times: Vec<f64>,
     l: Vec<f64>,
-    /// Extrema of l since the first of the times.
+    /// Extrema of l since `times[0]`.
     extrema: VecDeque<Extremum>,
 }
 

@@ -27,7 +27,7 @@ pub struct RasterCompareFound {
     pub closed_work: RasterComparedWork,
     /// Cost of the grid.
     pub grid_work: GridWork,
-    /// Seconds of the grid over seconds of the closed equation. It differs from run to run, as `seconds` do.
+    /// Computing time of the grid over that of the closed equation. This ratio differs from run to run, as `seconds` do.
     pub speedup: f64,
 }
 

@@ -55,8 +55,8 @@ impl HeightMap {
     }
 }
 
-/// y of the rows between the first line and the last, for a tip that is free to move across lines one pitch apart: on
-/// every line, and at least halfway between them.
+/// y of the rows between the first line and the last, for a tip that is free to move across lines one pitch apart: one
+/// on every line, and one or more between neighbours.
 fn rows_between(plan: &Plan, pitch: f64) -> Vec<f64> {
     let width = plan.footprint.layers().iter().map(|layer| layer.across.width);
     let width = width.fold(f64::INFINITY, f64::min);

@@ -13,7 +13,7 @@ pub enum RasterRegimeName {
     Steady,
     /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
-    /// Lines that fell into grooves of earlier lines, of a tip that is free to move across: trenches along the scan, or
+    /// Lines that fell into grooves of earlier lines, if the tip is free to move across: trenches along the scan, or
     /// pairs of lines.
     Bunched,
     /// Crests broken into pits; neighbouring lines are still correlated.

@@ -38,7 +38,7 @@ pub enum AxisName {
 }
 
 impl AxisName {
-    /// The name of the option with underscores, which is that of its column.
+    /// The name of the column: that of the option, with underscores.
     pub fn column(self) -> &'static str {
         match self {
             Self::DepthLimit => "depth_limit",

@@ -28,7 +28,7 @@ pub struct EnsembleDocument {
     pub mean_l: Option<StatisticsDocument>,
     /// Statistics of the standard deviation of l over the same time, in σ.
     pub deviation_l: Option<StatisticsDocument>,
-    /// Statistics of the mean distance of the slips in each run, in σ, whether its motion repeats itself or not.
+    /// Statistics of the mean distance between slips in each run, in σ, whether its motion is periodic or not.
     #[serde(default)]
     pub slip_distance: Option<StatisticsDocument>,
 }
@@ -59,7 +59,7 @@ pub struct StatisticsDocument {
     pub count: usize,
     /// Mean.
     pub mean: f64,
-    /// Standard deviation of a single number, with `count` - 1 in the denominator; null if there is only one.
+    /// Standard deviation of the values, with `count` - 1 in the denominator; null if there is only one.
     pub deviation: Option<f64>,
     /// Standard error of the mean; null if there is only one number.
     pub error: Option<f64>,

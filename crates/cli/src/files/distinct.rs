@@ -28,7 +28,7 @@ pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure>
             if let Some((other, Some(found))) = all.iter().find(|(_, other)| is(*other, &companion))
             {
                 let message = format!(
-                    "is saved beside as {}, which is the file of {other}: give one of them another name",
+                    "{} is reserved for data beside it, and the file of {other}: give one of them a name of its own",
                     found.display()
                 );
                 return Err(Failure::input(named, message));

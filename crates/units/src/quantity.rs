@@ -77,7 +77,7 @@ impl Unit {
         self.one(suffix).map(|one| number * one).filter(|v| v.is_finite()).ok_or_else(error)
     }
 
-    /// The value in SI units of one such unit, in the notation of people and instruments: `nm`, `µm`, `Å`,
+    /// The value in SI units of 1 `unit`, in the notation of people and instruments: `nm`, `µm`, `Å`,
     /// `nanometers`, `nN`, `um/s`. `None` if `unit` is not a unit of this quantity.
     #[must_use]
     pub fn one(self, unit: &str) -> Option<f64> {

@@ -14,7 +14,7 @@ const ROOTS: usize = 6;
 /// Results of linear theory.
 #[derive(Debug, Serialize)]
 pub(crate) struct Linear {
-    /// The point at this r at which the first exponent reaches the imaginary axis.
+    /// The point at the given r at which the first exponent reaches the imaginary axis.
     critical: Option<CriticalDocument>,
     /// Trapping threshold: above this α some motions end in a pit.
     trapping: Option<f64>,

@@ -346,7 +346,7 @@ pub struct CycleBranch {
     pub alpha: Vec<f64>,
     /// r of each cycle, dimensionless (12).
     pub r: Vec<f64>,
-    /// T of each cycle, in Γ/k.
+    /// Period T of each cycle, in Γ/k.
     pub period: Vec<f64>,
     /// Half peak-to-peak of l (the oscillation of x0 about its steady advance), in σ.
     pub amplitude_x0: Vec<f64>,
@@ -358,7 +358,7 @@ pub struct CycleBranch {
     /// Real part of the largest Floquet multiplier except that of a shift in time, dimensionless; 0 if all are below
     /// 1e-6.
     pub multiplier_re: Vec<f64>,
-    /// Imaginary part of the same multiplier.
+    /// Imaginary part of the multiplier with the real part `multiplier_re`.
     pub multiplier_im: Vec<f64>,
     /// The reason why the branch ends.
     pub end: EndName,
@@ -396,7 +396,7 @@ pub struct SpecialDocument {
     pub alpha: f64,
     /// r at the point, dimensionless (12).
     pub r: f64,
-    /// T of the cycle at the point, in Γ/k; at a Hopf point that of the oscillation at onset.
+    /// Period of the cycle at the point, in Γ/k; at a Hopf point that of the oscillation at onset.
     pub period: f64,
     /// Half peak-to-peak of l of the cycle at the point, in σ; 0 at a Hopf point.
     pub amplitude_x0: f64,

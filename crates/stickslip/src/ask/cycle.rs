@@ -172,7 +172,7 @@ impl Ask for Cycle {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CycleFound {
-    /// T, in Γ/k.
+    /// Period T, in Γ/k.
     pub period: f64,
     /// Error of `period`, in Γ/k.
     #[serde(default)]

@@ -9,8 +9,8 @@ const EXACT: f64 = 1e-10;
 /// Largest number of exponents in a list; fewer lie to the right of [`leftmost`].
 const MOST_ROOTS: usize = 1000;
 
-/// Re λ, in k/Γ, below which roots are not listed. There the roots of a footprint fitted to a table are round-off, and
-/// the others decay by e^{-60} or more over one tip width.
+/// Re λ, in k/Γ, below which roots are not listed. There the roots of a footprint fitted to a table are round-off.
+/// Other roots there decay by e^{-60} or more over one tip width.
 pub(crate) fn leftmost(model: &Model) -> f64 {
     /// Largest number of Gaussians of a tip that was not fitted to a table.
     const FEW: usize = 16;

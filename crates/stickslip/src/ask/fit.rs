@@ -454,7 +454,7 @@ pub struct NumberFitted {
     pub estimate: EstimateDocument,
     /// Values at which the parameter was held in the profile likelihood, ascending.
     pub profile_values: Vec<f64>,
-    /// Signed root of the excess of χ² over its minimum at each of these values: the interval ends at about ±1.96.
+    /// Signed root of the excess of χ² over its minimum at each of `profile_values`: the interval ends at about ±1.96.
     pub profile_roots: Vec<f64>,
 }
 

@@ -41,9 +41,9 @@ pub struct FitImageFound {
     pub phase: f64,
     /// Fitted scale of the heights, k/a: heights are k/a times σ² times those of the model.
     pub height_gain: f64,
-    /// αc of this raster at this r, dimensionless; null if there is none, or if the tip can leave its lines.
+    /// αc of a raster of this pitch at the fitted r, dimensionless; null if there is none, or if the tip can leave its lines.
     pub critical_alpha: Option<f64>,
-    /// α at which a wave with this wave vector neither grows nor decays at this r, dimensionless.
+    /// α at which a wave with the wave vector (`q`, `kappa`) neither grows nor decays at the fitted r, dimensionless.
     pub neutral_alpha: f64,
     /// Direction in which the tip moved along the lines when it made the ripples.
     pub scan: ScanName,
@@ -58,8 +58,8 @@ pub struct FitImageFound {
     /// Probability of an equally large deviation from settled ripples of the model by chance; below 0.005 the model does
     /// not explain the image.
     pub misfit: f64,
-    /// Standard deviation of the first harmonic of the ripples between parts of the image, without that of the noise,
-    /// over the size of the harmonic. Above 0.05 the ripples have not settled.
+    /// Standard deviation of the first harmonic between parts of the image, without that of the noise, relative to its
+    /// size. Above 0.05 the ripples have not settled.
     pub modulation: f64,
     /// Standard deviation of the residuals of all pixels.
     pub residual: f64,
@@ -168,7 +168,7 @@ pub struct LateralDocument {
     pub model_phase: f64,
     /// Distance along the lines by which the lateral image is ahead of the model, in the unit of the image.
     pub shift: f64,
-    /// Standard deviation of this distance.
+    /// Standard deviation of `shift`.
     pub shift_error: f64,
 }
 
@@ -212,7 +212,7 @@ pub struct RippleProfileDocument {
     pub distance: Vec<f64>,
     /// Mean height.
     pub height: Vec<f64>,
-    /// Standard deviation of this mean.
+    /// Standard deviation of `height`.
     pub error: Vec<f64>,
     /// Height of the model.
     pub model: Vec<f64>,

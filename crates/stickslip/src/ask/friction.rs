@@ -40,7 +40,7 @@ pub struct FrictionFound {
     pub stiffness: EstimateDocument,
     /// Standard deviation of the noise of the force from row to row.
     pub noise: f64,
-    /// The loop, in these units.
+    /// The loop, in `length_unit` and `force_unit`.
     pub rows: LoopColumns,
 }
 

@@ -46,9 +46,9 @@ pub struct MeasuredTipFound {
     pub candidates: Vec<CandidateDocument>,
     /// αc at the r of the parameters, dimensionless.
     pub critical_alpha: EstimateDocument,
-    /// ω at this critical point, in k/Γ.
+    /// ω at the critical point with `critical_alpha`, in k/Γ.
     pub critical_omega: EstimateDocument,
-    /// Trapping threshold αt at the same r, dimensionless; null if there is none.
+    /// Trapping threshold αt at the r of the parameters, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
     pub profile: FittedDocument,
@@ -311,9 +311,9 @@ pub struct SideDocument {
     pub residual: f64,
     /// αc at the r of the parameters, dimensionless.
     pub critical_alpha: EstimateDocument,
-    /// ω at this critical point, in k/Γ.
+    /// ω at the critical point with `critical_alpha`, in k/Γ.
     pub critical_omega: EstimateDocument,
-    /// Trapping threshold αt at the same r, dimensionless; null if there is none.
+    /// Trapping threshold αt at the r of the parameters, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
 }
 
@@ -396,8 +396,8 @@ pub struct CandidateDocument {
     pub parameters: usize,
     /// Standard deviation of the residuals, in the unit of the heights.
     pub residual: f64,
-    /// Schwarz' criterion, n ln(S/n) + p ln n for n rows, p parameters and a sum S of squared residuals, minus that of
-    /// the chosen fit.
+    /// Schwarz' criterion minus that of the chosen fit: n ln(S/n) + p ln n with n rows, p parameters and the sum S of
+    /// squared residuals.
     pub criterion: f64,
     /// αc of this sum; null if it has none.
     pub critical_alpha: Option<f64>,

@@ -38,7 +38,7 @@ pub struct LayerDocument {
     pub center_y: f64,
     /// v, in σ
     pub width_y: f64,
-    /// g
+    /// g, a sum of Gaussians.
     pub gaussians: Vec<GaussianDocument>,
 }
 
@@ -113,8 +113,8 @@ impl TipDocument {
     }
 }
 
-/// Largest number of half-waves at the bandwidth of f within its reach. A Gaussian has about 80, a table of 2,000 rows
-/// 15,000. The lattice of the groove has twice as many cells.
+/// Largest number of half-waves at the bandwidth of f within its reach. A Gaussian has about 80; a table of 2,000 rows
+/// has 15,000. The lattice of the groove has twice as many cells.
 const MOST_DETAILS: f64 = 1e5;
 
 /// Rejects a tip function with too much detail over its reach: the lattice of the groove would not fit in memory.

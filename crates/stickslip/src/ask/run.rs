@@ -234,12 +234,12 @@ pub struct SupportPathParameters {
 pub struct Profile {
     /// Positions, ascending, in σ.
     pub x: Vec<f64>,
-    /// Heights at these positions, in kσ²/a.
+    /// Heights at the positions `x`, in kσ²/a.
     pub u: Vec<f64>,
 }
 
 /// Heights u at the points (x, y) of a grid, interpolated by a bicubic spline. Before the first x and after the last, u
-/// is 0; beyond the first and last y, it is that of the nearest row.
+/// is 0; beyond the first and last y, u is that of the nearest row.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTable {
@@ -269,7 +269,7 @@ pub struct PulseParameters {
 pub struct ForceTable {
     /// Times, ascending, in Γ/k.
     pub t: Vec<f64>,
-    /// Forces at these times, in kσ.
+    /// Forces at the times `t`, in kσ.
     pub force: Vec<f64>,
 }
 

@@ -59,8 +59,8 @@ impl Units {
     /// The answer, with critical values of the basic model.
     ///
     /// # Errors
-    /// A quantity is out of its range, there are too few or too many of them, or those missing do not follow from the
-    /// others.
+    /// A quantity is out of its range; too few or too many quantities are given; or the missing ones do not follow from
+    /// them.
     pub fn answered(self) -> Result<UnitsDocument, Failure> {
         let given = self.given()?;
         let physical = given.solved()?;
@@ -260,9 +260,9 @@ pub struct CriticalUnits {
     pub alpha: Option<f64>,
     /// N in m/s above which there is stick-slip.
     pub indentation_rate: Option<f64>,
-    /// Period at this onset, in s.
+    /// Period at the onset with this `indentation_rate`, in s.
     pub period: Option<f64>,
-    /// Wavelength at this onset, in m.
+    /// Wavelength at the onset with this `indentation_rate`, in m.
     pub wavelength: Option<f64>,
     /// rc(α), the largest one, dimensionless.
     pub r: Option<f64>,

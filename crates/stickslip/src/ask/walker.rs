@@ -17,8 +17,8 @@ use stickslip_tip::walker::{
     WalkerError, WalkerPast, WalkerScenario, WalkerTrajectory, run_observed,
 };
 
-/// A particle in the plane, driven by the field of J0 that it leaves: M x'' + x' = α ∇Q - Ω ẑ × x' - K x + F, with
-/// Q = ∫ J0(|x - x(t')|) exp(-(t-t')/T) dt'. It starts at t = 0.
+/// A particle in the plane, driven by the field Q of J0 that it leaves: M x'' + x' = α ∇Q - Ω ẑ × x' - K x + F. Here Q
+/// = ∫ J0(|x - x(t')|) exp(-(t-t')/T) dt'. The particle starts at t = 0.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Walker {
     /// Compute a walker: a particle in the plane without a spring, driven by its own field, with the footprint J0(|x|).

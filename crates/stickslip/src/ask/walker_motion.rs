@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use stickslip_tip::walker::WalkerTrajectory;
 
-/// Length of the last part of a run, which is classified, as a fraction of the run, and the number of points in it.
+/// Length of the last part of a run as a fraction of the run, and the number of points at which it is classified.
 const LATE: f64 = 0.25;
 const POINTS: u32 = 2000;
 /// Largest deviation of a line or circle, relative to its length or radius.

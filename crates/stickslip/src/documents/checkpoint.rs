@@ -85,7 +85,7 @@ pub enum RunFormat {
 pub struct Mark {
     /// Length of the file, in bytes.
     pub bytes: u64,
-    /// CRC-32 (IEEE) of these bytes.
+    /// CRC-32 (IEEE) of the first `bytes` bytes.
     pub crc32: u32,
 }
 

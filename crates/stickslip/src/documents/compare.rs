@@ -9,15 +9,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompareFound {
-    /// Times of the motions below, in Γ/k.
+    /// Times of the motions of `closed` and `grid`, in Γ/k.
     pub t: Vec<f64>,
-    /// Positions of the surfaces below, in σ; the surfaces are those at the last time.
+    /// Positions of the surfaces of `closed` and `grid`, in σ; the surfaces are those at the last time.
     pub x: Vec<f64>,
     /// Results of the closed delay equation.
     pub closed: ClosedDocument,
     /// Results of the PDE on a grid.
     pub grid: GridDocument,
-    /// Largest differences between the two.
+    /// Largest differences between closed equation and grid.
     pub max_difference: DifferenceDocument,
     /// Computing time of the grid over that of the closed equation, each per unit of simulated time. This ratio differs
     /// from run to run, as `work.seconds` does.
@@ -89,7 +89,7 @@ pub struct ClosedWork {
     pub steps: u64,
     /// Number of steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations in all steps.
+    /// Number of Newton iterations in all steps.
     pub newton_iterations: u64,
     /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]
@@ -97,7 +97,7 @@ pub struct ClosedWork {
     /// Number of changes from Taylor steps to collocation.
     #[serde(default)]
     pub switches: u64,
-    /// Shortest time of several repetitions, in seconds.
+    /// Shortest computing time of several repetitions, in seconds.
     pub seconds: f64,
 }
 
@@ -120,15 +120,15 @@ pub struct GridDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GridWork {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
     /// Number of evaluations of the right-hand side of (10).
     pub right_hand_sides: u64,
     /// Number of evaluations of the right-hand side of (11), summed over the cells.
     pub cells_updated: u64,
-    /// Shortest time of all repetitions within half a second, at least one, in seconds.
+    /// Shortest computing time of the repetitions within half a second, at least one, in seconds.
     pub seconds: f64,
 }
 

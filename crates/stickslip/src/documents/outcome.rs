@@ -38,7 +38,7 @@ impl std::fmt::Display for RegimeName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillationDocument {
-    /// T, in Γ/k.
+    /// Period T, in Γ/k.
     pub period: f64,
     /// Error of the period, in Γ/k.
     #[serde(default)]

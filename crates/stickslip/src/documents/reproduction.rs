@@ -41,7 +41,7 @@ pub struct NumberDocument {
     pub value: f64,
     /// Half a unit of the last printed digit; 1e-9 for whole numbers, which are exact, 0.005 for exponents.
     pub precision: f64,
-    /// Our value, in the same unit.
+    /// Our value, in the dimensionless units of the paper.
     pub ours: f64,
     /// ours/value - 1; null where the printed value is 0.
     pub relative_difference: Option<f64>,

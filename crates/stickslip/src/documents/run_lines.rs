@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RunLine {
-    /// The first line.
+    /// The first line: the definition of the run.
     Head(Box<RunHead>),
     /// A sample.
     Sample(SampleLine),
-    /// The last line.
+    /// The last line: the result.
     End(Box<RunEnd>),
 }
 

@@ -40,7 +40,7 @@ pub struct StabilityFound {
 pub struct SnakingDocument {
     /// α_y, the smallest α at which some deviation across the scan does not decay.
     pub alpha: f64,
-    /// Frequency ω of this deviation, in k/Γ.
+    /// Frequency ω of the deviation that does not decay at this α, in k/Γ.
     pub omega: f64,
     /// 2πr/ω, in σ.
     pub wavelength: f64,
@@ -68,7 +68,7 @@ pub enum SolveFor {
 pub struct ComplexDocument {
     /// Real part, in the unit of the number.
     pub re: f64,
-    /// Imaginary part, in the same unit.
+    /// Imaginary part, in the unit of the number.
     pub im: f64,
 }
 
@@ -119,12 +119,12 @@ pub enum OnsetKindName {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrappingDocument {
-    /// The smallest α at which such creep exists at this r; null if there is none at any α.
+    /// The smallest α at which permanent creep exists at this r; null if there is none at any α.
     pub alpha: Option<f64>,
-    /// All rates p at the α and r of `parameters`, in 1/σ, ascending; null if there are none.
+    /// All rates p of creep at the α and r of `parameters`, in 1/σ, ascending; null if there are none.
     pub creep_rates: Option<Vec<f64>>,
-    /// The stable rate, which a trapped tip approaches, in 1/σ; null if there is none, or if a complex root lies to
-    /// the right of all rates: then every stick ends in a slip.
+    /// The stable rate of creep, which a trapped tip approaches, in 1/σ. Null if there is none, or if a complex root
+    /// lies to the right of all rates: then every stick ends in a slip.
     pub attracting: Option<f64>,
     /// All roots p of 1 + (α/r) G(p) = 0 with a positive real part, in 1/σ, by falling real part; G is the one-sided
     /// Laplace transform of f''. Null if they could not be computed, see `remarks`.
@@ -136,13 +136,13 @@ pub struct TrappingDocument {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateDocument {
-    /// Left edge, in k/Γ.
+    /// Left edge of the rectangle, in k/Γ.
     pub re_min: f64,
-    /// Right edge, in k/Γ.
+    /// Right edge of the rectangle, in k/Γ.
     pub re_max: f64,
-    /// Upper edge, in k/Γ; the lower edge is its negative.
+    /// Upper edge of the rectangle, in k/Γ; the lower edge is its negative.
     pub im_max: f64,
-    /// Number of roots by the argument principle.
+    /// Number of roots in the rectangle, by the argument principle.
     pub counted: usize,
     /// Number of different listed roots that solve the equation.
     pub found: usize,

@@ -70,7 +70,7 @@ pub struct SurfaceCurve {
     pub t: f64,
     /// Positions, in σ.
     pub x: Vec<f64>,
-    /// Heights at these positions, in kσ²/a.
+    /// Heights at the positions `x`, in kσ²/a.
     pub u: Vec<f64>,
 }
 

@@ -70,9 +70,9 @@ pub type Named<'a> = (&'static str, Column<'a>);
 /// An array in row-major order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Array<'a> {
-    /// Lengths of its axes.
+    /// Lengths of the axes.
     pub shape: Vec<usize>,
-    /// Values; their number is the product of these lengths.
+    /// Values; their number is the product of the lengths in `shape`.
     pub values: Cow<'a, [f64]>,
 }
 

@@ -18,7 +18,7 @@ pub struct VerificationDocument {
     /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, the largest
     /// difference of l and x0 at its samples.
     pub l: LargestDifferenceDocument,
-    /// Difference of y0, with the same limit, if the tip is free to move across the scan.
+    /// Difference of y0, with the limit of `l`, if the tip is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<LargestDifferenceDocument>,
     /// Difference of the surface at the end; null for a run without its history, and in two coordinates. The limit is the effect of an
@@ -39,9 +39,9 @@ pub struct VerificationDocument {
 pub struct LargestDifferenceDocument {
     /// The difference: of l and y0 in σ, of u in kσ²/a.
     pub largest: f64,
-    /// Place of this difference: time for l and y0, in Γ/k; position for u, in σ.
+    /// Place of the largest difference: time for l and y0, in Γ/k; position for u, in σ.
     pub at: f64,
-    /// The limit at this place, in the unit of the difference.
+    /// The limit at the place of the largest difference, in its unit.
     pub allowed: f64,
 }
 
@@ -60,7 +60,7 @@ pub struct LinesDocument {
     /// Number of samples with a difference beyond its limit: few if lines were damaged, most of the later ones if the
     /// motion amplifies errors.
     pub wrong: u64,
-    /// Number of the first of these lines; null if there is none.
+    /// Number of the first line with a difference beyond its limit; null if there is none.
     pub first_wrong_line: Option<u64>,
 }
 

@@ -50,13 +50,13 @@ impl From<&Model> for SteadyState {
 pub struct WorkDocument {
     /// Memory in use at the end.
     pub memory: String,
-    /// Reason for the choice of this memory.
+    /// Reason for the choice of `memory`.
     pub memory_reason: String,
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations in all steps.
+    /// Number of Newton iterations in all steps.
     pub newton_iterations: u64,
     /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]

@@ -1,5 +1,5 @@
 //! Documents in nm, s and nN. The dimensionless numbers are kept, and copies are multiplied by the scales of an
-//! experiment: σ for lengths, Γ/k for times, kσ²/a for heights and kσ for forces.
+//! experiment. The scales are σ for lengths, Γ/k for times, kσ²/a for heights and kσ for forces.
 //!
 //! All documents, tables and figures follow one rule: [`dimension`] defines the dimension of each number by its name,
 //! and [`Dimension`] converts it to a number with a unit. Numbers whose scale is unknown are omitted.

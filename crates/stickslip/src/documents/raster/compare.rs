@@ -13,7 +13,7 @@ use stickslip_raster::{Line, Plan, Scanned};
 pub struct RasterCompareFound {
     /// The lines in the order in which they were scanned.
     pub lines: Vec<ComparedLine>,
-    /// Positions of the surfaces below, in σ; the surfaces are those after the last line.
+    /// Positions of `closed_u` and `grid_u` along the lines, in σ; these surfaces are those after the last line.
     pub x: Vec<f64>,
     /// y of the rows, one for every line, ascending, in σ.
     pub y: Vec<f64>,
@@ -21,7 +21,7 @@ pub struct RasterCompareFound {
     pub closed_u: Vec<Vec<f64>>,
     /// Heights from the grid, in kσ²/a.
     pub grid_u: Vec<Vec<f64>>,
-    /// Largest differences between the two.
+    /// Largest differences between closed equation and grid.
     pub max_difference: DifferenceDocument,
     /// Cost of the closed equation.
     pub closed_work: RasterComparedWork,
@@ -79,13 +79,13 @@ pub struct ComparedLine {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterComparedWork {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations in all steps.
+    /// Number of Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Shortest time of all repetitions within half a second, at least one, in seconds.
+    /// Shortest computing time of the repetitions within half a second, at least one, in seconds.
     pub seconds: f64,
 }
 

@@ -30,11 +30,11 @@ pub struct RasterFound {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterWork {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations in all steps.
+    /// Number of Newton iterations in all steps.
     pub newton_iterations: u64,
     /// Number of Taylor expansions; each makes one or several steps without iteration.
     #[serde(default)]

@@ -30,7 +30,7 @@ pub struct RasterLine {
 pub enum LineRegimeName {
     /// The lag changes by less than 2 % between 20 % and 85 % of the line.
     Steady,
-    /// The lag changes by more.
+    /// The lag changes by 2 % or more between 20 % and 85 % of the line.
     StickSlip,
     /// The tip covered less than half of the line: it stayed in a pit at one of its ends.
     StuckAtTheEdge,
@@ -87,7 +87,7 @@ pub struct LineHistory {
     /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Vec<Vec<f64>>>,
-    /// y0 on the surface at the start of each step and at its nodes, in σ, if the tip is free to move across the lines.
+    /// y0 on the surface at the start of each step and at its nodes, in σ. Present if the tip is free to move across the lines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub y0: Option<Vec<Vec<f64>>>,
 }
@@ -103,8 +103,8 @@ pub struct KeptLine {
     /// The heights of each step, if there is a depth limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heights: Option<Vec<Vec<f64>>>,
-    /// For each step the distance of the tip from the line at its start, and its changes at the nodes, if the tip is free
-    /// to move across.
+    /// For each step of a tip that is free to move across: its distance from the line at the start, and the changes at
+    /// the nodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub across: Option<Vec<[f64; 1 + STAGES]>>,
     /// Numbers of accepted steps, rejected steps, and Newton iterations.

@@ -47,12 +47,12 @@ pub struct PatternDocument {
     /// Error of the crest angle (95 %), in degrees.
     #[serde(default)]
     pub crest_angle_error: Option<f64>,
-    /// Coherence: the correlation of each line with the one before, after a shift; 1 if all shifts are equal.
+    /// Correlation of each line with the one before, shifted by the same distance for all lines; at most 1.
     pub coherence: f64,
     /// Error of the coherence (95 %).
     #[serde(default)]
     pub coherence_error: Option<f64>,
-    /// Coherence of lines in the same direction, on a zigzag.
+    /// Coherence of successive lines in the same direction, on a zigzag.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coherence_same_way: Option<f64>,
     /// Half peak-to-peak of the surface, in kσ²/a.

@@ -18,15 +18,15 @@ pub struct EnsembleDocument {
     pub regimes: RegimeCounts,
     /// Statistics of the periods of points in stick-slip, in Γ/k; null if there are none.
     pub period: Option<StatisticsDocument>,
-    /// Statistics of the wavelengths of these points, in σ.
+    /// Statistics of the wavelengths of points in stick-slip, in σ; null if there are none.
     pub wavelength: Option<StatisticsDocument>,
-    /// Statistics of the amplitudes of these points, in σ.
+    /// Statistics of the amplitudes of x0 of points in stick-slip, in σ; null if there are none.
     pub amplitude_x0: Option<StatisticsDocument>,
     /// Statistics of the amplitudes of the surface far behind the tip, in kσ²/a.
     pub amplitude_u: Option<StatisticsDocument>,
     /// Statistics of the mean of l over the second half of each run, in σ, in all regimes.
     pub mean_l: Option<StatisticsDocument>,
-    /// Statistics of the standard deviation of l over the same time, in σ.
+    /// Statistics of the standard deviation of l over the second half of each run, in σ.
     pub deviation_l: Option<StatisticsDocument>,
     /// Statistics of the mean distance between slips in each run, in σ, whether its motion is periodic or not.
     #[serde(default)]
@@ -37,17 +37,17 @@ pub struct EnsembleDocument {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegimeCounts {
-    /// Steady.
+    /// Number of steady points.
     pub steady: usize,
-    /// Stick-slip.
+    /// Number of points in stick-slip.
     pub stick_slip: usize,
-    /// Trapped.
+    /// Number of trapped points.
     pub trapped: usize,
-    /// Drifting.
+    /// Number of drifting points.
     pub drifting: usize,
-    /// Transient: not settled.
+    /// Number of transient points, which have not settled.
     pub transient: usize,
-    /// Failed, with the reason in their `error`.
+    /// Number of failed points, with the reason in their `error`.
     pub failed: usize,
 }
 

@@ -74,7 +74,7 @@ pub struct SweepPoint {
     /// Mean of l at 2,001 evenly spaced times in the second half of the run, in σ; for requested runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_l: Option<f64>,
-    /// Standard deviation of l at these times, in σ: a measure of oscillation or noise.
+    /// Standard deviation of l at the times of `mean_l`, in σ: a measure of oscillation or noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviation_l: Option<f64>,
     /// Mean distance that the tip moves between slips in the second half of a requested run, in σ. A slip is a fall of

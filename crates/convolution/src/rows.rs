@@ -84,13 +84,11 @@ impl Rows {
         (start, offset)
     }
 
-    /// Copies the cells of a row.
     pub(crate) fn copy(&self, row: usize, out: &mut [f64]) {
         let cells = self.cells[row..].iter().step_by(self.stride);
         out.iter_mut().zip(cells).for_each(|(out, cell)| *out = *cell);
     }
 
-    /// Sets the cells of a row.
     pub(crate) fn set(&mut self, row: usize, from: &[f64]) {
         let cells = self.cells[row..].iter_mut().step_by(self.stride);
         cells.zip(from).for_each(|(cell, from)| *cell = *from);

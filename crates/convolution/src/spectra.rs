@@ -115,7 +115,6 @@ impl Spectra {
         self.transformed()
     }
 
-    /// The transform of the cells.
     fn transformed(&mut self) -> Vec<Complex<f64>> {
         self.forward
             .process_with_scratch(&mut self.cells, &mut self.modes, &mut self.scratch)

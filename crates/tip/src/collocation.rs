@@ -23,7 +23,7 @@ pub struct Collocation {
     /// Derivatives at the nodes of the polynomial through 0 at τ = 0 and given values at the nodes: the inverse of
     /// `a`.
     pub derivative: [Stages; STAGES],
-    /// Derivative of the same polynomial (as for `derivative`) at τ = 0.
+    /// Derivative at τ = 0 of the polynomial described at `derivative`.
     pub derivative_at_start: Stages,
     /// Entry j: derivatives at τ = 0 and at the nodes for a unit value at node j. The last derivative is repeated, to
     /// fill a vector register.

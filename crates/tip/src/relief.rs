@@ -22,7 +22,7 @@ pub struct Relief(Shape);
 /// White noise on a grid, interpolated by a cubic spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
-    /// Heights are uniform in [-amplitude, amplitude], in kσ²/a; 0 or above.
+    /// Amplitude A ≥ 0, in kσ²/a: heights are uniform in [-A, A].
     pub amplitude: f64,
     /// Distance of the grid points, in σ. White noise has no limit for distances → 0, so that the spacing is a
     /// parameter of the start.
@@ -76,7 +76,6 @@ const ROUNDINGS_AT_A_KNOT: f64 = 64.0 * f64::EPSILON;
 const MOST_AT_A_KNOT: f64 = 0.05;
 
 impl Piece {
-    /// The whole axis.
     pub(crate) const EVERYWHERE: Self =
         Self { low: f64::NEG_INFINITY, high: f64::INFINITY, slack: f64::INFINITY, index: None };
 }

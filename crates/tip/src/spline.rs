@@ -58,7 +58,6 @@ impl CubicSpline {
         &self.m
     }
 
-    /// The knots.
     pub(crate) fn knots(&self) -> &[f64] {
         &self.x
     }

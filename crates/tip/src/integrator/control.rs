@@ -24,7 +24,6 @@ const LARGEST_SHRINKAGE: f64 = 0.2;
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a small count")]
 const ORDER_WITHIN_A_STEP: i32 = STAGES as i32 + 1;
 
-/// The step-size control.
 #[derive(Debug, Clone)]
 pub(crate) struct Control {
     tolerance: f64,

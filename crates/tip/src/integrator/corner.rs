@@ -149,7 +149,6 @@ impl Corner {
 }
 
 impl Integrator<'_> {
-    /// As [`Corner::turn`].
     pub(super) fn turn(&mut self) -> bool {
         self.corner.as_mut().is_some_and(Corner::turn)
     }
@@ -159,12 +158,10 @@ impl Integrator<'_> {
         Some(Heights { start: corner.height, nodes })
     }
 
-    /// As [`Corner::ahead`].
     pub(super) fn heights_ahead(&self, h: f64) -> Stages {
         self.corner.map_or([0.0; STAGES], |corner| corner.ahead(self.last.as_ref(), h))
     }
 
-    /// As [`Corner::error`].
     pub(super) fn error_of_heights(&self, heights: Option<&Heights>, h: f64) -> f64 {
         let known = self.corner.as_ref().zip(heights);
         known.map_or(0.0, |(corner, heights)| corner.error(heights, self.last.as_ref(), h))

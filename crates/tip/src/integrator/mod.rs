@@ -55,7 +55,6 @@ pub struct Integrator<'a> {
     memory: Policy,
     control: Control,
     t: f64,
-    /// Start time.
     start: f64,
     /// End of the initial rest by symmetry: until then no force acts on the tip, and the groove is even about it.
     rest_until: f64,
@@ -185,7 +184,7 @@ impl<'a> Integrator<'a> {
         &self.memory
     }
 
-    /// The memory in use, to be replaced by one of another past.
+    /// The memory in use, to be replaced by a memory of another past.
     pub fn memory_mut(&mut self) -> &mut Policy {
         &mut self.memory
     }

@@ -57,7 +57,6 @@ pub(super) struct Unknowns {
     pub(super) height: Stages,
 }
 
-/// Result of an iteration.
 pub(super) struct Solved {
     pub(super) iterations: u64,
     /// `None` if it did not converge.
@@ -200,7 +199,6 @@ impl<'a> StageEquations<'a> {
         Solution { displacement, height, spent, curvature_at_end }
     }
 
-    /// Computes and factors the Jacobian.
     fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
         let known = &look.known;
         if let Some(depth) = &self.depth {

@@ -16,7 +16,7 @@ pub struct Derivatives {
     pub past: [f64; ROOM],
     /// The farthest-forward point of the past, as a displacement from the tip; -∞ without a past.
     pub farthest: f64,
-    /// Allowed distance of the tip behind this point.
+    /// Allowed distance of the tip behind `farthest`.
     pub retreat: f64,
     /// Scratch space for the memories.
     pub(super) room: Vec<f64>,

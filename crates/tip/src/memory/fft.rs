@@ -119,7 +119,6 @@ impl Fft {
         direct::add(&self.pending, &self.tip, (self.position, at), groove);
     }
 
-    /// Multiplies all weights by a factor.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.pending.iter_mut().for_each(|(_, weight)| *weight *= factor);
         self.density.scale(factor);

@@ -25,14 +25,12 @@ impl<'a> Groove<'a> {
         Self { height: Some(height), ..self }
     }
 
-    /// Multiplies all results by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         let height = self.height.iter_mut().flat_map(|height| height.iter_mut());
         let told = self.slope.iter_mut().chain(self.curvature.iter_mut()).chain(height);
         told.for_each(|told| *told *= factor);
     }
 
-    /// Sets all results to 0.
     pub(super) fn clear(&mut self) {
         self.slope.fill(0.0);
         self.curvature.fill(0.0);

@@ -203,7 +203,6 @@ impl Policy {
         }
     }
 
-    /// Multiplies all sums by a factor.
     #[cold]
     fn scale(&mut self, factor: f64) {
         self.record.iter_mut().for_each(|record| record.scale(factor));

@@ -187,7 +187,6 @@ impl Record {
         }
     }
 
-    /// Multiplies all weights by a factor.
     pub(crate) fn scale(&mut self, factor: f64) {
         self.nodes.iter_mut().for_each(|(_, weight)| *weight *= factor);
         if let Kept::Gathered(bins) = &mut self.kept {
@@ -247,7 +246,6 @@ impl Record {
         }
     }
 
-    /// Number of steps added.
     pub(super) fn steps(&self) -> usize {
         self.blocks().len()
     }

@@ -162,7 +162,6 @@ impl Ladder {
 }
 
 impl Chain {
-    /// A chain for a number of products.
     pub(super) fn new(order: usize, products: usize) -> Self {
         let zero = [0.0; MOST_ORDER];
         let displacement = [Series::zero(order), Series::zero(order)];

@@ -54,7 +54,6 @@ impl Extent {
         Ok(())
     }
 
-    /// Number of bins kept.
     pub(super) fn bins(&self) -> usize {
         self.bins.len()
     }

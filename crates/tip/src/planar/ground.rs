@@ -20,13 +20,11 @@ impl Ground {
         Self { rows: vec![] }
     }
 
-    /// Sets the initial values.
     pub(super) fn start(&mut self, jet: &Partials) {
         self.rows.clear();
         self.rows.push(*jet);
     }
 
-    /// Coefficients of order k.
     pub(super) fn at(&self, k: usize) -> &Partials {
         &self.rows[k]
     }

@@ -24,7 +24,6 @@ impl Jet {
         }
     }
 
-    /// Adds another jet times a factor.
     pub(super) fn add(&mut self, factor: f64, jet: &Self) {
         self.height += factor * jet.height;
         self.slope.iter_mut().zip(jet.slope).for_each(|(sum, slope)| *sum += factor * slope);
@@ -32,7 +31,6 @@ impl Jet {
         curvatures.for_each(|(sum, curvature)| *sum += factor * curvature);
     }
 
-    /// The jet multiplied by a factor.
     pub(super) fn times(self, factor: f64) -> Self {
         Self {
             height: factor * self.height,

@@ -35,7 +35,6 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// An empty memory.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
         let (prepared, farthest) = (Prepared::cached(&fit), f64::NEG_INFINITY);
         Self { fit, prepared, groups: 0, states: vec![], farthest, moments: vec![] }

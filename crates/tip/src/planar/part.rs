@@ -31,7 +31,6 @@ pub(super) struct Part {
 /// amounts to three quarters of the tolerance.
 const MOST_SLACK: f64 = 30.0;
 
-/// Storage of the past.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Storage {
     /// Exponentials that allow for this retreat, with a lattice for retreats beyond it or without one.
@@ -43,7 +42,6 @@ pub(super) enum Storage {
 }
 
 impl Part {
-    /// An empty memory.
     pub(super) fn new(product: &Product, storage: Storage) -> Result<Self, FitError> {
         let Product { along, bells, size, slope_error, layer_error } = product;
         let lattice = || Lattice::new(along).map(|lattice| Box::new(lattice) as Box<dyn Layered>);
@@ -82,7 +80,6 @@ impl Part {
         self.frame.restore(state, self.past.groups())
     }
 
-    /// Number of real numbers in the memory.
     pub(super) fn memory_size(&self) -> usize {
         self.past.size() + self.visits.as_ref().map_or(0, Visits::size) + self.frame.size()
     }
@@ -170,7 +167,6 @@ pub(super) fn sum(parts: &[Part], of: impl FnMut(&Part) -> Jet) -> Jet {
     sum
 }
 
-/// Scratch space for layers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Room {
     layers: Vec<Lanes>,

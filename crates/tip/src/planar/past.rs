@@ -22,7 +22,6 @@ pub(super) struct TooFar {
 }
 
 impl Past {
-    /// An empty memory.
     pub(super) fn new(modes: Modes, other: Option<Box<dyn Layered>>) -> Self {
         Self { modes: Some(modes), other, goes_back: false }
     }
@@ -73,7 +72,6 @@ impl Past {
         self.modes.as_ref().map_or(&[], Modes::of_tip)
     }
 
-    /// As [`Layered::at`].
     pub(super) fn at(&self, displacement: f64, jet: &mut Integrals<'_>) {
         self.in_use().iter().for_each(|memory| memory.at(displacement, jet));
     }
@@ -88,32 +86,26 @@ impl Past {
         self.each().next().map_or(f64::NEG_INFINITY, |memory| memory.behind())
     }
 
-    /// As [`Layered::groups`].
     pub(super) fn groups(&self) -> usize {
         self.each().next().map_or(0, |memory| memory.groups())
     }
 
-    /// As [`Layered::resize`].
     pub(super) fn resize(&mut self, groups: usize) {
         self.each_mut().for_each(|memory| memory.resize(groups));
     }
 
-    /// As [`Layered::recenter`].
     pub(super) fn recenter(&mut self, distance: f64) {
         self.each_mut().for_each(|memory| memory.recenter(distance));
     }
 
-    /// As [`Layered::fade`].
     pub(super) fn fade(&mut self, factor: f64) {
         self.each_mut().for_each(|memory| memory.fade(factor));
     }
 
-    /// As [`Layered::remember_steady`].
     pub(super) fn remember_steady(&mut self, past: &SteadyPast, phi: &[Lanes]) {
         self.each_mut().for_each(|memory| memory.remember_steady(past, phi));
     }
 
-    /// As [`Layered::remember`].
     pub(super) fn remember(&mut self, position: &[f64], weighted: &[Lanes]) {
         self.each_mut().for_each(|memory| memory.remember(position, weighted));
     }
@@ -131,7 +123,6 @@ impl Past {
         Ok(())
     }
 
-    /// Number of real numbers in the memory.
     pub(super) fn size(&self) -> usize {
         self.each().map(|memory| memory.size()).sum()
     }

@@ -27,7 +27,6 @@ pub(super) struct Product {
     pub(super) layer_error: f64,
 }
 
-/// All products of a footprint.
 #[derive(Debug, Clone)]
 pub(super) struct Products {
     all: Vec<Product>,
@@ -114,7 +113,6 @@ impl Products {
         self.error
     }
 
-    /// The smallest width across.
     pub(super) fn width(&self) -> f64 {
         self.all.iter().map(|product| product.bells.width()).fold(f64::INFINITY, f64::min)
     }

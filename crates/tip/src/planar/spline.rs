@@ -14,7 +14,6 @@ use crate::spline::{CubicSpline, Ends};
 /// `∂x^a ∂y^b u` in row a and column b; higher derivatives of a bicubic are 0.
 pub(super) type Partials = [[f64; 4]; 4];
 
-/// A bicubic spline.
 #[derive(Debug, Clone)]
 pub(super) struct Bicubic {
     x: Vec<f64>,

@@ -56,7 +56,6 @@ pub(super) struct Under<'a> {
 /// Displacements at the nodes, along and across, and heights; the heights are 0 without a depth limit.
 pub(super) type Unknowns = [Stages; 3];
 
-/// Result of an iteration.
 pub(super) struct Solved {
     pub(super) iterations: u64,
     /// `None` if it did not converge.

@@ -74,7 +74,6 @@ pub(super) struct Field {
 
 /// Range of y on both sides of the line that noise covers, in σ; the outermost row continues beyond it.
 const COVERED: f64 = 24.0;
-/// Largest number of points of a noise.
 const MOST_POINTS: f64 = 5e6;
 
 impl Texture {

@@ -41,7 +41,6 @@ impl Visits {
         }
     }
 
-    /// Multiplies the whole past by a factor.
     pub(super) fn fade(&mut self, factor: f64) {
         if let Some(scale) = self.fading.by(factor) {
             self.record.scale(scale);
@@ -70,7 +69,6 @@ impl Visits {
         all
     }
 
-    /// Number of real numbers in the history.
     pub(super) fn size(&self) -> usize {
         3 * self.across.len()
     }

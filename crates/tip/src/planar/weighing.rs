@@ -38,7 +38,6 @@ impl Weighing {
         &self.weights
     }
 
-    /// Sets the initial values.
     pub(super) fn start(&mut self, height: f64, weight: f64) {
         self.height.set(0, height);
         self.weights.set(0, weight);

@@ -60,7 +60,6 @@ pub struct LimitedFactors {
 }
 
 impl Known {
-    /// All values 0.
     pub(crate) fn nothing() -> Self {
         let zero = [0.0; STAGES];
         Self {

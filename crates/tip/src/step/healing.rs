@@ -31,7 +31,6 @@ pub(super) fn plus_one(mut matrix: Matrix) -> Matrix {
     matrix
 }
 
-/// The matrix with these columns.
 pub(super) fn columns(column: impl Fn(usize) -> [f64; STAGES]) -> Matrix {
     let columns: Matrix = std::array::from_fn(column);
     std::array::from_fn(|i| std::array::from_fn(|k| columns[k][i]))

@@ -46,7 +46,6 @@ pub fn carving(factor: f64) -> Matrix {
 }
 
 impl OwnGroove {
-    /// All values 0.
     pub(crate) fn nothing() -> Self {
         Self { slope: [[0.0; PAIRS.len()]; 2], curvature: [[0.0; PAIRS.len()]; 2] }
     }
@@ -127,7 +126,6 @@ pub struct OwnHeight {
 }
 
 impl OwnHeight {
-    /// All values 0.
     pub(crate) fn nothing() -> Self {
         Self { value: [[0.0; PAIRS.len()]; 2], apex: 0.0 }
     }

@@ -14,7 +14,6 @@ use super::series::{MOST_ORDER, Series};
 use crate::memory::ROOM;
 use multiversion::multiversion;
 
-/// Number of SIMD lanes.
 const LANES: usize = 4;
 /// Length of a row, with room for a group of lanes that begins at its second entry.
 const WIDTH: usize = ROOM + LANES;

@@ -128,7 +128,6 @@ pub(crate) struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// Number of pieces.
     fn count(&self) -> usize {
         self.nodes.len() / STAGES
     }

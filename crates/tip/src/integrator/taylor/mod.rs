@@ -220,7 +220,6 @@ impl Integrator<'_> {
         self.work.series += 1;
     }
 
-    /// Adds the whole step to the memory.
     fn remember_series(&mut self, displacement: &Series, fastest: f64, total: f64) {
         self.velocity = displacement.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.

@@ -7,7 +7,6 @@ use crate::history::{Heights, Step};
 use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
 
-/// Largest number of pieces of a series.
 pub(crate) const MOST_PIECES: usize = 8;
 /// Room for values at the nodes of all pieces.
 pub(crate) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =

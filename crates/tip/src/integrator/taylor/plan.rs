@@ -7,7 +7,6 @@ use super::values::Outlook;
 use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
 use crate::step;
 
-/// A planned step by series.
 pub(super) struct Plan {
     pub(super) length: f64,
     pub(super) pieces: usize,

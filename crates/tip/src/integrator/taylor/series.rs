@@ -1,6 +1,5 @@
 //! Power series, up to an order.
 
-/// The highest order.
 pub(crate) const MOST_ORDER: usize = 28;
 const LANES: usize = 4;
 /// Coefficients, with room to fill the lanes.

@@ -62,7 +62,6 @@ impl Switch {
         true
     }
 
-    /// Records a step by series.
     pub(crate) fn made_series(&mut self) {
         self.in_series = true;
     }

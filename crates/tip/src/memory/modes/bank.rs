@@ -123,14 +123,12 @@ impl Bank {
         }
     }
 
-    /// Clears the past.
     pub(super) fn clear(&mut self) {
         for group in &mut self.groups {
             group.state = ([0.0; LANES], [0.0; LANES]);
         }
     }
 
-    /// Multiplies all states by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         for group in &mut self.groups {
             for i in 0..LANES {

@@ -2,7 +2,6 @@
 
 use crate::collocation::{STAGES, Stages};
 
-/// Highest degree of expansions.
 pub(crate) const HIGHEST_DEGREE: usize = 40;
 
 /// The slope of the groove about a point near the tip: `Σ_k c_k (x - center)^k`.

@@ -51,7 +51,6 @@ pub(super) struct Modes {
 const BEYOND_THE_STAGES: f64 = 1.05;
 
 impl Modes {
-    /// An empty memory.
     pub(super) fn new(fit: Arc<Fit>) -> Self {
         let prepared = Prepared::cached(&fit);
         let (bank, groove) = (Bank::new(&prepared.bank), LocalGroove::nowhere());
@@ -89,7 +88,6 @@ impl Modes {
         self.bank.advance(position, weight);
     }
 
-    /// Multiplies all weights by a factor.
     pub(super) fn scale(&mut self, factor: f64) {
         self.bank.scale(factor);
         self.groove.forget();

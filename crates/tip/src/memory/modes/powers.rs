@@ -7,7 +7,6 @@ use super::term::Term;
 use crate::memory::derivatives::{Derivatives, ROOM};
 use multiversion::multiversion;
 
-/// Number of SIMD lanes.
 const LANES: usize = 4;
 pub(crate) type Row = [f64; ROOM];
 

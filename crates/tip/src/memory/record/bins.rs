@@ -158,7 +158,6 @@ impl Bins {
     }
 }
 
-/// Number of SIMD lanes.
 const LANES: usize = 4;
 
 /// Adds `weight T_m(y)`, m = 0, 1, …: by `T_{m+4} = 2 T_4 T_m - T_{|m-4|}` four at a time.

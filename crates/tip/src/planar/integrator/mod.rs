@@ -71,7 +71,6 @@ pub struct PlanarRunning<'a> {
     last: Option<Step>,
     made: VecDeque<Step>,
     work: Work,
-    /// Scratch space for layers.
     room: Vec<Lanes>,
 }
 

@@ -17,7 +17,6 @@ use crate::integrator::taylor::{
 };
 use crate::step;
 
-/// A planned step.
 struct Plan {
     length: f64,
     pieces: usize,

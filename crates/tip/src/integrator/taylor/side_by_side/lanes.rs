@@ -2,7 +2,6 @@
 
 use std::ops::{Add, AddAssign, Mul, MulAssign, Sub};
 
-/// Number of lanes.
 pub(super) const LANES: usize = 8;
 
 /// One number of each motion. Products and sums are taken lane by lane and never fused, so that a lane has the same bits

@@ -33,7 +33,6 @@ use num_complex::Complex;
 use past::{Exponentials, MOST_STRETCHES, Past, Visits};
 use plan::Plan;
 
-/// A motion to be integrated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Begin {
     /// The caller's number for this motion.
@@ -48,7 +47,6 @@ pub(crate) struct Begin {
     pub(crate) steady: Option<f64>,
 }
 
-/// Result of a motion.
 pub(crate) enum Ended<C> {
     /// The motion is complete; its steps were passed to this collector.
     Whole(C, Work),
@@ -63,7 +61,6 @@ pub(crate) struct SideBySide {
     numbers: Numbers,
 }
 
-/// Limits on the steps of all motions.
 struct Limits {
     /// Allowed truncation error of a series.
     error: f64,
@@ -89,7 +86,6 @@ struct Numbers {
     past: Past,
     expansion: Expansion,
     plan: Plan,
-    /// Lengths of the steps.
     length: Lanes,
     /// Coefficients of the displacements in powers of the elapsed fraction of a step.
     displacement: Vec<Lanes>,
@@ -343,7 +339,6 @@ fn follow(numbers: &mut Numbers) {
     }
 }
 
-/// Adds the steps to the pasts.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn remember(numbers: &mut Numbers, exponentials: &Exponentials) {
     let Numbers { past, displacement, visits, length, .. } = numbers;

@@ -8,7 +8,6 @@ use super::Limits;
 use super::lanes::Lanes;
 use crate::collocation::STAGES;
 
-/// Planned steps.
 pub(super) struct Plan {
     /// Lengths up to which series, exponentials and quadrature rules are accurate.
     pub(super) over: Lanes,

@@ -71,7 +71,8 @@ fn errors_after(
     let end = t1 + DURATION;
     let mut steps = vec![];
     while integrator.t() < end {
-        steps.push(integrator.step(end).unwrap());
+        integrator.step(end).unwrap();
+        steps.extend(integrator.last());
         if oldest.is_finite() {
             *integrator.memory_mut() = cut(model, &steps, oldest);
         }

@@ -101,7 +101,8 @@ fn errors(scenario: &Scenario, lengths: impl Iterator<Item = f64>) -> Vec<(f64, 
                 .with_fixed_step(h);
         let mut steps: Vec<Step> = vec![];
         while integrator.t() < to {
-            steps.push(integrator.step(to).unwrap());
+            integrator.step(to).unwrap();
+            steps.extend(integrator.last());
         }
         let found = Trajectory::under(*model.wider(), scenario.support(), steps);
         found.steps().iter().fold(0.0, |most: f64, step| {

@@ -192,7 +192,7 @@ fn with_fit(scenario: &Scenario, fit: Fit) -> Trajectory {
     // A damaged memory may make motions without end.
     while integrator.t() < scenario.until && steps.len() < 600 {
         integrator.step(scenario.until).unwrap();
-        steps.push(*integrator.last().unwrap());
+        steps.extend(integrator.last());
     }
     Trajectory::new(model.r(), steps)
 }

@@ -51,7 +51,7 @@ pub fn call<'a>(
     let session = Session::of(host);
     let (cli, line) = parse(&session, words)?;
     let session = session.with_quantities(line.typed);
-    match stop::where_asked_by(host.stop(), || carried_out(&session, &cli.command)) {
+    match stop::with_flag(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own message.
         Err(failure) if host.stop().load(Ordering::Relaxed) => {
@@ -83,7 +83,7 @@ pub fn runs(
     let orders = commands.iter().enumerate();
     let orders = orders.map(|(number, command)| order(command).map_err(|e| (number, e)));
     let orders = orders.collect::<Result<_, _>>()?;
-    let runs = stop::where_asked_by(host.stop(), || many::runs(&Session::of(host), orders));
+    let runs = stop::with_flag(host.stop(), || many::runs(&Session::of(host), orders));
     let stopped = host.stop().load(Ordering::Relaxed);
     let refused = |failure: Failure| match failure {
         failure if stopped => Refusal::Stopped(failure.to_string()),

@@ -5,7 +5,7 @@ use stickslip_tip::{Run, Scenario};
 
 /// A run that did not come close to a stable cycle.
 #[derive(Debug, Clone)]
-pub struct Tried {
+pub struct UnsettledRun {
     /// The scenario of the run.
     pub scenario: Scenario,
     /// The run.
@@ -23,7 +23,7 @@ pub enum Ended {
     Unsettled,
 }
 
-impl Tried {
+impl UnsettledRun {
     /// The state at the end of this run.
     pub fn ended(&self) -> Ended {
         let trajectory = &self.run.trajectory;
@@ -39,7 +39,7 @@ impl Tried {
 }
 
 impl Ended {
-    pub(super) fn told(ended: Option<Self>) -> &'static str {
+    pub(super) fn described(ended: Option<Self>) -> &'static str {
         match ended {
             Some(Self::Repeating) => {
                 "in a periodic motion, but Newton's method found no cycle near it"

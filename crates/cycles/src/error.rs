@@ -57,7 +57,7 @@ pub enum CycleError {
     /// No run came close to a cycle.
     #[error(
         "no cycle was found at alpha = {alpha:?}, r = {r:?}: runs from a kick end {}",
-        Ended::told(*ended)
+        Ended::described(*ended)
     )]
     NoCycleReached {
         /// The requested α.

@@ -40,7 +40,7 @@ pub(super) fn fit(tip: &TipFunction, wanted: f64, most: usize) -> Result<Arc<Fit
     let (mut aim, mut best): (f64, Option<Arc<Fit>>) = (wanted.max(least), None);
     // A looser lattice is less damped, and waves that are left out weigh less.
     while best.is_none() || aim <= LOOSEST {
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(FitError::Stopped);
         }
         let fit = known(tip, aim, terms(tip, (aim, PERIOD), most)?)?;

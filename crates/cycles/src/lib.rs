@@ -48,7 +48,7 @@ mod step;
 
 pub use continuation::{Branch, Continuation, End, Point, Special, SpecialKind};
 pub use embedding::Parameter;
-pub use ended::{Ended, Tried};
+pub use ended::{Ended, UnsettledRun};
 pub use error::CycleError;
 pub use scaling::{Line, Measured, Scaling, ScalingPoint, scaling};
 pub use search::{

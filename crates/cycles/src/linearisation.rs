@@ -169,7 +169,7 @@ pub(super) fn along(
     let (mut extension, mut velocity) = (orbit.extension, orbit.velocity());
     let steps = orbit.mesh.windows(2).zip(orbit.lengths()).zip(&orbit.stages);
     for (n, ((ends, h), d)) in steps.enumerate() {
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(Singular);
         }
         let (carved, heights) = (&carved[n], orbit.heights.get(n));

@@ -82,7 +82,7 @@ impl<'a> Past<'a> {
         let mut numbers = numbers.emptied(count);
         let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
         for (steps, carved) in orbit.stages.chunks(TOGETHER).zip(carved.chunks(TOGETHER)) {
-            if stop::is_asked() {
+            if stop::is_requested() {
                 return None;
             }
             let from = exponentials.len();

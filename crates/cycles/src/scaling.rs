@@ -2,7 +2,7 @@
 //!
 //! Near the critical point the square of the amplitude and the wavelength are linear in the distance from it.
 
-use super::{CycleError, Parameter, Tried, cycle};
+use super::{CycleError, Parameter, UnsettledRun, cycle};
 use stickslip_stability::{Onset, critical, critical_r, onset_at};
 use stickslip_tip::motion::{Oscillation, latest_extrema};
 use stickslip_tip::sorting::sort_by_number;
@@ -130,7 +130,7 @@ fn of_run(
     let (alpha, r) = (model.alpha(), model.r());
     let found = Oscillation::of(&run.trajectory, &latest_extrema(&run.trajectory));
     let oscillation = found.ok_or_else(|| {
-        let ended = Some(Tried { scenario, run }.ended());
+        let ended = Some(UnsettledRun { scenario, run }.ended());
         CycleError::NoCycleReached { alpha, r, ended }
     })?;
     let amplitude_x0 = oscillation.amplitude_x0;

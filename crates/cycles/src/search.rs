@@ -6,7 +6,7 @@ use super::multipliers::largest_multiplier;
 use super::orbit::{Orbit, Profile};
 use super::solve::{Condition, MOST_WORK, NotClosed, close_if};
 use super::start::{from_onset, from_run, part, small_cycle_exists};
-use super::{Continuation, Cycle, CycleError, End, Ended, Tried};
+use super::{Continuation, Cycle, CycleError, End, Ended, UnsettledRun};
 use std::ops::ControlFlow;
 use stickslip_stability::{Critical, StabilityError, critical, onset_at, unstable_count};
 use stickslip_tip::{Model, TipFunction, Trajectory, stop};
@@ -22,7 +22,7 @@ pub enum Settled {
     /// A stable cycle.
     Cycle(Box<Cycle>),
     /// A run that came close to no stable cycle: trapped, or undecided.
-    Run(Box<Tried>),
+    Run(Box<UnsettledRun>),
 }
 
 /// Finds the motion that the tip settles into at the parameters of the model: by linear stability, by [`cycle`], or by
@@ -65,7 +65,7 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     let SteadyMotion { critical, is_stable } = SteadyMotion::of(model)?;
     let followed = || {
         let critical = critical?;
-        if model.wider().is_papers() {
+        if model.wider().is_basic() {
             return followed_from_onset(&equation, model, critical, tolerance);
         }
         branch_from_onset(model, critical, tolerance)
@@ -73,12 +73,12 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
     if is_stable {
         let critical = critical.ok_or(StabilityError::NoCrossing { r })?;
         let none = CycleError::NoSmallCycle { alpha, r, critical: critical.alpha };
-        if !model.wider().is_papers() {
+        if !model.wider().is_basic() {
             return unless_stopped(branch_from_onset(model, critical, tolerance))?.ok_or(none);
         }
         let Some(guess) = born(&equation, model, critical) else { return Err(none) };
         let found = unless_stopped(solve(&equation, guess, tolerance))?;
-        return found.map_err(|error| error.told(tolerance, none));
+        return found.map_err(|error| error.into_error(tolerance, none));
     }
     let Search { stable, unstable, ended, coarse } =
         Search::above_onset(model, critical, (tolerance, Sought::Any))?;
@@ -89,9 +89,9 @@ pub fn cycle(model: &Model, tolerance: f64) -> Result<Cycle, CycleError> {
         && unless_stopped(coarse.clone().stable())?.is_some()
     {
         // The unstable one is not what a tip comes to.
-        return Err(coarse.told());
+        return Err(coarse.error());
     }
-    let coarse = coarse.map(|coarse| coarse.told());
+    let coarse = coarse.map(|coarse| coarse.error());
     let ended = ended.map(|run| run.ended());
     let is_stuck = ended == Some(Ended::Stuck);
     let followed = if is_stuck || coarse.is_some() { None } else { followed() };
@@ -117,7 +117,8 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     let guess = Orbit::of_profile(equation.r, length, mesh, profile);
     let (alpha, r) = (model.alpha(), model.r());
     let lost = CycleError::NotConverged { alpha, r };
-    unless_stopped(solve(&equation, guess, tolerance))?.map_err(|error| error.told(tolerance, lost))
+    unless_stopped(solve(&equation, guess, tolerance))?
+        .map_err(|error| error.into_error(tolerance, lost))
 }
 
 /// As [`cycle_near`], for the part of a motion between two times one period apart, at both of which l has its maximum.
@@ -134,7 +135,7 @@ pub fn cycle_within(
     let (alpha, r) = (model.alpha(), model.r());
     let found = solve(&equation, part(motion, from, to), tolerance);
     let lost = CycleError::NotConverged { alpha, r };
-    unless_stopped(found)?.map_err(|error| error.told(tolerance, lost))
+    unless_stopped(found)?.map_err(|error| error.into_error(tolerance, lost))
 }
 
 /// The small cycle that bifurcates at αc, on the side of αc where it exists; `None` if Newton's method finds no cycle
@@ -150,7 +151,7 @@ pub fn small_cycle(model: &Model, tolerance: f64) -> Result<Option<Cycle>, Cycle
 
 /// The result of a search, or an error after a request to stop.
 fn unless_stopped<T>(found: T) -> Result<T, CycleError> {
-    if stop::is_asked() { Err(CycleError::Stopped) } else { Ok(found) }
+    if stop::is_requested() { Err(CycleError::Stopped) } else { Ok(found) }
 }
 
 /// The search ends after this number of guesses whose cycles have too large a residual.
@@ -161,7 +162,7 @@ struct Search {
     stable: Option<Cycle>,
     unstable: Option<Cycle>,
     /// The run, if one was made.
-    ended: Option<Tried>,
+    ended: Option<UnsettledRun>,
     /// A guess with a cycle whose residual is above the tolerance.
     coarse: Option<Coarse>,
 }
@@ -186,7 +187,7 @@ impl Coarse {
         found?.ok().filter(Cycle::is_stable)
     }
 
-    fn told(&self) -> CycleError {
+    fn error(&self) -> CycleError {
         CycleError::Rough { allowed: self.allowed, reached: self.reached }
     }
 }
@@ -264,7 +265,7 @@ fn followed_from_onset(
             failures += 1;
             step *= 0.5;
         }
-        if failures > MOST_FAILURES || work > MOST_WORK || stop::is_asked() {
+        if failures > MOST_FAILURES || work > MOST_WORK || stop::is_requested() {
             return None;
         }
     }
@@ -297,7 +298,7 @@ fn branch_from_onset(model: &Model, critical: Critical, tolerance: f64) -> Optio
 
 /// A guess for the small cycle on this side of onset, if its leading order is known.
 fn born(equation: &Embedding, model: &Model, critical: Critical) -> Option<Orbit> {
-    if !model.wider().is_papers() {
+    if !model.wider().is_basic() {
         return None;
     }
     let onset = onset_at(model.tip(), critical).ok()?;
@@ -367,7 +368,7 @@ impl SteadyMotion {
             Err(error) => return Err(error),
         };
         // In the basic model α alone decides: no roots are counted.
-        if wider.is_papers() && *tip != TipFunction::Cosine {
+        if wider.is_basic() && *tip != TipFunction::Cosine {
             let is_stable = critical.is_none_or(|at| model.alpha() <= at.alpha);
             return Ok(Self { critical, is_stable });
         }

@@ -141,7 +141,7 @@ fn close_in_sums(
     let first = if equation.short_is_precise && is_shorter { &short } else { &fine };
     equation.short = Arc::clone(&equation.rough);
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
-    let meshes = if equation.wider.is_papers() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
+    let meshes = if equation.wider.is_basic() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
     let (mut short_of_it, mut is_near) = (0, false);
     let mut room = Room::default();
     for round in 0..meshes {
@@ -158,7 +158,7 @@ fn close_in_sums(
             let Converged { linearisation, count, size } = newton.solve(solved, enough)?;
             iterations += count;
             work += equation.work((count * orbit.stages.len()) as f64);
-            if work > MOST_WORK || stop::is_asked() {
+            if work > MOST_WORK || stop::is_requested() {
                 return Err(NotClosed::Lost);
             }
             if round == 0 && enough > ENOUGH && !is_wanted(&linearisation) {
@@ -174,7 +174,7 @@ fn close_in_sums(
                 let is_fine = residual <= ESTIMATE_FALLS_SHORT * allowed;
                 let moved = if is_fine { orbit.moved_to(&corners) } else { None };
                 short_of_it += usize::from(!is_fine);
-                let is_far = equation.wider.is_papers() && residual > FAR_OFF * allowed;
+                let is_far = equation.wider.is_basic() && residual > FAR_OFF * allowed;
                 let wanted = if is_far { HALFWAY * allowed } else { allowed };
                 let aim = Aim::of_round(short_of_it, wanted, equation.wider.inertia.is_some());
                 let mesh = moved
@@ -297,7 +297,7 @@ fn damping(change: &Change, period: f64, width: f64) -> f64 {
 
 impl NotClosed {
     /// The error to return: `Rough` if there is a cycle with a larger residual, else `lost`.
-    pub(super) fn told(self, allowed: f64, lost: CycleError) -> CycleError {
+    pub(super) fn into_error(self, allowed: f64, lost: CycleError) -> CycleError {
         match self {
             Self::Lost => lost,
             Self::Coarse(reached) => CycleError::Rough { allowed, reached },

@@ -3,7 +3,7 @@
 use super::embedding::Embedding;
 use super::mesh::{MOST_STEPS, equidistributed, graded};
 use super::orbit::{Orbit, Profile, even_mesh};
-use super::{CycleError, Tried};
+use super::{CycleError, UnsettledRun};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use stickslip_stability::{Criticality, Onset};
@@ -78,7 +78,7 @@ pub(super) fn from_run(
     model: &Model,
     (width, born): (f64, f64),
     mut take: impl FnMut(Orbit) -> bool,
-) -> Result<Tried, CycleError> {
+) -> Result<UnsettledRun, CycleError> {
     let mut scenario = Scenario::new(model.clone(), 0.0);
     scenario.kick = KICK * width;
     scenario.tolerance = TOLERANCE_OF_A_RUN;
@@ -103,7 +103,7 @@ pub(super) fn from_run(
         offer(&run.trajectory, &mut offered, &mut take);
     }
     scenario.until = scenario.until.min(run.trajectory.end());
-    Ok(Tried { scenario, run })
+    Ok(UnsettledRun { scenario, run })
 }
 
 /// Passes the last period of a run to `take`, and returns what `take` returns. The same period is not passed twice: a

@@ -88,7 +88,7 @@ impl<'a> Marcher<'a> {
     }
 
     /// Adds a callback for the positions of the tip in every accepted step.
-    pub(crate) fn telling(self, visited: &'a mut Visited<'a>) -> Self {
+    pub(crate) fn with_visited(self, visited: &'a mut Visited<'a>) -> Self {
         Self { visited: Some(visited), ..self }
     }
 

@@ -98,7 +98,7 @@ pub fn scan(
         let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
         let mut own = vec![];
         let mut within = |part: f64| observe(n as f64 + part);
-        let asked = Asked { method, stepping, times, steps: &mut own, observe: &mut within };
+        let asked = LineRequest { method, stepping, times, steps: &mut own, observe: &mut within };
         let (at, end, took) = plane.line(scan, n, start, asked)?;
         x0.push(at);
         steps.push(own);
@@ -124,7 +124,7 @@ struct Plane {
 type State = (f64, f64);
 
 /// Stepping and output of a line.
-struct Asked<'a> {
+struct LineRequest<'a> {
     method: RowMethod,
     stepping: &'a Stepping,
     times: &'a [f64],
@@ -160,7 +160,7 @@ impl Plane {
         scan: &Scan,
         n: usize,
         (start, velocity): State,
-        Asked { method, stepping, times, steps, observe }: Asked,
+        LineRequest { method, stepping, times, steps, observe }: LineRequest,
     ) -> Result<(Vec<f64>, State, Work), GridError> {
         let (line, (alpha, r)) = (scan.lines[n], scan.model);
         let duration = (line.to - line.from).abs() / r;
@@ -198,7 +198,7 @@ impl Plane {
         let (run, velocity) = run_within(is_inside, &mut step, |observe| {
             let (cells, tableau) = (Cells::new(&nothing), method.tableau());
             Marcher::new(&problem, scheme, tableau, *stepping, cells, Some(&problem.start))
-                .telling(&mut carve)
+                .with_visited(&mut carve)
                 .run_to_velocity(&request, observe)
         })?;
         let mut work = run.work;

@@ -72,7 +72,7 @@ const PATIENCE: usize = 40;
 /// The local minimum of the sum of squares found from `start`; `None` outside of the domain, or if the work is
 /// [cancelled](stop).
 pub(crate) fn minimum(model: &dyn Residuals, start: &[f64]) -> Option<Minimum> {
-    if stop::is_asked() {
+    if stop::is_requested() {
         return None;
     }
     let residuals = model.at(start)?;
@@ -154,7 +154,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        if stop::is_asked() {
+        if stop::is_requested() {
             return None;
         }
         let columns = self.model.derivatives(self.here.as_ref()?, self.at.as_slice())?;

@@ -77,7 +77,7 @@ impl Stuck<'_> {
             return None;
         }
         let exponentials = Exponentials::of(self, &creep);
-        if stop::is_asked() {
+        if stop::is_requested() {
             return None;
         }
         Some(exponentials.map_or(Fate::Open, |e| e.fate(self, velocity, &creep)))
@@ -111,7 +111,7 @@ impl Exponentials {
         let nodes = nodes(reach, LONGEST_PANEL / model.tip().band(), 1.0 / largest);
         // On a table each of them takes long.
         let pushed = |(ahead, weight): &(f64, f64)| {
-            (!stop::is_asked()).then(|| (*ahead, weight * push(*ahead)))
+            (!stop::is_requested()).then(|| (*ahead, weight * push(*ahead)))
         };
         let pushes: Vec<(f64, f64)> = nodes.iter().map(pushed).collect::<Option<_>>()?;
         let coefficient = |(p, slope): (&Complex64, &Complex64)| {

@@ -195,7 +195,7 @@ impl End<'_> {
             let repeats = sequence.change(slips, 0).is_some_and(|change| change <= SETTLED * swing);
             let tries = if repeats { 2 } else { 1 };
             let (tail, extrema) = (&self.tail, &self.extrema);
-            if stop::is_asked() {
+            if stop::is_requested() {
                 break;
             }
             let found = Reference::of(model, *tolerance, tail, extrema, slips, tries);
@@ -308,7 +308,7 @@ impl End<'_> {
     /// Prediction where steady motion is unstable: the small cycle that bifurcates at αc attracts, if it exists.
     fn leaves(&self, deviation: f64, rate: f64) -> Outcome {
         let model = &self.scenario.model;
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Outcome::transient(None, None);
         }
         let small = small_cycle(model, DEFAULT_TOLERANCE).ok().flatten();

@@ -7,7 +7,7 @@ use stickslip_cli::hosted::Refusal;
 
 /// A ValueError for unusable input, a RuntimeError for a failure at run time, or a KeyboardInterrupt for cancelled work,
 /// with the message of the program.
-pub(crate) fn raised(refusal: Refusal) -> PyErr {
+pub(crate) fn exception_of(refusal: Refusal) -> PyErr {
     match refusal {
         Refusal::Input(message) => PyValueError::new_err(message),
         Refusal::Run(message) => PyRuntimeError::new_err(message),

@@ -1,7 +1,7 @@
 //! Commands in threads of their own: other threads of Python continue, and this one checks for Ctrl-C.
 
 use crate::document::Document;
-use crate::failed::{raised, unusable};
+use crate::failed::{exception_of, unusable};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -49,8 +49,8 @@ pub(crate) fn call(
     let left = || host.take().map(|made| Document::new(py, made));
     match answer {
         Ok(Some(Ok(made))) => Ok((made.map(|made| Document::new(py, made)), host.heard())),
-        Ok(Some(Err(refusal))) => Err(with_result(py, raised(refusal), left())),
-        Ok(None) => Err(with_result(py, raised(panicked()), left())),
+        Ok(Some(Err(refusal))) => Err(with_result(py, exception_of(refusal), left())),
+        Ok(None) => Err(with_result(py, exception_of(panicked()), left())),
         Err(error) => Err(with_result(py, error, left())),
     }
 }
@@ -82,8 +82,8 @@ pub(crate) fn call_runs(
     let mut answer = begin(move || hosted::runs(&commands, &own))?;
     let runs = match wait(py, &mut answer, &host, progress.as_ref())? {
         Some(Ok(runs)) => runs,
-        Some(Err((number, refusal))) => return Err(raised(of_run(number, refusal))),
-        None => return Err(raised(panicked())),
+        Some(Err((number, refusal))) => return Err(exception_of(of_run(number, refusal))),
+        None => return Err(exception_of(panicked())),
     };
     let heard = hosts
         .iter()
@@ -222,7 +222,7 @@ fn with_result(py: Python<'_>, error: PyErr, left: Option<Document>) -> PyErr {
 /// The document in a file.
 #[pyfunction]
 pub(crate) fn load(py: Python<'_>, path: PathBuf) -> PyResult<Document> {
-    let document = py.detach(|| hosted::load(&path)).map_err(raised)?;
+    let document = py.detach(|| hosted::load(&path)).map_err(exception_of)?;
     Ok(Document::new(py, Made { document, headline: String::new(), text: String::new() }))
 }
 

@@ -129,7 +129,7 @@ impl<'a> Course<'a> {
                 scope.spawn(|| {
                     let _on_panic = End { shared, news, is_due: std::thread::panicking };
                     let work = || self.work((shared, news), WAITING * threads, &of_line);
-                    stop::where_asked_by(&flag, work);
+                    stop::with_flag(&flag, work);
                 });
             }
             let _on_return = End { shared, news, is_due: || true };
@@ -258,7 +258,7 @@ impl<'a> Course<'a> {
         let (surface, mut writer) = (self.surface_of(job), self.writer(job));
         let scenario = self.plan.line(job.n, begins);
         let failed = |error| RasterError::Line { line: job.n + 1, error };
-        let is_given_up = || job.given_up.load(Ordering::Relaxed) || stop::is_asked();
+        let is_given_up = || job.given_up.load(Ordering::Relaxed) || stop::is_requested();
         let mut running = Running::new(&scenario, &surface).map_err(failed)?;
         let mut steps: Vec<Step> = vec![];
         loop {
@@ -285,7 +285,7 @@ impl Rows {
 
 impl<T> Shared<T> {
     fn is_over(&self) -> bool {
-        self.ended || stop::is_asked()
+        self.ended || stop::is_requested()
     }
 
     /// Gives up all later lines, because the tip of this line has returned to places that they have passed.

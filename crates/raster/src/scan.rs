@@ -164,7 +164,7 @@ impl<'a> Scanning<'a> {
         let mut steps: Vec<Step> = vec![];
         while let Some(step) = running.step().map_err(failed)? {
             steps.push(step);
-            if stop::is_asked() {
+            if stop::is_requested() {
                 return Ok(None);
             }
         }
@@ -225,7 +225,7 @@ fn run(
     let mut steps = vec![];
     while let Some(step) = running.step()? {
         steps.push(step);
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Ok(None);
         }
     }

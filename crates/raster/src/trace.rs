@@ -51,7 +51,7 @@ impl Trace {
             known.wanted = known.wanted.max(Some(to.saturating_add(LEAD)));
         }
         while known.to.is_none_or(|known| known < to) {
-            if given_up.load(Ordering::Relaxed) || stop::is_asked() {
+            if given_up.load(Ordering::Relaxed) || stop::is_requested() {
                 return None;
             }
             let waited = self.news.wait_timeout(known, PATIENCE);

@@ -67,7 +67,7 @@ impl Axis {
         let roundoff = if transform.is_closed_form() { 0.0 } else { ROUNDOFF };
         let mut axis = Self { tip: tip.clone(), transform, samples: Vec::new(), least: 0.0 };
         let (mut largest, mut faded, mut wave_number) = (0.0_f64, 0, 0.0);
-        while wave_number < tip.band() && faded < FADED_SPAN && !stop::is_asked() {
+        while wave_number < tip.band() && faded < FADED_SPAN && !stop::is_requested() {
             wave_number += step;
             let point = axis.at(wave_number);
             largest = largest.max(point.cosine.abs());

@@ -64,8 +64,8 @@ impl Boundary {
     /// Scans the imaginary axis over the band of `tip`.
     pub fn new(law: &Wider, tip: &TipFunction) -> Self {
         let search = match tip {
-            TipFunction::Gaussians(_) if law.is_papers() => Search::Curve(Axis::of(tip)),
-            TipFunction::Bessel if law.is_papers() => Search::ClosedForm,
+            TipFunction::Gaussians(_) if law.is_basic() => Search::Curve(Axis::of(tip)),
+            TipFunction::Bessel if law.is_basic() => Search::ClosedForm,
             _ => Search::General(Scan::new(law, tip)),
         };
         Self { law: *law, search }

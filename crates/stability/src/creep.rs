@@ -46,7 +46,7 @@ impl Creep {
 /// # Errors
 /// As [`super::roots`]; an extended model.
 pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
-    if !model.wider().is_papers() || *model.tip() == TipFunction::Cosine {
+    if !model.wider().is_basic() || *model.tip() == TipFunction::Cosine {
         return Err(StabilityError::PapersLawOnly("the creep of a trapped tip"));
     }
     let Spectrum { roots, certificate } = if model.alpha() <= 0.0 {

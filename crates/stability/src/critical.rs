@@ -69,7 +69,7 @@ impl Critical {
 /// # Errors
 /// `alpha` is not a positive finite number, there is no crossing at any r, or the model is not the basic one.
 pub fn critical_r(law: &Wider, tip: &TipFunction, alpha: f64) -> Result<Critical, StabilityError> {
-    if !law.is_papers() {
+    if !law.is_basic() {
         return Err(StabilityError::PapersLawOnly("the r at which a given α is critical"));
     }
     if !(alpha.is_finite() && alpha > 0.0) {
@@ -92,7 +92,7 @@ pub(super) fn by_cosine(a: &AxisPoint, b: &AxisPoint) -> std::cmp::Ordering {
 
 /// Error of a search without result: `Stopped` after a request to stop, else `none`.
 pub(super) fn unless_stopped(none: StabilityError) -> StabilityError {
-    if stop::is_asked() { StabilityError::Stopped } else { none }
+    if stop::is_requested() { StabilityError::Stopped } else { none }
 }
 
 /// Ω of (47), written so that nothing cancels: Ω² = 2/(√(1+4r²) + 1).

@@ -63,7 +63,7 @@ impl Scan {
             let kept = keeps.then(|| footprint.at(Complex64::new(0.0, wave_number)));
             Sample { wave_number, kept }
         };
-        let wave_numbers = wave_numbers(tip).into_iter().take_while(|_| !stop::is_asked());
+        let wave_numbers = wave_numbers(tip).into_iter().take_while(|_| !stop::is_requested());
         let samples = wave_numbers.map(sample).collect();
         Self { wider: *wider, footprint, samples }
     }
@@ -99,7 +99,7 @@ impl Scan {
             let kept = kept.as_ref().map(|t| law.expanded(Complex64::new(0.0, *wave_number), t));
             (*wave_number, resultant(kept.unwrap_or_else(|| on_axis(*wave_number))))
         };
-        let samples = self.samples.iter().take_while(|_| !stop::is_asked());
+        let samples = self.samples.iter().take_while(|_| !stop::is_requested());
         let mut values: Vec<(f64, f64)> = samples.map(value).collect();
         let beside = beside_resonance(law);
         if !beside.is_empty() {

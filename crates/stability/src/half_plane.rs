@@ -109,7 +109,7 @@ impl HalfPlane {
         for (most, start) in
             [SOON, MOST_ITERATIONS].iter().flat_map(|n| grid.iter().map(move |z| (*n, *z)))
         {
-            if total(&upper) >= self.count || stop::is_asked() {
+            if total(&upper) >= self.count || stop::is_requested() {
                 break;
             }
             if self.add_from(h, start, most, &mut upper) {
@@ -158,7 +158,7 @@ impl HalfPlane {
 
     /// Adds zeros of the chain upwards, each close to a position extrapolated from those below it.
     fn add_chain(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
-        while h.has_chain() && total(&*upper) < count && !stop::is_asked() {
+        while h.has_chain() && total(&*upper) < count && !stop::is_requested() {
             let starts = next_in_chain(upper, h.length(), h.fading());
             if !starts.into_iter().any(|start| self.add_from(h, start, SOON, upper)) {
                 break;

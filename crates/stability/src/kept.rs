@@ -28,7 +28,7 @@ impl<T> Kept<T> {
         }
         let made = Arc::new(make());
         // A cancelled computation may be unfinished.
-        if !stop::is_asked() {
+        if !stop::is_requested() {
             let mut kept = lock();
             if kept.len() == MOST {
                 drop(kept.remove(0));
@@ -61,7 +61,7 @@ mod tests {
         assert_eq!(made.get(), 5);
         assert_eq!((of(0), of(1), made.get()), (0, 1, 6));
         let flag = Arc::new(AtomicBool::new(true));
-        stop::where_asked_by(&flag, || of(9));
+        stop::with_flag(&flag, || of(9));
         assert_eq!((of(9), made.get()), (9, 8));
     }
 }

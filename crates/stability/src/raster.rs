@@ -125,7 +125,7 @@ impl Raster {
             return Err(StabilityError::NoSupport);
         }
         law.validate()?;
-        if !law.is_papers() && !is_gaussian(footprint) {
+        if !law.is_basic() && !is_gaussian(footprint) {
             let what = "a raster of a tip that is no sum of Gaussians";
             return Err(StabilityError::PapersLawOnly(what));
         }

@@ -85,7 +85,7 @@ pub fn certify(
 
 /// Whether the roots are those of a quartic, as for J0 in the basic model.
 fn has_closed_form(model: &Model) -> bool {
-    *model.tip() == TipFunction::Bessel && model.wider().is_papers()
+    *model.tip() == TipFunction::Bessel && model.wider().is_basic()
 }
 
 fn counted(h: &Characteristic, left: f64) -> Result<HalfPlane, StabilityError> {

@@ -35,7 +35,7 @@ fn argument_change(
     let direction = (to - from) / length;
     let (mut at, mut turned) = (0.0, 0.0);
     for _ in 0..MOST_STEPS {
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(StabilityError::Stopped);
         }
         let mut step = TURN * reach(&here).min(length);

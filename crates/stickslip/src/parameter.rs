@@ -386,7 +386,7 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
 }
 
 /// The first name in `values` that is no parameter of `Q`.
-pub fn stranger<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
+pub fn unknown_parameter<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
     let properties = &described::<Q>().properties;
     values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
 }

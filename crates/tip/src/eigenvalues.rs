@@ -131,7 +131,7 @@ impl Deflation {
             match end - start {
                 1 => found[start] = self.h[(start, start)].into(),
                 2 => found[start..end].copy_from_slice(&self.pair(start)),
-                _ if sweeps == MOST_SWEEPS || stop::is_asked() => return None,
+                _ if sweeps == MOST_SWEEPS || stop::is_requested() => return None,
                 _ => {
                     sweeps += 1;
                     self.sweep(start, end, sweeps.is_multiple_of(SWEEPS_PER_STALL));

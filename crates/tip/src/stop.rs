@@ -10,8 +10,8 @@
 //! use stickslip_tip::stop;
 //!
 //! let flag = Arc::new(AtomicBool::new(true));
-//! assert!(stop::where_asked_by(&flag, stop::is_asked));
-//! assert!(!stop::is_asked());
+//! assert!(stop::with_flag(&flag, stop::is_requested));
+//! assert!(!stop::is_requested());
 //! ```
 
 use std::cell::RefCell;
@@ -23,7 +23,7 @@ thread_local! {
 }
 
 /// Runs a computation on this thread; it ends early once the flag is raised.
-pub fn where_asked_by<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
+pub fn with_flag<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     /// Restores the previous flag, even after a panic.
     struct Before(Option<Arc<AtomicBool>>);
     impl Drop for Before {
@@ -41,6 +41,6 @@ pub fn flag() -> Option<Arc<AtomicBool>> {
 }
 
 /// Whether the computation on this thread is to end.
-pub fn is_asked() -> bool {
+pub fn is_requested() -> bool {
     FLAG.with_borrow(|flag| flag.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
 }

@@ -100,7 +100,7 @@ impl Wider {
     }
 
     /// Whether these are the parameters of the basic model.
-    pub fn is_papers(&self) -> bool {
+    pub fn is_basic(&self) -> bool {
         *self == Self::default()
     }
 

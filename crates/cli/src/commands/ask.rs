@@ -210,7 +210,7 @@ fn answered_into<Q: Ask, T>(
 }
 
 /// Answers the question with these values of options; `chosen_by` is the option that selects this question.
-pub(crate) fn asked<Q: Ask, K: Questions>(
+pub(crate) fn answer_values<Q: Ask, K: Questions>(
     session: &Session,
     options: &Options<K>,
     values: Map<String, Value>,
@@ -220,22 +220,22 @@ pub(crate) fn asked<Q: Ask, K: Questions>(
 where
     Document<Q>: Product + Drawn,
 {
-    refuse_strangers::<Q, K>(options, &values, chosen_by)?;
+    refuse_unknown::<Q, K>(options, &values, chosen_by)?;
     let question: Q = parameter::question(values)?;
     answer(session, question, place, &options.tip)
 }
 
 /// Rejects options that do not belong to `Q`; `chosen_by` is the option that selects this question.
-pub(crate) fn refuse_strangers<Q: Question, K: Questions>(
+pub(crate) fn refuse_unknown<Q: Question, K: Questions>(
     _: &Options<K>,
     values: &Map<String, Value>,
     chosen_by: &str,
 ) -> Result<(), Failure> {
-    let Some(name) = parameter::stranger::<Q>(values) else { return Ok(()) };
-    refuse_stranger((name, &values[name]), &K::parameters(), chosen_by)
+    let Some(name) = parameter::unknown_parameter::<Q>(values) else { return Ok(()) };
+    refuse_parameter((name, &values[name]), &K::parameters(), chosen_by)
 }
 
-fn refuse_stranger(
+fn refuse_parameter(
     (name, value): (&str, &Value),
     all: &[&Parameter],
     chosen_by: &str,

@@ -1,7 +1,7 @@
 //! `stickslip boundary`.
 
-use super::ask::{answered, asked, option};
-use super::figure::{Figure, undrawn};
+use super::ask::{answer_values, answered, option};
+use super::figure::{Figure, drawing_failure};
 use super::job::Job;
 use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
@@ -47,11 +47,17 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
         values.insert("load_widths".into(), widths(session, path)?);
     }
     if values.contains_key("pitch_range") {
-        return asked::<RasterBoundary, _>(session, options, values, answer, "--pitch-range");
+        return answer_values::<RasterBoundary, _>(
+            session,
+            options,
+            values,
+            answer,
+            "--pitch-range",
+        );
     }
     let is_given = |name: &str| values.contains_key(name);
     if is_given("load_range") || is_given("load") || is_given("load_widths") {
-        let found = asked::<LoadMap, _>(session, options, values, answer, "--load-range");
+        let found = answer_values::<LoadMap, _>(session, options, values, answer, "--load-range");
         return found.map_err(|failure| match (failure, load_widths) {
             (Failure::Input { option, message }, Some(path)) if option == LOAD_WIDTHS => {
                 Failure::file(LOAD_WIDTHS, path, message)
@@ -60,22 +66,34 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
         });
     }
     if is_given("stiffness_range") {
-        return asked::<SnakingBoundary, _>(session, options, values, answer, "--stiffness-range");
+        return answer_values::<SnakingBoundary, _>(
+            session,
+            options,
+            values,
+            answer,
+            "--stiffness-range",
+        );
     }
     if is_given("r_range") && is_given("stiffness_across") {
-        return asked::<SnakingBoundary, _>(session, options, values, answer, "--stiffness-across");
+        return answer_values::<SnakingBoundary, _>(
+            session,
+            options,
+            values,
+            answer,
+            "--stiffness-across",
+        );
     }
-    if let Some(name) = parameter::stranger::<Boundary>(&values) {
+    if let Some(name) = parameter::unknown_parameter::<Boundary>(&values) {
         let message = "applies to neighbouring scan lines: give --pitch-range too, or leave it out";
         return Err(Failure::input(option(name), message));
     }
     let question: Boundary = parameter::question(values)?;
     let job = Job::open(session, BoundaryDocument::FORMAT, &answer.outlet, answer.plot.as_deref())?;
-    let plot_onset = Figure::asked("--plot-onset", plot_onset.as_deref())?;
+    let plot_onset = Figure::of_option("--plot-onset", plot_onset.as_deref())?;
     let document = answered(session, question, answer, &options.tip)?;
     if let Some(figure) = plot_onset {
         let onset = stickslip_figures::onset_of(&document, &View::default())
-            .map_err(|error| undrawn(&error))?;
+            .map_err(|error| drawing_failure(&error))?;
         figure.write(&onset, &Size::default())?;
     }
     job.finish(document)

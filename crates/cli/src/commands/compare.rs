@@ -7,7 +7,7 @@ mod pace;
 mod plane;
 mod raster;
 
-use super::ask::{option, refusal, refuse_strangers};
+use super::ask::{option, refusal, refuse_unknown};
 use super::job::{Job, judge_places};
 use super::run::disturbance::{disturbed, files_read};
 use crate::arguments::CompareArguments;
@@ -33,13 +33,13 @@ pub(crate) fn compare(session: &Session, arguments: &CompareArguments) -> Result
     }
     judge_places(&place.outlet, place.plot.as_deref(), &files(arguments))?;
     let scales = options.scales(session, &place.in_units, &values)?;
-    let asked = Asked::of(session, arguments, values, scales.as_ref())?;
+    let comparison = Comparison::of(session, arguments, values, scales.as_ref())?;
     let job = Job::open(session, CompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
-    let sides = match &asked.scenario {
-        RunScenario::Along(scenario) => on_its_line(&asked, scenario)?,
-        RunScenario::Across(scenario) => across::sides(&asked, scenario)?,
+    let sides = match &comparison.scenario {
+        RunScenario::Along(scenario) => on_its_line(&comparison, scenario)?,
+        RunScenario::Across(scenario) => across::sides(&comparison, scenario)?,
     };
-    let document = document(arguments, &asked, sides)?;
+    let document = document(arguments, &comparison, sides)?;
     job.finish(document.in_units(scales.as_ref()))
 }
 
@@ -51,16 +51,16 @@ struct Sides {
 }
 
 /// Both sides of a tip that is held on its line.
-fn on_its_line(asked: &Asked, scenario: &Scenario) -> Result<Sides, Failure> {
-    let closed = closed::run(asked, scenario)?;
-    let x = asked.positions(|t| closed.trajectory.x0(t))?;
-    let motion = grid::run(asked, scenario, &x)?;
-    let closed = closed.document(scenario, &motion.t, asked.grid_until, &x)?;
+fn on_its_line(comparison: &Comparison, scenario: &Scenario) -> Result<Sides, Failure> {
+    let closed = closed::run(comparison, scenario)?;
+    let x = comparison.positions(|t| closed.trajectory.x0(t))?;
+    let motion = grid::run(comparison, scenario, &x)?;
+    let closed = closed.document(scenario, &motion.t, comparison.grid_until, &x)?;
     Ok(Sides { x, closed, motion })
 }
 
 /// The checked options.
-struct Asked<'a> {
+struct Comparison<'a> {
     session: &'a Session,
     question: Run,
     scenario: RunScenario,
@@ -71,7 +71,7 @@ struct Asked<'a> {
     time_limit: f64,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> Comparison<'a> {
     fn of(
         session: &'a Session,
         arguments: &CompareArguments,
@@ -91,7 +91,7 @@ impl<'a> Asked<'a> {
         let second_order = match whole {
             RunScenario::Along(_) => grid::SECOND_ORDER,
             RunScenario::Across(_) if arguments.grid == GridName::Uniform => {
-                return Err(plane::no_uniform());
+                return Err(plane::uniform_refused());
             }
             RunScenario::Across(_) => plane::SECOND_ORDER,
         };
@@ -144,11 +144,7 @@ fn run_of(
     scales: Option<&KnownScales>,
 ) -> Result<(Run, RunScenario), Failure> {
     let CompareArguments { options, disturbance, support_path, .. } = arguments;
-    refuse_strangers::<Run, _>(
-        options,
-        &values,
-        "a run: --lines N or --area FILE make it a raster",
-    )?;
+    refuse_unknown::<Run, _>(options, &values, "a run: --lines N or --area FILE make it a raster")?;
     let run: Run = parameter::question(values)?;
     let files = files(arguments);
     let refused = |failure| refusal(failure, &options.tip, &files);
@@ -177,12 +173,12 @@ fn time_limit(arguments: &CompareArguments) -> Result<f64, Failure> {
 
 fn document(
     arguments: &CompareArguments,
-    asked: &Asked,
+    comparison: &Comparison,
     sides: Sides,
 ) -> Result<CompareDocument, Failure> {
     let Sides { x, closed, motion: Motion { t, grid } } = sides;
-    let (start, until) = asked.scenario.span();
-    let spans = [asked.grid_until, until].map(|t| t - start);
+    let (start, until) = comparison.scenario.span();
+    let spans = [comparison.grid_until, until].map(|t| t - start);
     let rates = [grid.work.seconds / spans[0], closed.work.seconds / spans[1]];
     let across = closed.y0.as_ref().zip(grid.y0.as_ref());
     let max_difference = DifferenceDocument {
@@ -195,7 +191,7 @@ fn document(
         let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
         return Err(Failure::Run(advice.into()));
     }
-    let (parameters, speedup) = (parameters(arguments, asked), rates[0] / rates[1]);
+    let (parameters, speedup) = (parameters(arguments, comparison), rates[0] / rates[1]);
     Ok(Document::new(
         parameters,
         CompareFound { t, x, closed, grid, max_difference, speedup },
@@ -209,13 +205,13 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }
 
-fn parameters(arguments: &CompareArguments, asked: &Asked) -> CompareParameters {
+fn parameters(arguments: &CompareArguments, comparison: &Comparison) -> CompareParameters {
     CompareParameters {
-        run: asked.question.clone(),
+        run: comparison.question.clone(),
         grid: arguments.grid,
-        spacing: asked.discretisation.spacing,
-        grid_tolerance: asked.discretisation.tolerance(),
+        spacing: comparison.discretisation.spacing,
+        grid_tolerance: comparison.discretisation.tolerance(),
         step: arguments.step,
-        grid_until: asked.grid_until,
+        grid_until: comparison.grid_until,
     }
 }

@@ -11,7 +11,7 @@ pub(crate) struct Fields(Vec<String>);
 
 impl Fields {
     /// Fields of a document of this format, such as "stickslip/run".
-    pub(crate) fn asked(format: &str, paths: &[String]) -> Result<Self, Failure> {
+    pub(crate) fn of_document(format: &str, paths: &[String]) -> Result<Self, Failure> {
         let name = format.trim_start_matches("stickslip/");
         Self::within(|| schema(name), paths)
     }
@@ -234,13 +234,14 @@ mod tests {
             "work",
         ];
         let good = good.map(String::from);
-        assert!(Fields::asked(RunDocument::FORMAT, &good).is_ok());
+        assert!(Fields::of_document(RunDocument::FORMAT, &good).is_ok());
         for bad in ["oscillation.perod", "samples.t.first", "regime.x", "zzz", ""] {
             let refused =
-                Fields::asked(RunDocument::FORMAT, &[bad.into()]).unwrap_err().to_string();
+                Fields::of_document(RunDocument::FORMAT, &[bad.into()]).unwrap_err().to_string();
             assert!(refused.contains("there is no such field"), "{refused}");
         }
-        let refused = Fields::asked(StabilityDocument::FORMAT, &["critical.x".into()]).unwrap_err();
+        let refused =
+            Fields::of_document(StabilityDocument::FORMAT, &["critical.x".into()]).unwrap_err();
         assert!(refused.to_string().contains("critical.alpha, critical.kind"), "{refused}");
     }
 
@@ -248,7 +249,7 @@ mod tests {
     fn a_name_is_enough_where_it_is_the_only_one() {
         let only = |paths: &[&str]| {
             let paths: Vec<String> = paths.iter().map(|path| (*path).into()).collect();
-            Fields::asked(RunDocument::FORMAT, &paths).map(|fields| fields.0)
+            Fields::of_document(RunDocument::FORMAT, &paths).map(|fields| fields.0)
         };
         let found = only(&["period", "amplitude_u", "steps", "regime"]).unwrap();
         assert_eq!(
@@ -283,9 +284,9 @@ mod tests {
             "physical.scales.length",
             "physical",
         ];
-        assert!(Fields::asked(RunDocument::FORMAT, &good.map(String::from)).is_ok());
+        assert!(Fields::of_document(RunDocument::FORMAT, &good.map(String::from)).is_ok());
         for bad in ["physical.perod_s", "physical.samples.x1_nm", "physical.scales.x"] {
-            assert!(Fields::asked(RunDocument::FORMAT, &[bad.into()]).is_err(), "{bad}");
+            assert!(Fields::of_document(RunDocument::FORMAT, &[bad.into()]).is_err(), "{bad}");
         }
     }
 

@@ -15,7 +15,7 @@ pub(super) struct Figure {
 
 impl Figure {
     /// The figure for `option`, if it was given.
-    pub(super) fn asked(option: &str, path: Option<&Path>) -> Result<Option<Self>, Failure> {
+    pub(super) fn of_option(option: &str, path: Option<&Path>) -> Result<Option<Self>, Failure> {
         path.map(|path| Self::at(option, path)).transpose()
     }
 
@@ -27,18 +27,18 @@ impl Figure {
 
     /// Draws a document as `stickslip plot` does.
     pub(super) fn draw(self, document: &dyn Drawn) -> Result<(), Failure> {
-        let figure = figures::of(document, &View::default()).map_err(|e| undrawn(&e))?;
+        let figure = figures::of(document, &View::default()).map_err(|e| drawing_failure(&e))?;
         self.write(&figure, &Size::default())
     }
 
     /// Writes a figure in the requested format.
     pub(super) fn write(self, figure: &FigureDocument, size: &Size) -> Result<(), Failure> {
-        let bytes = figures::draw(figure, self.format, size).map_err(|e| undrawn(&e))?;
+        let bytes = figures::draw(figure, self.format, size).map_err(|e| drawing_failure(&e))?;
         self.output.write_bytes(&bytes)
     }
 }
 
 /// The error of a figure that failed after the computation.
-pub(super) fn undrawn(error: &FigureError) -> Failure {
+pub(super) fn drawing_failure(error: &FigureError) -> Failure {
     Failure::Run(format!("cannot draw: {error}"))
 }

@@ -2,7 +2,7 @@
 //!
 //! The library `reproduction` computes the documents; the pictures are drawn from these alone.
 
-use super::figure::undrawn;
+use super::figure::drawing_failure;
 use crate::arguments::{FigureName, FiguresArguments};
 use crate::failure::Failure;
 use crate::files::output::Output;
@@ -60,14 +60,14 @@ fn write(document: &FigureDocument, folder: &Path) -> Result<Vec<String>, Failur
     };
     let (json, path) = place("json");
     open(&path)?.write_json(document)?;
-    let drawn = figures::of(document, &View::default()).map_err(|error| undrawn(&error))?;
+    let drawn = figures::of(document, &View::default()).map_err(|error| drawing_failure(&error))?;
     let mut files = vec![json];
     for extension in ["svg", "png"] {
         let (name, path) = place(extension);
         // A build without PNG draws SVG alone.
         let Ok(format) = FigureFormat::of(&path) else { continue };
         let bytes = figures::draw(&drawn, format, &Size::default());
-        let bytes = bytes.map_err(|error| undrawn(&error))?;
+        let bytes = bytes.map_err(|error| drawing_failure(&error))?;
         open(&path)?.write_bytes(&bytes)?;
         files.push(name);
     }

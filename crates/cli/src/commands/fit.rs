@@ -1,6 +1,6 @@
 //! `stickslip fit`.
 
-use super::ask::{context, refusal, refuse_strangers};
+use super::ask::{context, refusal, refuse_unknown};
 use super::fit_image::{fit_image, without_width};
 use super::job::{Job, judge_places};
 use super::model::tip_and_draws;
@@ -70,7 +70,7 @@ fn question(session: &Session, arguments: &FitArguments) -> Result<Fit, Failure>
     let (tip, draws) = tip_and_draws(session, &options.tip)?;
     let tip = options.tip.is_given().then_some(Tip(tip));
     let mut values = options.values(session)?;
-    refuse_strangers::<Fit, _>(&options, &values, "--ripple and other data of lines")?;
+    refuse_unknown::<Fit, _>(&options, &values, "--ripple and other data of lines")?;
     let is_free = |name: &str| {
         values
             .get("free")

@@ -1,6 +1,6 @@
 //! `stickslip fit --image`.
 
-use super::ask::{context, refusal, refuse_strangers};
+use super::ask::{context, refusal, refuse_unknown};
 use super::job::{Job, judge_places};
 use super::tip::{ImageInUnits, in_unit, measured_image, metres};
 use crate::arguments::{Either, FitArguments, Options, TipArguments};
@@ -38,7 +38,7 @@ pub(super) fn fit_image(
 fn question(session: &Session, arguments: &FitArguments, path: &Path) -> Result<FitImage, Failure> {
     let options = without_width(arguments);
     let mut values = options.values(session)?;
-    refuse_strangers::<FitImage, _>(&options, &values, OPTION)?;
+    refuse_unknown::<FitImage, _>(&options, &values, OPTION)?;
     let given = values.get("unit").and_then(Value::as_str);
     let ImageInUnits { image, unit, z_unit: height_unit } =
         measured_image(session, OPTION, path, given)?;

@@ -69,10 +69,10 @@ impl Job {
         Ok(Self {
             session: session.clone(),
             format,
-            fields: Fields::asked(document, &fields.print)?,
+            fields: Fields::of_document(document, &fields.print)?,
             is_file: output != Path::new("-"),
             has_summary: output != Path::new("-"),
-            figure: Figure::asked("--plot", plot)?,
+            figure: Figure::of_option("--plot", plot)?,
             output: Output::open("--output", output)?,
         })
     }

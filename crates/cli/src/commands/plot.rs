@@ -3,7 +3,7 @@
 #[cfg(feature = "animation")]
 mod animation;
 
-use super::figure::{Figure, undrawn};
+use super::figure::{Figure, drawing_failure};
 use super::in_units::scales;
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
@@ -67,7 +67,7 @@ fn figure(
     let named = || format!("{option} {}", path.display());
     let refused = |error: FigureError| match error {
         FigureError::Damaged(_) | FigureError::Nothing(_) => Failure::input(named(), error),
-        error => undrawn(&error),
+        error => drawing_failure(&error),
     };
     if arguments.onset {
         let option = format!("--onset with {option}");

@@ -2,7 +2,7 @@
 
 use super::ask::answer;
 use super::job::judge_places;
-use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
+use super::run::disturbance::{parse_pulses, warn_of_pulses_outside};
 use crate::arguments::ResponseArguments;
 use crate::failure::Failure;
 use crate::session::Session;
@@ -20,6 +20,6 @@ pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Resu
     }
     let question: Response = parameter::question(values)?;
     // A pulse before the samples is felt in them.
-    warn_of_idle_pulses(session, pulse, &pulses, (f64::NEG_INFINITY, question.until));
+    warn_of_pulses_outside(session, pulse, &pulses, (f64::NEG_INFINITY, question.until));
     answer(session, question, place, &options.tip)
 }

@@ -1,6 +1,6 @@
 //! `stickslip stability`.
 
-use super::ask::asked;
+use super::ask::answer_values;
 use super::job::judge_places;
 use crate::arguments::StabilityArguments;
 use crate::failure::Failure;
@@ -14,11 +14,11 @@ pub(crate) fn stability(session: &Session, arguments: &StabilityArguments) -> Re
     let values = options.values(session)?;
     let has = |name: &str| values.get(name).is_some_and(|value| !value.is_null());
     if values.get("no_spring") == Some(&Value::Bool(true)) {
-        asked::<Walking, _>(session, options, values, answer, "--no-spring")
+        answer_values::<Walking, _>(session, options, values, answer, "--no-spring")
     } else if has("pitch") || has("path") {
-        asked::<RasterStability, _>(session, options, values, answer, "--pitch or --path")
+        answer_values::<RasterStability, _>(session, options, values, answer, "--pitch or --path")
     } else {
-        asked::<Stability, _>(
+        answer_values::<Stability, _>(
             session,
             options,
             values,

@@ -37,7 +37,7 @@ pub(crate) fn measured_tip(
     if let Some(text) = sigma {
         values.insert("sigma".into(), json!(in_positions(text, data.unit.as_deref())?));
     }
-    let question = data.asked(values, measured)?;
+    let question = data.question(values, measured)?;
     let refused = |failure| match failure {
         stickslip::Failure::Refused(refused)
             if matches!(&*refused.parameter, "profile" | "image") =>
@@ -75,7 +75,7 @@ impl Data {
     }
 
     /// The question about these data with the other parameters.
-    fn asked(self, values: Map<String, Value>, path: &Path) -> Result<MeasuredTip, Failure> {
+    fn question(self, values: Map<String, Value>, path: &Path) -> Result<MeasuredTip, Failure> {
         let Self { profile, image, unit, height_unit } = self;
         let source = path.display().to_string();
         let question: MeasuredTip = parameter::question(values)?;

@@ -112,7 +112,7 @@ fn failure_of(
     differences: &[ClaimDocument],
 ) -> Option<Failure> {
     let said: Vec<String> =
-        broken.into_iter().chain(claims::said_of(session, differences)).collect();
+        broken.into_iter().chain(claims::report_differences(session, differences)).collect();
     (!said.is_empty()).then(|| Failure::Run(said.join("; ")))
 }
 
@@ -241,11 +241,11 @@ pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Fai
 }
 
 fn broken_in(found: &VerificationDocument, tolerance: f64) -> Option<String> {
-    said_of(found, tolerance, None)
+    missed_message(found, tolerance, None)
 }
 
 /// The message for a run that misses its tolerance; for lines, with their numbers.
-fn said_of(
+fn missed_message(
     found: &VerificationDocument,
     tolerance: f64,
     lines: Option<&LinesDocument>,

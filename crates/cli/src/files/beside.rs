@@ -3,7 +3,7 @@
 //! beginning, and links are not followed.
 
 use super::lock::lock;
-use super::replace::Looks;
+use super::replace::Permissions;
 use super::special::not_followed;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Seek};
@@ -44,7 +44,7 @@ pub(crate) fn ours(path: &Path, magic: &[u8]) -> io::Result<Option<File>> {
 }
 
 /// Creates and locks a new file; an old one is replaced if this program made it.
-pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<File> {
+pub(super) fn create(path: &Path, magic: &[u8], permissions: &Permissions) -> io::Result<File> {
     if let Some(old) = ours(path, magic)? {
         // The name goes, not the contents: they may have another name.
         fs::remove_file(path)?;
@@ -57,13 +57,13 @@ pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Fil
         _ => error,
     })?;
     lock(&file)?;
-    looks.give_to(&file)?;
+    permissions.give_to(&file)?;
     Ok(file)
 }
 
 /// As [`create`], with the permissions of the file that the new one belongs to.
 pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result<File> {
-    create(path, magic, &Looks::of(owner))
+    create(path, magic, &Permissions::of(owner))
 }
 
 /// Whether the file has other names (hard links), under which it must not change.
@@ -90,7 +90,7 @@ mod tests {
     const MAGIC: &[u8] = b"stickslip/test";
 
     fn made(path: &Path) -> io::Result<File> {
-        create(path, MAGIC, &Looks::default())
+        create(path, MAGIC, &Permissions::default())
     }
 
     #[test]

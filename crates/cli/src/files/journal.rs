@@ -1,7 +1,7 @@
 //! A growing file with a checksum: to resume, it is truncated to the mark in a checkpoint.
 
 use super::beside;
-use super::replace::Looks;
+use super::replace::Permissions;
 use crc32fast::Hasher;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
@@ -18,8 +18,8 @@ pub(crate) struct Journal {
 
 impl Journal {
     /// A new journal, which will begin with `magic`; an old one is replaced.
-    pub(super) fn create(path: &Path, magic: &[u8], looks: &Looks) -> io::Result<Self> {
-        let file = beside::create(path, magic, looks)?;
+    pub(super) fn create(path: &Path, magic: &[u8], permissions: &Permissions) -> io::Result<Self> {
+        let file = beside::create(path, magic, permissions)?;
         Ok(Self { file: BufWriter::new(file), bytes: 0, hasher: Hasher::new() })
     }
 
@@ -40,10 +40,10 @@ impl Journal {
     /// A new journal with the beginning of another file, up to the mark.
     pub(super) fn copy(from: &File, path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         verified(from, mark)?;
-        let looks = Looks::of_file(from);
+        let permissions = Permissions::of_file(from);
         // The other may be the one that is replaced.
         let from = from.try_clone()?;
-        let mut journal = Self::create(path, magic, &looks)?;
+        let mut journal = Self::create(path, magic, &permissions)?;
         (&from).rewind()?;
         io::copy(&mut from.take(mark.bytes), &mut journal)?;
         Ok(journal)
@@ -105,7 +105,7 @@ mod tests {
     const MAGIC: &[u8] = b"journal ";
 
     fn written(path: &Path) -> (Mark, Mark) {
-        let mut journal = Journal::create(path, MAGIC, &Looks::default()).unwrap();
+        let mut journal = Journal::create(path, MAGIC, &Permissions::default()).unwrap();
         journal.write_all(b"journal of a run").unwrap();
         let mark = journal.sync().unwrap();
         journal.write_all(b" that went on").unwrap();

@@ -2,7 +2,7 @@
 
 use super::lock::Lock;
 use super::paths::{folder_of, resolved};
-use super::replace::{Looks, replace};
+use super::replace::{Permissions, replace};
 use super::special::{self, is_special};
 use super::temporary::may_be_made_in;
 use crate::failure::Failure;
@@ -37,7 +37,7 @@ impl Target {
         &self,
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<()> {
-        replace(&self.path, &Looks::of(&self.path), write)
+        replace(&self.path, &Permissions::of(&self.path), write)
     }
 }
 

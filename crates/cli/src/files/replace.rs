@@ -8,9 +8,9 @@ use std::path::Path;
 
 /// The permissions of a file, within the umask, and if possible its owner.
 #[derive(Debug, Default)]
-pub(super) struct Looks(Option<Metadata>);
+pub(super) struct Permissions(Option<Metadata>);
 
-impl Looks {
+impl Permissions {
     /// The permissions of the file at this place, if there is one.
     pub(super) fn of(path: &Path) -> Self {
         Self(path.metadata().ok())
@@ -50,12 +50,12 @@ impl Looks {
 /// Writes a file under a temporary name, syncs it, and renames it.
 pub(super) fn replace(
     path: &Path,
-    looks: &Looks,
+    permissions: &Permissions,
     write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut file = beside(path, folder_of(path))?;
     let _unfinished = Unfinished::at(file.path());
-    looks.give_to(file.as_file())?;
+    permissions.give_to(file.as_file())?;
     through(file.as_file_mut(), write)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;
@@ -86,7 +86,7 @@ mod tests {
         for kept in [0o600, 0o400, 0o700, 0o644 & allowed] {
             fs::write(&path, "before").unwrap();
             fs::set_permissions(&path, fs::Permissions::from_mode(kept)).unwrap();
-            replace(&path, &Looks::of(&path), &|out| out.write_all(b"after")).unwrap();
+            replace(&path, &Permissions::of(&path), &|out| out.write_all(b"after")).unwrap();
             assert_eq!((fs::read(&path).unwrap(), mode()), (b"after".to_vec(), kept));
         }
     }

@@ -3,7 +3,7 @@
 
 use super::beside;
 use super::journal::Journal;
-use super::replace::Looks;
+use super::replace::Permissions;
 use std::io::{self, Read, Write};
 use std::path::Path;
 use stickslip::Mark;
@@ -20,7 +20,7 @@ pub(crate) struct Rows(Journal);
 impl Rows {
     /// A new journal with the permissions of the file that it belongs to; an old one is replaced.
     pub(crate) fn create(path: &Path, owner: &Path, numbers: usize) -> io::Result<Self> {
-        let mut journal = Journal::create(path, MAGIC, &Looks::of(owner))?;
+        let mut journal = Journal::create(path, MAGIC, &Permissions::of(owner))?;
         journal.write_all(&head(numbers))?;
         Ok(Self(journal))
     }

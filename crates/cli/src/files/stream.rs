@@ -3,7 +3,7 @@
 use super::beside;
 use super::journal::Journal;
 use super::place::{Place, Target, place, refused};
-use super::replace::{Looks, sync_folder};
+use super::replace::{Permissions, sync_folder};
 use crate::failure::Failure;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
@@ -52,7 +52,7 @@ impl Stream {
             Place::Special(file) => Sink::Special(path.into(), BufWriter::new(file)),
             Place::File(target) => {
                 let part = part_of(target.path());
-                let journal = Journal::create(&part, MAGIC, &Looks::of(target.path()));
+                let journal = Journal::create(&part, MAGIC, &Permissions::of(target.path()));
                 let journal = journal.map_err(|error| refused(option, path, &error))?;
                 Sink::Part(Part { journal, part, target, is_kept })
             }

@@ -48,7 +48,7 @@ pub(super) fn small(
     let guess = Orbit::of_profile(model.r(), period, mesh, Profile { l, height: |_| None });
     let condition = Condition { free: settings.over, fixed: Direction::L };
     close(equation, guess, condition, settings.tolerance)
-        .map_err(|error| error.told(settings.tolerance, lost))
+        .map_err(|error| error.into_error(settings.tolerance, lost))
 }
 
 /// The cycle of half the period, for a cycle whose halves are nearly the same.

@@ -186,7 +186,7 @@ impl Continuation {
                 break End::ManyPoints;
             }
             let Some((next, turn)) = self.step(&place, &mut length) else {
-                break if stop::is_asked() { End::Interrupted } else { End::Lost };
+                break if stop::is_requested() { End::Interrupted } else { End::Lost };
             };
             if let Some(at_end) = self.at_the_end(&place, &next) {
                 points.push(Point::of(&at_end));
@@ -211,7 +211,7 @@ impl Continuation {
     /// The next cycle, and the cosine of the angle between the tangents; the step is shortened until a cycle is found.
     fn step(&self, place: &Place, length: &mut f64) -> Option<(Place, f64)> {
         let mut coarse = 0;
-        while *length >= SHORTEST_STEP && !stop::is_asked() {
+        while *length >= SHORTEST_STEP && !stop::is_requested() {
             match place.step(self, *length) {
                 Ok(next) => {
                     let turn = place.turn(&next);

@@ -81,8 +81,9 @@ pub(super) fn solved_again(cycle: &Cycle, settings: &Continuation) -> Result<Clo
     let Closed { equation, orbit, .. } = cycle.closed.clone();
     let (alpha, r) = (equation.alpha, equation.r);
     let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
-    close(equation, orbit, condition, settings.tolerance)
-        .map_err(|error| error.told(settings.tolerance, CycleError::NotConverged { alpha, r }))
+    close(equation, orbit, condition, settings.tolerance).map_err(|error| {
+        error.into_error(settings.tolerance, CycleError::NotConverged { alpha, r })
+    })
 }
 
 /// Units of the changes of l, of the period and of the parameter.

@@ -30,7 +30,7 @@ impl Drawn for CycleDocument {
         let parameters = question.model_parameters();
         let stable = if self.stable { "stable" } else { "unstable" };
         let name = model_name(&parameters);
-        let period = Quantity::new(self.period, "Γ/k").said(&seven_digits(self.period));
+        let period = Quantity::new(self.period, "Γ/k").in_text(&seven_digits(self.period));
         let title = format!("{name}: {stable} cycle, T = {period}");
         let mut figure = FigureDocument::new("cycle", &title, vec![parameters]);
         let (r, steady) = (model.r(), model.steady_l());

@@ -62,7 +62,11 @@ pub(super) fn judge_ranges(panel: &PanelDocument, view: &View) -> Result<(), Fig
 }
 
 /// The options of a figure converted to the model's units, with the axes of its first panel.
-pub(super) fn asked_of(panel: &PanelDocument, scales: &KnownScales, view: &View) -> View {
+pub(super) fn view_in_model_units(
+    panel: &PanelDocument,
+    scales: &KnownScales,
+    view: &View,
+) -> View {
     let along = |label: &str, range: Option<[f64; 2]>| {
         range.map(|ends| ends.map(|end| end / Axis::of(label, scales).factor))
     };

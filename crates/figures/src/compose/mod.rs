@@ -39,7 +39,7 @@ use crate::error::FigureError;
 use crate::scene::{Scene, Shot};
 #[cfg(feature = "animation")]
 use in_units::InUnits;
-use in_units::{asked_of, in_units, judge_ranges};
+use in_units::{in_units, judge_ranges, view_in_model_units};
 use stickslip::{BoundaryDocument, FigureDocument, KnownScales, PanelDocument, Tabular, Unusable};
 
 pub use drawn::{Drawn, View};
@@ -56,7 +56,7 @@ pub fn of<D: Drawn + ?Sized>(document: &D, view: &View) -> Result<FigureDocument
         && view.x_range.or(view.y_range).is_some()
     {
         let whole = shown(document, &View::default())?;
-        view = whole.panels.first().map_or(view, |first| asked_of(first, scales, &view));
+        view = whole.panels.first().map_or(view, |first| view_in_model_units(first, scales, &view));
     }
     let figure = in_units(shown(document, &view)?, known.as_ref());
     figure.panels.first().map_or(Ok(()), |first| judge_ranges(first, &view))?;

@@ -24,7 +24,7 @@ impl Quantity {
     }
 
     /// The number for a text, written as `plain` in the model's units.
-    pub(super) fn said(self, plain: &str) -> String {
+    pub(super) fn in_text(self, plain: &str) -> String {
         let Self { value, error, unit } = self;
         let error = error.map_or(String::new(), |error| format!("{error:e}"));
         let parts = [plain, &format!("{value:e}"), &error, unit];
@@ -90,15 +90,16 @@ mod tests {
         let time = Quantity { value: 7.0, error: Some(0.002), unit: "Γ/k" };
         let text = format!(
             "T = {}, b = {}, d = {}",
-            time.said("7.0000(20)"),
-            Quantity::new(3.0, "kσ²/a").said("3"),
-            Quantity::new(0.8, "σ").said("0.8"),
+            time.in_text("7.0000(20)"),
+            Quantity::new(3.0, "kσ²/a").in_text("3"),
+            Quantity::new(0.8, "σ").in_text("0.8"),
         );
         assert_eq!(written(&text, None), "T = 7.0000(20), b = 3, d = 0.8");
         let said = written(&text, Some(&scales)).replace('\u{a0}', " ");
         let period = to_its_digits(3.5, 0.001);
         assert_eq!(said, format!("T = {period} s, b = 3 kσ²/a, d = 24 nm"));
-        let length = Quantity { value: 4.46, error: Some(0.71), unit: "σ" }.said("4.46 ± 0.71 σ");
+        let length =
+            Quantity { value: 4.46, error: Some(0.71), unit: "σ" }.in_text("4.46 ± 0.71 σ");
         assert_eq!(written(&length, None), "4.46 ± 0.71 σ");
         assert_eq!(written(&length, Some(&scales)).replace('\u{a0}', " "), "134 ± 21 nm");
         for odd in ["\u{e000}", "a\u{e002}", "\u{e000}\u{e001}\u{e002}", "\u{e000}x"] {

@@ -130,7 +130,7 @@ fn heading(document: &RasterDocument) -> String {
     let Some(p) = &document.pattern else { return regime.to_string() };
     let [length, angle] = p.in_words();
     let length = length.zip(p.wavelength).map(|(plain, value)| {
-        Quantity { value, error: p.wavelength_error, unit: "σ" }.said(&plain)
+        Quantity { value, error: p.wavelength_error, unit: "σ" }.in_text(&plain)
     });
     let coherence = format!("coherence {:.3}", p.coherence_same_way.unwrap_or(p.coherence));
     let wave = match (length, angle) {

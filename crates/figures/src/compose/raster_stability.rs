@@ -23,7 +23,7 @@ impl Drawn for RasterStabilityDocument {
         };
         let lines = match self.parameters.pitch {
             Some(pitch) => {
-                let pitch = Quantity::new(pitch, "σ").said(&format!("{} σ", short(pitch)));
+                let pitch = Quantity::new(pitch, "σ").in_text(&format!("{} σ", short(pitch)));
                 format!("lines {pitch} apart")
             }
             None => "one line repeated".into(),

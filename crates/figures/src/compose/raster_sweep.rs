@@ -51,12 +51,11 @@ fn title(document: &RasterSweepDocument) -> String {
         PathName::Zigzag => "zigzag",
         PathName::OneWay | PathName::Repeat => "one-way",
     };
-    let limit = parameters
-        .law
-        .depth_limit
-        .map_or(String::new(), |b| format!(", b = {}", Quantity::new(b, "kσ²/a").said(&short(b))));
+    let limit = parameters.law.depth_limit.map_or(String::new(), |b| {
+        format!(", b = {}", Quantity::new(b, "kσ²/a").in_text(&short(b)))
+    });
     let length = Quantity::new(parameters.length, "σ");
-    let length = length.said(&format!("{} σ", short(parameters.length)));
+    let length = length.in_text(&format!("{} σ", short(parameters.length)));
     let (tip, r) = (tip_name(&(&parameters.tip.0).into()), short(parameters.r));
     format!("{tip}, r = {r}{limit}, {path}, {} lines of {length}", parameters.lines)
 }

@@ -154,12 +154,12 @@ fn dragged(run: &RunDocument) -> Option<Level> {
 
 /// The level l0 of steady motion.
 pub(super) fn steady_level(l: f64) -> Level {
-    (l, format!("steady state, l₀ = {}", Said::new(l, "σ").said(&short(l))))
+    (l, format!("steady state, l₀ = {}", Said::new(l, "σ").in_text(&short(l))))
 }
 
 /// The velocity of the support.
 pub(super) fn support_level(r: f64) -> Level {
-    let velocity = Said::new(r, "kσ/Γ").said(&format!("r = {}", short(r)));
+    let velocity = Said::new(r, "kσ/Γ").in_text(&format!("r = {}", short(r)));
     (r, format!("support, {velocity}"))
 }
 

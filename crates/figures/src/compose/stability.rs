@@ -89,7 +89,7 @@ impl Drawn for WalkingDocument {
         let title = format!("Steady walks, {}", model_name(model));
         let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {
-            let speed = Quantity::new(walk.speed, "kσ/Γ").said(&format!("{:.6}", walk.speed));
+            let speed = Quantity::new(walk.speed, "kσ/Γ").in_text(&format!("{:.6}", walk.speed));
             let name = format!("v = {speed}: {}", walk.stability());
             exponents(&name, &walk.roots, walk.certificate.largest_error)
         };

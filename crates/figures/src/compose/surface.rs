@@ -103,5 +103,5 @@ fn touched(surface: &SurfaceCurve, span: f64) -> Option<[f64; 2]> {
 
 /// A label such as "t = 457".
 fn time(t: f64) -> String {
-    format!("t = {}", Quantity::new(t, "Γ/k").said(&short(t)))
+    format!("t = {}", Quantity::new(t, "Γ/k").in_text(&short(t)))
 }

@@ -35,12 +35,12 @@ pub(crate) fn run_title(run: &RunDocument) -> String {
         let rounded = || seven_digits(format!("{:.4e}", o.period).parse().unwrap_or(o.period));
         let period = o.period_error.map_or_else(rounded, |error| to_its_digits(o.period, error));
         let quantity = Quantity { value: o.period, error: o.period_error, unit: "Γ/k" };
-        format!(", T = {}", quantity.said(&period))
+        format!(", T = {}", quantity.in_text(&period))
     });
     let swing = run.snaking.as_ref().map_or(String::new(), |swing| {
         let (value, error) = (swing.period, Some(swing.period_error));
         let period = to_its_digits(swing.period, swing.period_error);
-        format!(", T = {}", Quantity { value, error, unit: "Γ/k" }.said(&period))
+        format!(", T = {}", Quantity { value, error, unit: "Γ/k" }.in_text(&period))
     });
     let stiffness = stiffness_name(run.parameters.stiffness_across);
     format!("{name}{stiffness}: {}{motion}{swing}", run.regime)
@@ -59,7 +59,7 @@ pub(crate) fn raster_title(parameters: &Raster) -> String {
 
 fn path_name(parameters: &Raster) -> String {
     let pitch = parameters.pitch.map_or(String::new(), |pitch| {
-        format!(", pitch {}", Quantity::new(pitch, "σ").said(&format!("{} σ", short(pitch))))
+        format!(", pitch {}", Quantity::new(pitch, "σ").in_text(&format!("{} σ", short(pitch))))
     });
     let path = match parameters.path {
         PathName::OneWay => "one-way",
@@ -88,7 +88,7 @@ pub(crate) fn terms_name(law: &Law) -> String {
     ];
     let there = wider.into_iter().filter_map(|(name, value, unit)| Some((name, value?, unit)));
     let said = |(name, value, unit): (&str, f64, &'static str)| {
-        format!(", {name} = {}", Quantity::new(value, unit).said(&seven_digits(value)))
+        format!(", {name} = {}", Quantity::new(value, unit).in_text(&seven_digits(value)))
     };
     there.map(said).collect()
 }

@@ -81,7 +81,7 @@ fn title(walker: &WalkerDocument) -> String {
     let asked = &walker.parameters;
     let number = |name: &str, value: f64, unit: &'static str| {
         let plain = format!("{}\u{a0}{unit}", short(value));
-        format!(", {name} = {}", Quantity::new(value, unit).said(&plain))
+        format!(", {name} = {}", Quantity::new(value, unit).in_text(&plain))
     };
     let mut title = format!("Walker, α = {}", short(asked.alpha));
     title += &number("T", asked.healing_time, "Γ/k");

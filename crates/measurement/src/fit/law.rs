@@ -20,8 +20,8 @@ const TRIED: [f64; 2] = [4.0, 16.0];
 /// half of its interval; `None` if the request contains a depth limit, or a gain is known.
 pub(super) fn with_depth_limit(problem: &Problem, around: &Around) -> Option<Alternative> {
     let name = Name::DepthLimit;
-    let is_asked = problem.free.contains(&name) || problem.held.get(name).is_some();
-    if is_asked || problem.data.iter().any(Data::has_gain) {
+    let is_requested = problem.free.contains(&name) || problem.held.get(name).is_some();
+    if is_requested || problem.data.iter().any(Data::has_gain) {
         return None;
     }
     let best = problem.values(&around.best.parameters)?;

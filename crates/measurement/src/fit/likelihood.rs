@@ -177,7 +177,7 @@ impl<'a> Around<'a> {
 
     /// Largest offset of the logarithm of this parameter in a profile.
     fn farthest(&self, i: usize) -> f64 {
-        if self.problem.free[i].is_of_a_law() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln()
+        if self.problem.free[i].is_of_extended_model() { FARTHEST_OF_A_LAW } else { FARTHEST }.ln()
     }
 
     /// An end of an interval, extended in quadrature by the error of the footprint, and over other minima.
@@ -250,7 +250,7 @@ fn quantile(freedom: f64) -> f64 {
 }
 
 /// The least determined combination of logarithms: its exponents, the largest being 1, and its standard deviation.
-pub(super) fn least_felt(around: &Around) -> Option<(Vec<f64>, f64)> {
+pub(super) fn least_determined(around: &Around) -> Option<(Vec<f64>, f64)> {
     let count = around.problem.free.len();
     let part = around.covariance.view((0, 0), (count, count)).into_owned();
     let found = part.symmetric_eigen();

@@ -97,7 +97,7 @@ const HUBER: f64 = 1.345;
 pub fn fit(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     let found = best(data, request);
     // Searches that are asked to stop end as if there were nothing to find.
-    if stop::is_asked() { Err(FitError::Stopped) } else { found }
+    if stop::is_requested() { Err(FitError::Stopped) } else { found }
 }
 
 /// Largest probability of an equally strong wave in noise alone at which a track is accepted.

@@ -40,7 +40,7 @@ impl Name {
     ];
 
     /// Whether it is a parameter of the extended model only.
-    pub(super) fn is_of_a_law(self) -> bool {
+    pub(super) fn is_of_extended_model(self) -> bool {
         matches!(self, Self::DepthLimit | Self::HealingTime | Self::Inertia)
     }
 

@@ -1,7 +1,7 @@
 //! Warnings about a fit, in words.
 
 use super::found::{Fit, Part};
-use super::likelihood::{Around, Fitted, least_felt};
+use super::likelihood::{Around, Fitted, least_determined};
 use super::parameters::{Name, Values};
 use super::problem::Problem;
 use super::verdict::{CHANGE, MISFIT};
@@ -140,7 +140,7 @@ fn wide(remarks: &mut Vec<String>, problem: &Problem, around: &Around, fit: &Fit
     if wide.is_empty() {
         return;
     }
-    let combination = least_felt(around)
+    let combination = least_determined(around)
         .filter(|(powers, _)| powers.iter().filter(|p| p.abs() > NO_POWER).count() > 1);
     remarks.push(match combination {
         Some((powers, _)) => {

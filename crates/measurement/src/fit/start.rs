@@ -49,8 +49,8 @@ pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>
 /// The most promising starting points, each with a different r.
 fn chosen(problem: &Problem, mut judged: Vec<(f64, Vec<f64>)>) -> Vec<Vec<f64>> {
     sort_by_number(&mut judged, |item| item.0);
-    let is_of_a_law = problem.free.iter().any(|name| name.is_of_a_law());
-    let most = if is_of_a_law { FOLLOWED_UNDER_A_LAW } else { FOLLOWED };
+    let is_of_extended_model = problem.free.iter().any(|name| name.is_of_extended_model());
+    let most = if is_of_extended_model { FOLLOWED_UNDER_A_LAW } else { FOLLOWED };
     let mut chosen: Vec<Vec<f64>> = vec![];
     let r = problem.free.iter().position(|name| matches!(name, Name::R | Name::RPerVelocity));
     for (_, start) in judged {

@@ -145,7 +145,7 @@ const MOST_DRAWS: usize = 24;
 pub fn tip(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipError> {
     let found = measured(profile, request);
     // Searches that are asked to stop end as if there were nothing to find.
-    if stop::is_asked() { Err(TipError::Stopped) } else { found }
+    if stop::is_requested() { Err(TipError::Stopped) } else { found }
 }
 
 fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipError> {

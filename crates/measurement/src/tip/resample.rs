@@ -36,7 +36,7 @@ impl Resampling<'_> {
         let flag = stop::flag().unwrap_or_default();
         let of = |(k, maker): (usize, &&Candidate)| {
             let one = |i: usize| self.one((k * each + i) as u64, maker);
-            (0..each).into_par_iter().map(|i| stop::where_asked_by(&flag, || one(i))).collect()
+            (0..each).into_par_iter().map(|i| stop::with_flag(&flag, || one(i))).collect()
         };
         self.makers.iter().enumerate().map(of).collect()
     }
@@ -54,7 +54,7 @@ impl Resampling<'_> {
             };
             more.as_ref().and_then(of).or_else(|| of(&fitted))
         };
-        let draws = (0..count).into_par_iter().map(|i| stop::where_asked_by(&flag, || one(i)));
+        let draws = (0..count).into_par_iter().map(|i| stop::with_flag(&flag, || one(i)));
         draws.collect::<Vec<_>>().into_iter().flatten().collect()
     }
 

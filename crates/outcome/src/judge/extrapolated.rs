@@ -47,7 +47,7 @@ impl End<'_> {
     /// Whether a cycle may have this amplitude: the amplitude of a small cycle is that of the leading order at onset.
     fn may_be_a_cycle(&self, amplitude: f64) -> bool {
         let model = &self.scenario.model;
-        if amplitude > self.small() || !model.wider().is_papers() {
+        if amplitude > self.small() || !model.wider().is_basic() {
             return true;
         }
         let onset = onset(model.tip(), model.r());

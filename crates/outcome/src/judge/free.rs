@@ -99,7 +99,7 @@ impl End<'_> {
         let Scenario { model, .. } = self.scenario;
         // A past that never ends has no steady motion.
         let endless = *model.tip() == TipFunction::Cosine && model.wider().healing_time.is_none();
-        if endless || stop::is_asked() {
+        if endless || stop::is_requested() {
             return Theory::Unknown;
         }
         let now = self.last.velocity(self.last.end());

@@ -13,7 +13,7 @@ impl End<'_> {
         let Scenario { model, force, .. } = self.scenario;
         let mut remarks = vec![];
         remarks.extend(self.rest_remark());
-        let is_papers = model.wider().is_papers();
+        let is_basic = model.wider().is_basic();
         if let Linear::Unstable(Slowest { rate, .. }) = self.linear()
             && self.is_undisturbed(rate)
         {
@@ -24,11 +24,11 @@ impl End<'_> {
                 remarks.push(Remark::SteadyToo);
             }
             Regime::StickSlip
-                if is_papers && creep(model).is_ok_and(|creep| creep.attracting().is_some()) =>
+                if is_basic && creep(model).is_ok_and(|creep| creep.attracting().is_some()) =>
             {
                 remarks.push(Remark::TrappedToo);
             }
-            Regime::Steady if is_papers => {
+            Regime::Steady if is_basic => {
                 let onset = onset(model.tip(), model.r());
                 let below = |onset: &stickslip_stability::Onset| {
                     onset.criticality == Criticality::Subcritical

@@ -16,7 +16,7 @@ const BESIDE_ONSET: f64 = 1e-6;
 /// Whether steady motion is stable because α is below αc, in the basic model; `None` if this does not decide.
 fn by_alpha(model: &Model) -> Option<bool> {
     let is_sum = matches!(model.tip(), TipFunction::Gaussians(_));
-    if !(is_sum && model.wider().is_papers()) || stop::is_asked() {
+    if !(is_sum && model.wider().is_basic()) || stop::is_requested() {
         return None;
     }
     let above = model.alpha() / critical(model.wider(), model.tip(), model.r()).ok()?.alpha - 1.0;
@@ -29,7 +29,7 @@ impl End<'_> {
     pub(super) fn linear(&self) -> Linear {
         // Nobody waits for what it takes on a table.
         let of = || Linear::of(&self.scenario.model);
-        *self.linear.get_or_init(|| if stop::is_asked() { Linear::Unknown } else { of() })
+        *self.linear.get_or_init(|| if stop::is_requested() { Linear::Unknown } else { of() })
     }
 
     /// Whether steady motion is stable: from α alone where that decides, at a quarter of the work.

@@ -126,7 +126,7 @@ fn work_that_is_stopped_and_taken_up_again_is_the_same() {
         .unwrap();
     assert_eq!(scanning.lines().len(), 5);
     let flag = Arc::new(AtomicBool::new(false));
-    let stopped = stop::where_asked_by(&flag, || {
+    let stopped = stop::with_flag(&flag, || {
         scanning.scan(2, |_| {
             flag.store(true, Ordering::Relaxed);
             true

@@ -43,7 +43,7 @@ pub(super) fn bands(lines: &Lines, least: f64, band: f64) -> Result<Vec<Place>, 
     let half_theta = PI / PHASES;
     let phases = (0..).map(|j: u32| centre - half_range + half_theta * f64::from(2 * j + 1));
     let phases = phases.take_while(|theta| *theta < centre + half_range);
-    for theta in phases.take_while(|_| !stop::is_asked()) {
+    for theta in phases.take_while(|_| !stop::is_requested()) {
         let phase = lines.phase(theta, half_theta);
         still(lines, (theta, half_theta), least).into_iter().for_each(&mut keep);
         for &(q, half_q) in &wave_numbers {

@@ -55,9 +55,9 @@ impl Determinant {
     }
 
     /// Whether Q has no zero at this T or any larger real one, anywhere on the cell.
-    pub(super) fn has_none(&self) -> bool {
+    pub(super) fn has_no_zero(&self) -> bool {
         if let Some(plane) = &self.plane {
-            return plane.has_none();
+            return plane.has_no_zero();
         }
         if let Some([x, y, product]) = &self.factors
             && x.distance_to_negative() * y.distance_to_negative() > product.size()

@@ -46,7 +46,7 @@ impl Polynomial {
     }
 
     /// Whether Q has no zero at any τ ≥ 0, anywhere on the cell.
-    pub(super) fn has_none(&self) -> bool {
+    pub(super) fn has_no_zero(&self) -> bool {
         if !self.coefficients.iter().all(|c| c.size().is_finite()) {
             return false;
         }
@@ -277,9 +277,9 @@ mod tests {
                     diagonal.for_each(|(k, row)| row[k].value += zero - tau);
                     let q = Polynomial::of(&shrunk);
                     if tau >= 0.0 {
-                        assert!(!q.has_none(), "{rows} {tau} {size}");
+                        assert!(!q.has_no_zero(), "{rows} {tau} {size}");
                         kept += 1;
-                    } else if q.has_none() {
+                    } else if q.has_no_zero() {
                         ruled_out += 1;
                     }
                 }

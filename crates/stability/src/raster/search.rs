@@ -76,7 +76,7 @@ pub(super) fn largest(lines: &Lines, floor: f64) -> Result<Found, StabilityError
     let mut looked_at = 0;
     while !cells.is_empty() {
         looked_at += cells.len();
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(StabilityError::Stopped);
         }
         if looked_at > MOST_CELLS {
@@ -87,7 +87,7 @@ pub(super) fn largest(lines: &Lines, floor: f64) -> Result<Found, StabilityError
             lines.determinant(&waves.all[*i].of, &phases.all[*j].of, above)
         };
         let left = cells.into_iter().map(|cell| (cell, at(&cell)));
-        let mut left: Vec<_> = left.filter(|(_, here)| !here.has_none()).collect();
+        let mut left: Vec<_> = left.filter(|(_, here)| !here.has_no_zero()).collect();
         sort_by_number(&mut left, |item| -item.1.promise());
         let cell = |(i, j): (usize, usize)| {
             let (q, theta) = (&waves.all[i], &phases.all[j]);

@@ -85,7 +85,7 @@ impl Boundary {
 
     /// The model at a point of the boundary.
     pub fn at(&self, r: f64, alpha: f64) -> ModelParameters {
-        ModelParameters::asked(&self.tip, Indentation::given(alpha), r, self.law)
+        ModelParameters::of_question(&self.tip, Indentation::given(alpha), r, self.law)
     }
 
     /// Rejects an invalid range, or too few or too many points.
@@ -215,7 +215,7 @@ impl Ask for Boundary {
     fn answer(&self, context: &Context) -> Result<(BoundaryFound, Vec<String>), Failure> {
         self.judged()?;
         let law = self.law.dragged(&self.tip.0)?;
-        if law.is_papers() && self.tip.0 != TipFunction::Cosine {
+        if law.is_basic() && self.tip.0 != TipFunction::Cosine {
             self.basic(context)
         } else {
             self.extended(&law, context)

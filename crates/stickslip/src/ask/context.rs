@@ -78,7 +78,7 @@ impl Context {
         &self,
         work: impl FnOnce() -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let done = stop::where_asked_by(&self.cancel, work);
+        let done = stop::with_flag(&self.cancel, work);
         if done.is_err() && self.is_cancelled() { Err(Failure::Cancelled) } else { done }
     }
 

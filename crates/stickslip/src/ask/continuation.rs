@@ -116,7 +116,7 @@ impl Continue {
     /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         let r = self.r.unwrap_or(f64::NAN);
-        ModelParameters::asked(&self.tip, self.indentation, r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, r, self.law)
     }
 
     /// The cycle at which the first branch begins; `None` if it begins at onset.
@@ -206,7 +206,7 @@ impl Continue {
             }
             next += 1;
         }
-        remarks.extend(found.iter().filter_map(|found| goes_on(&found.branch)));
+        remarks.extend(found.iter().filter_map(|found| remark_on_lost_branch(&found.branch)));
         Ok((found, remarks))
     }
 
@@ -305,7 +305,7 @@ impl Ask for Continue {
 }
 
 /// A remark on a branch that ends where the tip swings back too far for cycles to be computed.
-fn goes_on(branch: &Branch) -> Option<String> {
+fn remark_on_lost_branch(branch: &Branch) -> Option<String> {
     let retreat = branch.last.farthest_retreat().filter(|_| branch.end == End::Lost)?;
     let model = branch.last.model();
     Some(format!(

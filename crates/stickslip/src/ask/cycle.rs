@@ -99,7 +99,7 @@ impl Cycle {
 
     /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, self.r, self.law)
     }
 
     /// The cycle of a resolved question.

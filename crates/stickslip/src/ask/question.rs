@@ -245,7 +245,7 @@ impl Indentation {
 
 impl ModelParameters {
     /// The parameters of a resolved question, in the form of documents.
-    pub(crate) fn asked(tip: &Tip, indentation: Indentation, r: f64, law: Law) -> Self {
+    pub(crate) fn of_question(tip: &Tip, indentation: Indentation, r: f64, law: Law) -> Self {
         let alpha = indentation.alpha.unwrap_or(f64::NAN);
         let alpha_above = indentation.alpha_above;
         let tip = (&tip.0).into();

@@ -157,7 +157,7 @@ impl AreaDocument {
 impl Raster {
     /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, self.r, self.law)
     }
 
     /// The area: a rectangle, or other lines.

@@ -93,7 +93,7 @@ impl Ask for RasterBoundary {
             match thresholds(&footprint, law, (self.r, pitch), across) {
                 Ok((one_way, zigzag)) => found.push(pitch, &one_way, zigzag),
                 // That nothing grows is an answer of the wider law.
-                Err(StabilityError::NoCrossing { .. }) if !law.is_papers() => left_out.push(pitch),
+                Err(StabilityError::NoCrossing { .. }) if !law.is_basic() => left_out.push(pitch),
                 Err(StabilityError::Stopped) => return Err(Failure::Cancelled),
                 Err(error) => return Err(refused(&error, self.r, || self.pitches()).into()),
             }

@@ -100,7 +100,7 @@ type Thresholds = Result<Vec<RasterCritical>, StabilityError>;
 impl RasterStability {
     /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, self.r, self.law)
     }
 
     fn raster(&self, law: Wider) -> Result<Raster, Failure> {
@@ -115,7 +115,7 @@ impl RasterStability {
                 let why = "has no meaning with {path} repeat: leave one of them out";
                 return Err(Refused::number("pitch", pitch, why).into());
             }
-            (PathName::Repeat, None) if !law.is_papers() => {
+            (PathName::Repeat, None) if !law.is_basic() => {
                 let why = "linear theory of a repeated line covers the basic model only: leave out {depth_limit}, \
                            {healing_time} and {inertia}";
                 return Err(Refused::word("path", "repeat", why).into());

@@ -93,7 +93,7 @@ impl Question for Response {
 impl Response {
     /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, self.r, self.law)
     }
 
     /// A run over the same time, for comparison.

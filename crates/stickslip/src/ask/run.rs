@@ -336,7 +336,12 @@ impl Run {
 
     /// Footprint, law, α and r in the form of other documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r.unwrap_or(f64::NAN), self.law)
+        ModelParameters::of_question(
+            &self.tip,
+            self.indentation,
+            self.r.unwrap_or(f64::NAN),
+            self.law,
+        )
     }
 
     /// The velocity of the support; 0 without a spring.

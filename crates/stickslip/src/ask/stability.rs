@@ -105,7 +105,7 @@ impl Stability {
     /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
         let r = self.r.unwrap_or(f64::NAN);
-        ModelParameters::asked(&self.tip, self.indentation, r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, r, self.law)
     }
 
     fn velocity(&self) -> Result<f64, Refused> {
@@ -143,7 +143,7 @@ impl Stability {
         if self.solve_for == SolveFor::Alpha {
             return Ok(());
         }
-        if !law.is_papers() {
+        if !law.is_basic() {
             let why = "rc(α) is available for the basic model only: give {r}, for αc(r)";
             return Err(Refused::word("solve_for", "r", why));
         }
@@ -292,7 +292,7 @@ impl Ask for Stability {
             Some((line, _)) => line.unstable_count(model.alpha()).map_err(uncertain)? > 0,
             None => false,
         };
-        let kind = |at: &Critical| (!law.is_papers()).then_some(at.kind);
+        let kind = |at: &Critical| (!law.is_basic()).then_some(at.kind);
         let found = StabilityFound {
             critical: at.map(|at| CriticalDocument::of(at, kind(at))),
             stable: !snakes && self.is_stable(&model, at)?,
@@ -336,7 +336,7 @@ fn trapping(model: &Model) -> (Result<f64, StabilityError>, Result<Creep, Stabil
 /// Conditions under which steady motion is stable at every α; `None` for the basic model.
 fn limits(model: &Model) -> Option<LimitsDocument> {
     let (law, tip) = (model.wider(), model.tip());
-    (!law.is_papers()).then(|| LimitsDocument {
+    (!law.is_basic()).then(|| LimitsDocument {
         least_depth_limit: theory::least_depth_limit(law, tip, model.r()).ok(),
         memory_length: theory::memory_length(tip).ok(),
     })
@@ -344,7 +344,7 @@ fn limits(model: &Model) -> Option<LimitsDocument> {
 
 /// The small oscillation at the critical point, to leading order.
 fn onset(model: &Model, critical: Critical) -> Result<Onset, StabilityError> {
-    if !model.wider().is_papers() {
+    if !model.wider().is_basic() {
         return Err(StabilityError::PapersLawOnly("the leading order of small cycles"));
     }
     theory::onset_at(model.tip(), critical)

@@ -60,7 +60,7 @@ fn default_roots() -> usize {
 impl Walking {
     /// Footprint, law, α and r in the form of documents.
     pub fn model_parameters(&self) -> ModelParameters {
-        ModelParameters::asked(&self.tip, self.indentation, self.r, self.law)
+        ModelParameters::of_question(&self.tip, self.indentation, self.r, self.law)
     }
 
     fn model(&self) -> Result<Model, Refused> {

@@ -94,7 +94,7 @@ impl CheckpointHead {
     pub const FORMAT: &'static str = "stickslip/checkpoint";
 
     /// Whether this build of the program wrote it: no other version or commit can resume it.
-    pub fn is_of_this_program(&self) -> bool {
+    pub fn is_of_this_build(&self) -> bool {
         self.format == Self::FORMAT
             && self.format_version == FORMAT_VERSION
             && self.software == Software::this()

@@ -5,8 +5,8 @@ use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Policy};
 use crate::step::{
-    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, Missed, OwnGroove,
-    OwnHeight,
+    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, OwnGroove, OwnHeight,
+    StageResiduals,
 };
 use crate::tip_function::Apex;
 use crate::{Force, InitialSurface, Model};
@@ -84,7 +84,7 @@ struct Look {
     known: Known,
     own: OwnGroove,
     own_height: OwnHeight,
-    missed: Missed,
+    missed: StageResiduals,
 }
 
 impl Look {
@@ -94,7 +94,7 @@ impl Look {
             known: Known::nothing(),
             own: OwnGroove::nothing(),
             own_height: OwnHeight::nothing(),
-            missed: Missed { displacement: zero, height: zero },
+            missed: StageResiduals { displacement: zero, height: zero },
         }
     }
 }
@@ -255,12 +255,12 @@ impl<'a> StageEquations<'a> {
 impl Jacobian {
     /// Newton's corrections; `None` if the Jacobian is singular.
     #[inline]
-    fn corrections(&self, missed: &Missed) -> Option<Missed> {
+    fn corrections(&self, missed: &StageResiduals) -> Option<StageResiduals> {
         if let Some(limited) = &self.limited {
             return Some(limited.corrections(missed));
         }
         let displacement = self.plain.as_ref()?.solve(&missed.displacement);
-        Some(Missed { displacement, height: [0.0; STAGES] })
+        Some(StageResiduals { displacement, height: [0.0; STAGES] })
     }
 }
 

@@ -134,7 +134,7 @@ impl Policy {
                     retreats.fft = None;
                     modes.sum_up(record.near(0.0, 0.0));
                 } else {
-                    retreats.goes_on(&self.tip, record, modes.behind());
+                    retreats.continue_retreat(&self.tip, record, modes.behind());
                 }
             }
             Now::Modes(modes, retreats) => {

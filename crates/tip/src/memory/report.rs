@@ -52,7 +52,7 @@ impl MemoryReport {
         } else {
             Some("requested".to_string())
         };
-        why.into_iter().chain(self.fared()).collect::<Vec<_>>().join("; ")
+        why.into_iter().chain(self.errors_in_words()).collect::<Vec<_>>().join("; ")
     }
 
     /// Reason for the choice of `auto`.
@@ -74,7 +74,7 @@ impl MemoryReport {
         })
     }
 
-    pub(crate) fn fared(&self) -> Option<String> {
+    pub(crate) fn errors_in_words(&self) -> Option<String> {
         let Sum::Modes { terms, certificate: FitCertificate { slope, area, .. }, retreats } =
             &self.sum
         else {

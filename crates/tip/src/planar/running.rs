@@ -34,7 +34,7 @@ pub fn run(scenario: &PlanarScenario) -> Result<PlanarRun, PlanarError> {
             return Err(RunError::HistoryTooLong { t: step.along.t }.into());
         }
         steps.push(step);
-        interrupted = stop::is_asked();
+        interrupted = stop::is_requested();
     }
     let (work, layers) = (running.work(), running.layers());
     let along = &scenario.along;

@@ -132,7 +132,7 @@ fn is_plain(scenario: &Scenario) -> bool {
     let by_modes = matches!(memory, MemoryChoice::Auto | MemoryChoice::Modes);
     let fades = model.tip().reach().is_some();
     let is_plain = is_free && force.begins() > 0.0 && is_even && by_modes && fades;
-    is_plain && model.wider().is_papers() && scenario.validate().is_ok()
+    is_plain && model.wider().is_basic() && scenario.validate().is_ok()
 }
 
 fn begin(number: usize, scenario: &Scenario) -> BeginBeside {
@@ -152,13 +152,13 @@ impl Group {
         let (terms, certificate) = (self.fit.terms().len(), self.fit.certificate());
         let sum = Sum::Modes { terms, certificate, retreats: 0 };
         let report = MemoryReport { choice: scenario.memory, accuracy: self.fit.wanted(), sum };
-        let fared = report.fared().unwrap_or_default();
+        let errors_in_words = report.errors_in_words().unwrap_or_default();
         Ok(Run {
             initial_surface: scenario.initial_surface()?,
             trajectory: steps,
             work,
             memory: report.name(),
-            memory_reason: format!("side by side with other motions; {fared}"),
+            memory_reason: format!("side by side with other motions; {errors_in_words}"),
             interrupted: false,
             side_by_side: true,
         })

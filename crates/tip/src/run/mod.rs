@@ -87,7 +87,7 @@ fn collected<C>(
     let mut running = Running::new(scenario, &initial_surface)?;
     let mut interrupted = false;
     while !interrupted && let Some(step) = running.step()? {
-        interrupted = take(&mut steps, step)?.is_break() || stop::is_asked();
+        interrupted = take(&mut steps, step)?.is_break() || stop::is_requested();
     }
     let (work, memory, memory_reason) = (running.work(), running.memory(), running.memory_reason());
     drop(running);

@@ -41,7 +41,7 @@ pub struct Known {
 
 /// Residuals of the equations at given displacements and heights.
 #[derive(Debug, Clone, Copy)]
-pub struct Missed {
+pub struct StageResiduals {
     /// Residual d - hAv of the displacements.
     pub displacement: Stages,
     /// Residual of the heights: η minus the right-hand side of the equation for η.
@@ -99,7 +99,7 @@ impl Depth {
         (d, height): (&Stages, &Stages),
         known: &Known,
         (own, own_height): (&OwnGroove, &OwnHeight),
-    ) -> Missed {
+    ) -> StageResiduals {
         let weights = self.weights(height);
         let carving = by_columns(equations.carving(), &weights);
         let slopes = (&known.past_slope, &known.relief_slope);
@@ -107,7 +107,7 @@ impl Depth {
         let mut groove = known.past_height;
         own_height.add(&carving, &mut groove);
         let alpha = equations.alpha();
-        Missed {
+        StageResiduals {
             displacement: equations.residual(d, &velocity),
             height: std::array::from_fn(|i| height[i] - known.relief_height[i] + alpha * groove[i]),
         }
@@ -175,7 +175,7 @@ impl Depth {
 
 impl LimitedFactors {
     /// Newton's corrections, to be subtracted.
-    pub fn corrections(&self, missed: &Missed) -> Missed {
+    pub fn corrections(&self, missed: &StageResiduals) -> StageResiduals {
         let by_height = self.height.solve(&missed.height);
         let right = std::array::from_fn(|i| {
             let through = self.displacement_by_height[i].iter().zip(&by_height);
@@ -186,7 +186,7 @@ impl LimitedFactors {
             let through = self.height_by_displacement[i].iter().zip(&displacement);
             missed.height[i] - through.map(|(a, b)| a * b).sum::<f64>()
         });
-        Missed { displacement, height: self.height.solve(&left) }
+        StageResiduals { displacement, height: self.height.solve(&left) }
     }
 }
 
@@ -250,7 +250,7 @@ mod tests {
             let (e, wanted) = (1e-3, missed(&d, &height));
             let points = [along(e), along(-e), along(2.0 * e), along(-2.0 * e)];
             for i in 0..STAGES {
-                let by = |part: fn(&Missed) -> &Stages| {
+                let by = |part: fn(&StageResiduals) -> &Stages| {
                     let p = points.map(|m| part(&m)[i]);
                     (8.0 * (p[0] - p[1]) - (p[2] - p[3])) / (12.0 * e)
                 };

@@ -22,7 +22,7 @@ mod law;
 mod linear_system;
 mod own;
 
-pub use depth::{Depth, Known, LimitedFactors, Missed};
+pub use depth::{Depth, Known, LimitedFactors, StageResiduals};
 pub use estimate::{defect, interpolation_error, longest_displacement, velocity_at_end};
 pub use healing::{healing, healing_rate};
 pub use inertia::Inertia;

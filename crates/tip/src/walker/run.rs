@@ -106,7 +106,7 @@ fn attempt(
         let step = WalkerStep { t, h, position: chain.position.clone() };
         chain.advance(h);
         t = step.end();
-        interrupted = observe(&step, steps.len() + 1).is_break() || stop::is_asked();
+        interrupted = observe(&step, steps.len() + 1).is_break() || stop::is_requested();
         steps.push(step);
     }
     let trajectory = WalkerTrajectory::new(steps);

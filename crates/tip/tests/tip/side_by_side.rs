@@ -163,7 +163,7 @@ fn once_nobody_waits_each_run_ends_at_its_first_step() {
         (0..10).map(|i| scenario(1.0 + 0.02 * f64::from(i), 1e4, 1e-6)).collect();
     let flag = Arc::new(AtomicBool::new(true));
     let mut told = 0;
-    stop::where_asked_by(&flag, || {
+    stop::with_flag(&flag, || {
         run_each(&scenarios, |_, run| {
             let run = run.unwrap();
             assert!(run.interrupted && run.trajectory.steps().len() == 1);

@@ -4,7 +4,7 @@ use super::closed::closed_work;
 use super::grid::{Discretisation, Motion, Samples, explain, grid_work, watch, wider};
 use super::pace::{Unit, Watch, timed};
 use super::plane::Plane;
-use super::{Asked, Sides};
+use super::{Comparison, Sides};
 use crate::failure::Failure;
 use stickslip::{ClosedDocument, GridDocument};
 use stickslip_grid::{
@@ -17,17 +17,17 @@ use stickslip_tip::planar::{
 use stickslip_tip::{Start, Work};
 
 /// Both sides of a tip that is free to move across the scan; the surfaces are those on the line y = 0.
-pub(super) fn sides(asked: &Asked, scenario: &PlanarScenario) -> Result<Sides, Failure> {
-    let Discretisation { name, spacing, .. } = asked.discretisation;
+pub(super) fn sides(comparison: &Comparison, scenario: &PlanarScenario) -> Result<Sides, Failure> {
+    let Discretisation { name, spacing, .. } = comparison.discretisation;
     let footprint = scenario.along.model.tip().footprint();
     let footprint = footprint.ok_or(PlanarError::NoFootprint);
-    let footprint = footprint.map_err(|error| asked.question.refused_across(error))?;
+    let footprint = footprint.map_err(|error| comparison.question.refused_across(error))?;
     let plane = Plane::of(name, spacing, footprint)?;
-    let closed = Closed::of(asked, scenario)?;
-    let x = asked.positions(|t| closed.trajectory.x0(t))?;
-    plane.fit(x[x.len() - 1] - x[0], asked.range(|t| closed.trajectory.y0(t)))?;
-    let motion = on_cells(asked, scenario, (&plane.products, &plane.method), &x)?;
-    let closed = closed.document(scenario, &motion.t, asked.grid_until, &x)?;
+    let closed = Closed::of(comparison, scenario)?;
+    let x = comparison.positions(|t| closed.trajectory.x0(t))?;
+    plane.fit(x[x.len() - 1] - x[0], comparison.range(|t| closed.trajectory.y0(t)))?;
+    let motion = on_cells(comparison, scenario, (&plane.products, &plane.method), &x)?;
+    let closed = closed.document(scenario, &motion.t, comparison.grid_until, &x)?;
     Ok(Sides { x, closed, motion })
 }
 
@@ -40,8 +40,8 @@ struct Closed {
 }
 
 impl Closed {
-    fn of(asked: &Asked, scenario: &PlanarScenario) -> Result<Self, Failure> {
-        let ((steps, work, memory), seconds) = timed(|| steps(asked, scenario))?;
+    fn of(comparison: &Comparison, scenario: &PlanarScenario) -> Result<Self, Failure> {
+        let ((steps, work, memory), seconds) = timed(|| steps(comparison, scenario))?;
         let along = &scenario.along;
         let trajectory = Trajectory::under(*along.model.wider(), along.support(), steps);
         Ok(Self { trajectory, work, memory, seconds })
@@ -73,10 +73,11 @@ impl Closed {
 type Made = (Vec<Step>, Work, &'static str);
 
 /// A run and its time in seconds.
-fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<(Made, f64), Failure> {
-    let refused = |error| asked.question.refused_across(error);
+fn steps(comparison: &Comparison, scenario: &PlanarScenario) -> Result<(Made, f64), Failure> {
+    let refused = |error| comparison.question.refused_across(error);
     let span = (scenario.along.start_time(), scenario.along.until);
-    let mut watch = Watch::new(asked.session, Unit::Time("--until"), span, asked.time_limit);
+    let mut watch =
+        Watch::new(comparison.session, Unit::Time("--until"), span, comparison.time_limit);
     watch = watch.of_short_steps();
     let mut integrate = || -> Result<Made, Failure> {
         let (mut running, mut steps) = (PlanarRunning::new(scenario).map_err(refused)?, vec![]);
@@ -94,7 +95,7 @@ fn steps(asked: &Asked, scenario: &PlanarScenario) -> Result<(Made, f64), Failur
 
 /// Runs the grid from the scenario's initial condition.
 fn on_cells(
-    asked: &Asked,
+    comparison: &Comparison,
     scenario: &PlanarScenario,
     (products, method): (&[Product], &PlaneMethod),
     x: &[f64],
@@ -118,16 +119,16 @@ fn on_cells(
         start,
     };
     let points: Vec<[f64; 2]> = x.iter().map(|x| [*x, 0.0]).collect();
-    let request = PlaneRequest { times: &[asked.grid_until], points: &points };
+    let request = PlaneRequest { times: &[comparison.grid_until], points: &points };
     let ((run, samples), seconds) = timed(|| {
-        let (mut watch, mut samples) = (watch(asked), Samples::default());
+        let (mut watch, mut samples) = (watch(comparison), Samples::default());
         let mut step = |t: f64, at: [f64; 2]| {
             samples.take(t, at);
             watch.reached(t)
         };
-        let stepping = &asked.discretisation.stepping;
+        let stepping = &comparison.discretisation.stepping;
         let run = solve_plane(&problem, method, stepping, &request, &mut step);
-        watch.ended(run.map(|run| (run, samples)).map_err(|error| explain(asked, error)))
+        watch.ended(run.map(|run| (run, samples)).map_err(|error| explain(comparison, error)))
     })?;
     let work = grid_work(&run.work, seconds);
     let [x0, y0] = [0, 1].map(|axis| samples.column(axis));

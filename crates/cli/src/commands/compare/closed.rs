@@ -1,6 +1,6 @@
 //! The closed equation's side of a comparison.
 
-use super::Asked;
+use super::Comparison;
 use super::pace::{Unit, Watch, timed};
 use crate::failure::Failure;
 use stickslip::{ClosedDocument, ClosedWork};
@@ -14,11 +14,11 @@ pub(super) struct Closed {
     seconds: f64,
 }
 
-pub(super) fn run(asked: &Asked, scenario: &Scenario) -> Result<Closed, Failure> {
-    let Asked { question, time_limit, .. } = asked;
+pub(super) fn run(comparison: &Comparison, scenario: &Scenario) -> Result<Closed, Failure> {
+    let Comparison { question, time_limit, .. } = comparison;
     let span = (scenario.start_time(), scenario.until);
     let once = || {
-        let mut watch = Watch::new(asked.session, Unit::Time("--until"), span, *time_limit);
+        let mut watch = Watch::new(comparison.session, Unit::Time("--until"), span, *time_limit);
         watch = watch.of_short_steps();
         let run = run_observed(scenario, |step| watch.reached(step.end()));
         watch.ended(run.map_err(|error| question.refused(&error).into()))

@@ -1,6 +1,6 @@
 //! The grid's side of a comparison.
 
-use super::Asked;
+use super::Comparison;
 use super::pace::{Unit, Watch, timed};
 use crate::arguments::CompareArguments;
 use crate::failure::{Failure, Typed};
@@ -128,14 +128,18 @@ pub(super) struct Motion {
 }
 
 /// Runs the grid from the scenario's initial condition, over the domain of `x`.
-pub(super) fn run(asked: &Asked, scenario: &Scenario, x: &[f64]) -> Result<Motion, Failure> {
-    let Asked { discretisation, grid_until, .. } = asked;
+pub(super) fn run(
+    comparison: &Comparison,
+    scenario: &Scenario,
+    x: &[f64],
+) -> Result<Motion, Failure> {
+    let Comparison { discretisation, grid_until, .. } = comparison;
     let model = &scenario.model;
     let f = |x: f64| model.tip().value(x);
     let force = |t: f64| scenario.force.value(t);
     let method = discretisation.method((x[0], x[x.len() - 1]));
     let request = Request { times: &[*grid_until], points: x };
-    let explain = |error| explain(asked, error);
+    let explain = |error| explain(comparison, error);
     let footprint = Footprint::new(&f, discretisation.reach).map_err(explain)?;
     let texture = texture(scenario)?;
     let support = scenario.support();
@@ -149,7 +153,7 @@ pub(super) fn run(asked: &Asked, scenario: &Scenario, x: &[f64]) -> Result<Motio
         .with_force(&force);
 
     let once = || -> Result<((Run, Samples), f64), Failure> {
-        let (mut watch, mut samples) = (watch(asked), Samples::default());
+        let (mut watch, mut samples) = (watch(comparison), Samples::default());
         let mut step = |t: f64, x0: f64| {
             samples.take(t, [x0, 0.0]);
             watch.reached(t)
@@ -208,7 +212,7 @@ fn start<'a>(
     let (alpha, r) = (scenario.model.alpha(), scenario.model.r());
     let start = match scenario.start {
         stickslip_tip::Start::Steady
-            if scenario.model.wider().is_papers() && scenario.path.is_none() =>
+            if scenario.model.wider().is_basic() && scenario.path.is_none() =>
         {
             Start::steady(alpha, r, footprint, position, kick)
         }
@@ -226,9 +230,9 @@ fn start<'a>(
 }
 
 /// The observer of a grid's steps.
-pub(super) fn watch(asked: &Asked) -> Watch {
-    let span = (asked.scenario.span().0, asked.grid_until);
-    Watch::new(asked.session, Unit::Time("--grid-until"), span, asked.time_limit)
+pub(super) fn watch(comparison: &Comparison) -> Watch {
+    let span = (comparison.scenario.span().0, comparison.grid_until);
+    Watch::new(comparison.session, Unit::Time("--grid-until"), span, comparison.time_limit)
 }
 
 /// The motion at every 2^n-th step, thinned as it grows.
@@ -267,10 +271,10 @@ impl Samples {
 }
 
 /// The error with the option that causes an error of the grid.
-pub(super) fn explain(asked: &Asked, error: GridError) -> Failure {
+pub(super) fn explain(comparison: &Comparison, error: GridError) -> Failure {
     match error {
         GridError::Defect { .. } => {
-            Failure::number("--spacing", asked.discretisation.spacing, error)
+            Failure::number("--spacing", comparison.discretisation.spacing, error)
         }
         GridError::StepTooSmall { .. } | GridError::LeftGrid { .. } => {
             let advice = "another --step or --grid-tolerance, or an earlier --grid-until, may help: a deep groove is \

@@ -29,7 +29,7 @@ pub(super) fn timed<T>(once: impl Fn() -> Result<(T, f64), Failure>) -> Result<(
 
 /// The error if a host has cancelled the work. (In a shell a signal ends the program.)
 pub(super) fn stopped() -> Result<(), Failure> {
-    if stop::is_asked() { Err(Failure::Stopped(SIGINT as u8)) } else { Ok(()) }
+    if stop::is_requested() { Err(Failure::Stopped(SIGINT as u8)) } else { Ok(()) }
 }
 
 /// The quantity in which work proceeds.

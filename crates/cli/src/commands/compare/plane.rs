@@ -38,7 +38,7 @@ impl Plane {
             GridName::Spectral => PlaneMethod::Spectral { spacing: in_widths },
             GridName::Sinc => PlaneMethod::Sinc { spacing, half_width: SINC_HALF_WIDTH },
             GridName::Windowed => PlaneMethod::ThreePoint { spacing },
-            GridName::Uniform => return Err(no_uniform()),
+            GridName::Uniform => return Err(uniform_refused()),
         };
         Ok(Self { products, method, spacing, reach })
     }
@@ -58,7 +58,7 @@ impl Plane {
 }
 
 /// Rejects `--grid uniform`, which is available along the scan only.
-pub(super) fn no_uniform() -> Failure {
+pub(super) fn uniform_refused() -> Failure {
     let message = "is not available across the scan: take spectral or sinc (exact) or windowed (second order)";
     Failure::input("--grid uniform", message)
 }

@@ -6,7 +6,7 @@ use super::pace::{Pace, Unit, Watch, stopped, timed};
 use super::plane::{self, Plane};
 use super::time_limit;
 use crate::arguments::CompareArguments;
-use crate::commands::ask::refuse_strangers;
+use crate::commands::ask::refuse_unknown;
 use crate::commands::job::{Job, judge_places};
 use crate::commands::raster::{files_read, question};
 use crate::commands::surface::evenly;
@@ -34,7 +34,7 @@ pub(super) fn compare(
 ) -> Result<(), Failure> {
     let CompareArguments { options, area, disturbance, answer: place, .. } = arguments;
     judge_places(&place.outlet, place.plot.as_deref(), &files_read(options, area))?;
-    refuse_strangers::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
+    refuse_unknown::<Raster, _>(options, &values, "a raster (--lines or --area)")?;
     let scales = options.scales(session, &place.in_units, &values)?;
     let (parameters, plan) =
         question(session, options, values, (area, &disturbance.pulse), scales.as_ref())?;
@@ -42,17 +42,17 @@ pub(super) fn compare(
     let (stepping, limit) = (stepping(arguments, parameters.tolerance)?, time_limit(arguments)?);
     let cells = Cells::of(arguments, &plan)?;
     // The steps of the grid itself, unless times are requested, at which it would have to stop.
-    let is_asked = sampling.sample_at.is_some() || sampling.sample_every.is_some();
-    let times = if is_asked { parameters.times(&plan)? } else { vec![] };
+    let is_requested = sampling.sample_at.is_some() || sampling.sample_every.is_some();
+    let times = if is_requested { parameters.times(&plan)? } else { vec![] };
     let job =
         Job::open(session, RasterCompareDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
     let (low, high) = plan.area.ends();
     let x = evenly(low - plan.reach_across(), high + plan.reach_across(), POINTS);
     let (lines, seconds) = closed(&plan, limit)?;
-    let asked = Asked { session, plan: &plan, stepping, times, x, limit };
+    let comparison = Comparison { session, plan: &plan, stepping, times, x, limit };
     let compared = match (&plan.free, &cells.plane) {
-        (Some(free), Some(plane)) => on_cells(&asked, free, plane)?,
-        _ => on_rows(&asked, (cells.rows, cells.spacing))?,
+        (Some(free), Some(plane)) => on_cells(&comparison, free, plane)?,
+        _ => on_rows(&comparison, (cells.rows, cells.spacing))?,
     };
     let tolerance = Some(stepping.atol).filter(|atol| atol.is_finite());
     let (grid_tolerance, step) = (tolerance, arguments.step);
@@ -65,7 +65,7 @@ pub(super) fn compare(
 }
 
 /// The problem of the grid.
-struct Asked<'a> {
+struct Comparison<'a> {
     session: &'a Session,
     plan: &'a Plan,
     stepping: Stepping,
@@ -97,11 +97,11 @@ impl Cells {
 }
 
 /// The discretisation along x: exact to round-off, or of second order.
-fn method(asked: GridName, plan: &Plan) -> Result<(GridName, RowMethod), Failure> {
-    match asked {
+fn method(name: GridName, plan: &Plan) -> Result<(GridName, RowMethod), Failure> {
+    match name {
         GridName::Spectral | GridName::Sinc => Ok((GridName::Sinc, RowMethod::Sinc)),
         GridName::Windowed => Ok((GridName::Windowed, RowMethod::ThreePoint)),
-        GridName::Uniform if plan.free.is_some() => Err(plane::no_uniform()),
+        GridName::Uniform if plan.free.is_some() => Err(plane::uniform_refused()),
         GridName::Uniform => {
             let message = "is not available for a raster: take sinc (exact along x) or windowed (second order)";
             Err(Failure::input("--grid uniform", message))
@@ -156,8 +156,8 @@ fn scan_lines(plan: &Plan) -> Vec<ScanLine> {
 }
 
 /// The raster of a tip that is held on its lines, on rows of cells.
-fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Failure> {
-    let Asked { plan, stepping, times, x, .. } = asked;
+fn on_rows(comparison: &Comparison, rows: (RowMethod, f64)) -> Result<RasterCompared, Failure> {
+    let Comparison { plan, stepping, times, x, .. } = comparison;
     type Function<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
     let parts = plan.footprint.layers();
     let functions: Vec<(Function, Function)> = parts
@@ -180,7 +180,7 @@ fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Fail
         zigzag: plan.path == Path::Zigzag,
         force: &|t| plan.disturbance.value(t),
     };
-    let mut watch = watch(asked);
+    let mut watch = watch(comparison);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan(&problem, rows, stepping, (times, x), &mut line);
     let (scanned, seconds) = watch.ended(scanned.map_err(explain))?;
@@ -202,8 +202,13 @@ fn on_rows(asked: &Asked, rows: (RowMethod, f64)) -> Result<RasterCompared, Fail
 }
 
 /// The observer of a grid's lines.
-fn watch(asked: &Asked) -> Watch {
-    Watch::new(asked.session, Unit::Lines, (0.0, asked.plan.lines() as f64), asked.limit)
+fn watch(comparison: &Comparison) -> Watch {
+    Watch::new(
+        comparison.session,
+        Unit::Lines,
+        (0.0, comparison.plan.lines() as f64),
+        comparison.limit,
+    )
 }
 
 fn explain(error: GridError) -> Failure {
@@ -212,8 +217,12 @@ fn explain(error: GridError) -> Failure {
     Failure::Run(format!("grid: {error}; {advice}"))
 }
 
-fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared, Failure> {
-    let Asked { plan, stepping, times, x, .. } = asked;
+fn on_cells(
+    comparison: &Comparison,
+    free: &Free,
+    plane: &Plane,
+) -> Result<RasterCompared, Failure> {
+    let Comparison { plan, stepping, times, x, .. } = comparison;
     let (model, wider) = (&plan.law.model, plan.law.model.wider());
     let lines = scan_lines(plan);
     let mut y: Vec<f64> = lines.iter().map(|line| line.y).collect();
@@ -231,7 +240,7 @@ fn on_cells(asked: &Asked, free: &Free, plane: &Plane) -> Result<RasterCompared,
         force: &|t| [plan.disturbance.value(t), free.disturbance.value(t)],
     };
     let points: Vec<[f64; 2]> = y.iter().flat_map(|y| x.iter().map(|x| [*x, *y])).collect();
-    let mut watch = watch(asked);
+    let mut watch = watch(comparison);
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan_plane(&scan, &plane.method, stepping, (times, &points), &mut line);
     let (scanned, seconds) = watch.ended(scanned.map_err(explain))?;

@@ -1,7 +1,7 @@
 //! Animations of `stickslip plot`.
 
 use crate::arguments::PlotArguments;
-use crate::commands::figure::undrawn;
+use crate::commands::figure::drawing_failure;
 use crate::commands::in_units::scales;
 use crate::commands::plot::{range, width};
 use crate::failure::Failure;
@@ -33,14 +33,14 @@ pub(super) fn write(
     if let Some((_, Some(given))) =
         times.filter(|(_, given)| given.is_some_and(|given| given != unit))
     {
-        return Err(undrawn(&FigureError::Unit(given, format!("of times in {unit}"))));
+        return Err(drawing_failure(&FigureError::Unit(given, format!("of times in {unit}"))));
     }
     let shot = Shot { times: times.map(|(times, _)| times), scales };
     let failed = |error: FigureError| match error {
         FigureError::Damaged(_) | FigureError::Nothing(_) | FigureError::Still(_) => {
             Failure::input(named(), error)
         }
-        error => undrawn(&error),
+        error => drawing_failure(&error),
     };
     let mut scene = figures::scene_of(&*document, &shot).map_err(failed)?;
     output.write_bytes(&figures::animate(&mut *scene, format, &film).map_err(failed)?)

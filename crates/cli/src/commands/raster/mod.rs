@@ -4,7 +4,7 @@ mod scan;
 
 use super::ask::{context, refusal};
 use super::job::{Job, format};
-use super::run::disturbance::{parse_pulses, warn_of_idle_pulses};
+use super::run::disturbance::{parse_pulses, warn_of_pulses_outside};
 use super::sweep::threads;
 use crate::arguments::{AreaArguments, Format, Options, Questions, RasterArguments};
 use crate::commands::in_units::in_metres;
@@ -92,7 +92,7 @@ pub(super) fn question<Q: Questions>(
     let question = question.resolved(&context(session)).map_err(refused)?;
     let plan = question.prepared().map_err(refused)?;
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
-    warn_of_idle_pulses(session, pulse, &pulses, (0.0, plan.duration(0)));
+    warn_of_pulses_outside(session, pulse, &pulses, (0.0, plan.duration(0)));
     Ok((question, plan))
 }
 

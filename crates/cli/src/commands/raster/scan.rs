@@ -48,7 +48,7 @@ pub(super) fn scan(
         unkept.is_none()
     };
     let scan = || scanning.scan_with(threads, text, &mut take);
-    stop::where_asked_by(interrupt.flag(), scan).map_err(failed)?;
+    stop::with_flag(interrupt.flag(), scan).map_err(failed)?;
     if let Some(error) = unkept {
         return Err(finished.unkept(error));
     }

@@ -143,7 +143,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     let line = body.iter().position(|byte| *byte == b'\n').ok_or_else(no_checkpoint)?;
     let head: CheckpointHead =
         serde_json::from_slice(&body[..line]).map_err(|error| format!("is damaged: {error}"))?;
-    if !head.is_of_this_program() {
+    if !head.is_of_this_build() {
         return Err(format!(
             "was made by {}, {} {}: only that version reproduces every bit; resume it with that version",
             head.software, head.format, head.format_version

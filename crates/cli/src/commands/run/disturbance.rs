@@ -87,7 +87,7 @@ const WIDTHS_CUT: f64 = 3.09;
 /// motion begins. It is not an error, because runs of several lengths may share their forces.
 fn warn_of_idle(session: &Session, arguments: &DisturbanceArguments, run: &Run, span: (f64, f64)) {
     let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
-    warn_of_idle_pulses(session, &arguments.pulse, &pulses, span);
+    warn_of_pulses_outside(session, &arguments.pulse, &pulses, span);
     let (Some(path), Some(table)) = (&arguments.force_file, &run.force) else { return };
     let (Some(first), Some(last)) = (table.t.first(), table.t.last()) else { return };
     let mut rows = table.t.iter().zip(&table.force);
@@ -97,7 +97,7 @@ fn warn_of_idle(session: &Session, arguments: &DisturbanceArguments, run: &Run, 
 }
 
 /// The same for pulses alone, as typed and as parsed.
-pub(crate) fn warn_of_idle_pulses(
+pub(crate) fn warn_of_pulses_outside(
     session: &Session,
     texts: &[String],
     pulses: &[Pulse],

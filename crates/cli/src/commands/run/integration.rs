@@ -58,7 +58,7 @@ impl<R: Motion> Integration<R> {
         let seconds = || before + started.elapsed().as_secs_f64();
         // Once for all steps: a step may be as short as this takes.
         let flag = Arc::clone(self.interrupt.flag());
-        let is_whole = stop::where_asked_by(&flag, || self.advance(progress, seconds))?;
+        let is_whole = stop::with_flag(&flag, || self.advance(progress, seconds))?;
         let seconds = seconds();
         self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
         let Self { running, record, interrupt, .. } = self;

@@ -3,7 +3,7 @@
 use super::checkpoint;
 use super::disturbance::{disturbed, files_read};
 use crate::arguments::{Format, HistoryName, RunArguments};
-use crate::commands::ask::{refusal, refuse_strangers};
+use crate::commands::ask::{refusal, refuse_unknown};
 use crate::commands::job;
 use crate::failure::Failure;
 use crate::files::columns::read_surface_table;
@@ -22,7 +22,7 @@ pub(super) fn order(
 ) -> Result<(Order, RunScenario), Failure> {
     let format = format(session, arguments)?;
     let RunArguments { options, disturbance, support_path, .. } = arguments;
-    refuse_strangers::<Run, _>(options, &values, "a tip on its line, without --walker")?;
+    refuse_unknown::<Run, _>(options, &values, "a tip on its line, without --walker")?;
     let scales = options.scales(session, &arguments.in_units, &values)?;
     let files = files(arguments);
     let question: Run = parameter::question(values)?;

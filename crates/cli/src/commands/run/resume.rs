@@ -106,7 +106,7 @@ fn resumed<R: Motion>(
 }
 
 /// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from a
-/// stranger: its files must be in its folder.
+/// unknown_parameter: its files must be in its folder.
 fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> Result<(), Failure> {
     let named = format!("--resume {}", checkpoint.display());
     let place = |option: &str, given: Option<&Path>, held: &Path| {

@@ -1,9 +1,9 @@
 //! `stickslip run --walker`.
 
-use super::disturbance::{parse_pulses, warn_of_idle_pulses};
+use super::disturbance::{parse_pulses, warn_of_pulses_outside};
 use super::{format_of, order};
 use crate::arguments::RunArguments;
-use crate::commands::ask::{context_cancelled_by, refuse_strangers};
+use crate::commands::ask::{context_cancelled_by, refuse_unknown};
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::failure::Failure;
@@ -22,12 +22,12 @@ pub(super) fn run(
     let format = order::format(session, arguments)?;
     judge(arguments, format)?;
     order::judge_files(arguments)?;
-    refuse_strangers::<Walker, _>(&arguments.options, &values, "--walker")?;
+    refuse_unknown::<Walker, _>(&arguments.options, &values, "--walker")?;
     let mut question: Walker = parameter::question(values)?;
     let typed = &arguments.disturbance.pulse;
     if !typed.is_empty() {
         let pulses = parse_pulses(typed)?;
-        warn_of_idle_pulses(session, typed, &pulses, (0.0, question.until));
+        warn_of_pulses_outside(session, typed, &pulses, (0.0, question.until));
         question.pulses = pulses.into_iter().map(Into::into).collect();
     }
     let scales = scales(session, &arguments.in_units, None, None)?;

@@ -69,7 +69,7 @@ pub(super) fn all<R: Motion>(
     target: Target,
 ) -> Result<(), Failure> {
     let Integrated { running, mut record, seconds, interrupt } = integrated;
-    let found = stop::where_asked_by(interrupt.flag(), || running.became(seconds));
+    let found = stop::with_flag(interrupt.flag(), || running.became(seconds));
     let end = RunEnd { interrupted: interrupt.signal().is_some(), ..found? };
     let signal = interrupt.signal().filter(|_| end.interrupted);
     print_remarks(session, order, &end);

@@ -2,7 +2,7 @@
 
 use super::{Summary, again, digits};
 use crate::commands::job::Product;
-use crate::commands::verify::claims::said;
+use crate::commands::verify::claims::described;
 use crate::commands::verify::kept;
 use stickslip::{
     HoldDocument, LargestDifferenceDocument, LoopDocument, ModelParameters, OscillationDocument,
@@ -152,7 +152,8 @@ impl Product for VerifyDocument {
             self.parameters.tolerance, l.largest, l.allowed, found.memory, found.tolerance
         ));
         let off = self.differences.iter();
-        let summary = off.fold(summary, |summary, off| summary.row("does not follow", said(off)));
+        let summary =
+            off.fold(summary, |summary, off| summary.row("does not follow", described(off)));
         summary
             .row("l", difference(l, "t"))
             .maybe("y0", found.y0.as_ref().map(|y0| difference(y0, "t")))

@@ -34,7 +34,7 @@ pub(super) fn surface(
     }
     let steps = trajectory.steps().iter().map(|step| step.along).collect();
     let along = Trajectory::under(*scenario.along.model.wider(), scenario.along.support(), steps);
-    let places = Places::asked(arguments, &along, MOST_PIXELS)?;
+    let places = Places::requested(arguments, &along, MOST_PIXELS)?;
     let (physical, r) = (document.physical.as_ref(), scenario.along.model.r());
     let (scales, in_metres) = format.scales(session, arguments, physical, r)?;
     let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;

@@ -23,7 +23,7 @@ pub(super) struct Images {
 
 impl Images {
     /// The images; `None` without `--y-range`.
-    pub(super) fn asked(
+    pub(super) fn requested(
         arguments: &SurfaceArguments,
         model: &Model,
         places: &Places,

@@ -44,10 +44,10 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
     let trajectory = document.trajectory().map_err(unusable)?;
     let scenario = document.parameters.scenario().map_err(unusable)?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
-    let places = Places::asked(arguments, &trajectory, format.most_pixels())?;
+    let places = Places::requested(arguments, &trajectory, format.most_pixels())?;
     let physical = document.physical.as_ref();
     let (scales, in_metres) = format.scales(session, arguments, physical, model.r())?;
-    let images = Images::asked(arguments, &model, &places)?;
+    let images = Images::requested(arguments, &model, &places)?;
     let surface = Surface::new(&model, &initial, &trajectory);
     if let (Some(images), Some(unit), true) = (&images, in_metres, places.is_large(&places.y)) {
         images.warn(session);

@@ -41,7 +41,7 @@ impl Places {
         self.x.len() as f64 * y.len() as f64 > MOST_PIXELS
     }
 
-    pub(super) fn asked(
+    pub(super) fn requested(
         arguments: &SurfaceArguments,
         trajectory: &Trajectory,
         most: f64,

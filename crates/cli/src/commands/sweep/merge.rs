@@ -105,14 +105,14 @@ pub(super) fn is_done<D: Divided>(
     if !path.exists() {
         return false;
     }
-    let is_asked = |found: &D| {
+    let is_requested = |found: &D| {
         found.parameters() == asked
             && *found.software() == Software::this()
             && found.points().indices().eq(indices.iter().copied())
     };
     let name = path.display();
     match read::<D>(session, path) {
-        Ok(found) if is_asked(&found) => return true,
+        Ok(found) if is_requested(&found) => return true,
         Ok(_) => session.remark(format_args!(
             "stickslip: {name} belongs to another sweep: it is computed again"
         )),

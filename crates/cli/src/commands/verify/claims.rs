@@ -318,8 +318,8 @@ impl Claims {
         let rough = |_: &str, value: f64| 1.0 + 0.1 * value.abs();
         self.judge_if("transient", claimed.transient.as_ref(), computed.transient.as_ref(), &rough);
         let (ours, theirs) = (&claimed.remarks, &computed.remarks);
-        let said = |remarks: &[String]| remarks.iter().map(|r| words(r)).collect::<Vec<_>>();
-        if said(ours) != said(theirs) {
+        let in_words = |remarks: &[String]| remarks.iter().map(|r| words(r)).collect::<Vec<_>>();
+        if in_words(ours) != in_words(theirs) {
             self.judge("remarks", &json!(ours.join("; ")), &json!(theirs.join("; ")), &digits);
         }
     }
@@ -387,7 +387,7 @@ fn repeated<R: Moving>(
         let along = step.as_ref();
         witness(along, &|t| step.sample(law, t));
         progress.reached(along.end());
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(Failure::Run("the verification was interrupted".into()));
         }
         if is_cut && along.end() >= until * (1.0 - ROUNDINGS) {
@@ -396,7 +396,7 @@ fn repeated<R: Moving>(
     }
     // A run that ended early is judged as one that a signal ended.
     let flag = Arc::new(AtomicBool::new(is_cut && running.t() < scenario.until));
-    Ok(stop::where_asked_by(&flag, || running.became(0.0))?)
+    Ok(stop::with_flag(&flag, || running.became(0.0))?)
 }
 
 fn failed(error: impl Display) -> Failure {
@@ -485,19 +485,22 @@ pub(super) fn of_lines(
 }
 
 /// A line for each value that differs, and a list of their names.
-pub(super) fn said_of(session: &Session, differences: &[ClaimDocument]) -> Option<String> {
+pub(super) fn report_differences(
+    session: &Session,
+    differences: &[ClaimDocument],
+) -> Option<String> {
     let first = differences.first()?;
     let each = differences.iter().filter(|_| differences.len() > 1);
-    each.for_each(|d| session.say(format_args!("stickslip: does not follow: {}", said(d))));
+    each.for_each(|d| session.say(format_args!("stickslip: does not follow: {}", described(d))));
     let names: Vec<&str> = differences.iter().map(|d| &*d.field).collect();
     Some(match names.len() {
-        1 => format!("a value does not follow from the run: {}", said(first)),
+        1 => format!("a value does not follow from the run: {}", described(first)),
         count => format!("{count} values do not follow from the run: {}", names.join(", ")),
     })
 }
 
 /// A line such as `samples.lag at t = 20: 3.2, computed 2.1, 1e-9 allowed (2 entries are off)`.
-pub(in crate::commands) fn said(difference: &ClaimDocument) -> String {
+pub(in crate::commands) fn described(difference: &ClaimDocument) -> String {
     let ClaimDocument { field, t, claimed, computed, allowed, count } = difference;
     let at = t.map_or(String::new(), |t| format!(" at t = {t}"));
     let allowed = allowed.map_or(String::new(), |allowed| format!(", {allowed:.1e} allowed"));

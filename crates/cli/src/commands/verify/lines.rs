@@ -1,6 +1,6 @@
 //! Verification of a run written as lines: the file is read twice, and not kept in memory.
 
-use super::{claims, job, of_samples, repeated, said_of};
+use super::{claims, job, missed_message, of_samples, repeated};
 use crate::arguments::OutletArguments;
 use crate::failure::Failure;
 use crate::files::lines::{Extent, Flaw, Lines};
@@ -53,7 +53,7 @@ pub(super) fn verify(
         return Err(refused(flaw, &named));
     }
     let failure = failure(&verification, &lines, scenario, &named);
-    let failure = match claims::said_of(session, &differences) {
+    let failure = match claims::report_differences(session, &differences) {
         None => failure,
         Some(said) => {
             let before = failure.map_or(String::new(), |failure| format!("{failure}; "));
@@ -169,7 +169,7 @@ fn failure(
         ))),
         None => None,
         Some(_) => {
-            let wrong = said_of(found, scenario.tolerance, Some(lines))?;
+            let wrong = missed_message(found, scenario.tolerance, Some(lines))?;
             let also = if is_cut_off { format!("; it is {cut_off}") } else { String::new() };
             Some(Failure::Run(format!("{named}: {wrong}{also}")))
         }

@@ -149,11 +149,11 @@ impl Ground<'_> {
 
 /// A time for a text.
 fn time(t: f64) -> String {
-    Quantity::new(t, "Γ/k").said(&short(t))
+    Quantity::new(t, "Γ/k").in_text(&short(t))
 }
 
 fn height(u: f64) -> String {
-    Quantity::new(u, "kσ²/a").said(&short(u))
+    Quantity::new(u, "kσ²/a").in_text(&short(u))
 }
 
 fn points((low, high): (f64, f64)) -> Vec<f64> {

@@ -46,7 +46,7 @@ pub(super) fn certify(
             if xi > reach && tail(terms, xi) < 0.5 * found.slope {
                 break;
             }
-            if xi > FARTHEST * reach || stop::is_asked() {
+            if xi > FARTHEST * reach || stop::is_requested() {
                 found.slope = f64::INFINITY;
                 return found;
             }

@@ -113,7 +113,7 @@ impl Fit {
             return Ok(fit);
         }
         let mut lattices = false;
-        for period in PERIODS.into_iter().take_while(|_| !stop::is_asked()) {
+        for period in PERIODS.into_iter().take_while(|_| !stop::is_requested()) {
             let Some(fit) = damped_fourier(tip, (&window, largest), period, wanted) else {
                 continue;
             };
@@ -127,7 +127,11 @@ impl Fit {
         if !lattices && let Some(fit) = pencil(MORE_SAMPLES, &mut reached) {
             return Ok(fit);
         }
-        Err(if stop::is_asked() { FitError::Stopped } else { FitError::NotMet { wanted, reached } })
+        Err(if stop::is_requested() {
+            FitError::Stopped
+        } else {
+            FitError::NotMet { wanted, reached }
+        })
     }
 
     /// -sin ξ = Re(i e^{iξ}), exactly, for all ξ.
@@ -211,7 +215,7 @@ impl Fit {
             return Err(FitError::Terms);
         }
         let fit = Self::certified(tip, window, terms);
-        if stop::is_asked() {
+        if stop::is_requested() {
             return Err(FitError::Stopped);
         }
         Ok(Self { wanted: fit.certificate.slope, ..fit })
@@ -299,7 +303,7 @@ fn by_pencil(
     let aim = if wanted < CHEAP { (SPARE * wanted).max(FINEST_OF_PENCIL) } else { wanted };
     let (mut best, mut misses, mut met, mut first) = (f64::INFINITY, 0, None, None);
     for p in pencil.fewest_terms(wanted)..=most {
-        if stop::is_asked() {
+        if stop::is_requested() {
             return None;
         }
         let exponents = pencil.exponents(p);

@@ -27,7 +27,7 @@ impl Retreats {
     }
 
     /// Continues the retreat; builds a longer lattice if the tip is too far back for the first one.
-    pub(super) fn goes_on(&mut self, tip: &TipFunction, record: &Record, back: f64) {
+    pub(super) fn continue_retreat(&mut self, tip: &TipFunction, record: &Record, back: f64) {
         if back > self.farthest_back {
             self.fft = Some(Box::new(Fft::new(tip, record.all())));
             self.farthest_back = f64::INFINITY;

@@ -159,7 +159,7 @@ impl SideBySide {
             for (lane, place) in members.iter_mut().enumerate().filter(|(_, m)| m.is_none()) {
                 *place = begins.next().map(|begin| self.enter(lane, begin));
             }
-            if members.iter().all(Option::is_none) || stop::is_asked() {
+            if members.iter().all(Option::is_none) || stop::is_requested() {
                 return;
             }
             self.step(&mut members, &mut ended);

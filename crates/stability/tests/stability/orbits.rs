@@ -2,7 +2,7 @@
 
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_stability::{StabilityError, orbits};
+use stickslip_stability::orbits;
 use stickslip_tip::walker::{WalkerPast, WalkerScenario, run};
 
 /// ∫ J1(2ρ sin(ωτ/2)) (cos, sin)(ωτ/2) e^{-τ/T}dτ, and what is missing in the balance of forces along the orbit and towards
@@ -43,7 +43,7 @@ fn cases() -> Vec<WalkerScenario> {
 #[test]
 fn forces_on_orbits_balance() {
     for scenario in cases() {
-        let found = orbits(&scenario, 14.0).unwrap();
+        let found = orbits(&scenario, 14.0);
         assert!(!found.is_empty());
         for orbit in found {
             let [along, inward] = imbalance(&scenario, orbit.radius, orbit.frequency);
@@ -59,7 +59,7 @@ fn forces_on_orbits_balance() {
 fn runs_grow_as_their_exponents() {
     let (mut stable, mut unstable) = (0, 0);
     for scenario in cases() {
-        for orbit in orbits(&scenario, 9.0).unwrap() {
+        for orbit in orbits(&scenario, 9.0) {
             let until = 30.0 * scenario.healing_time;
             let run = run(&WalkerScenario {
                 past: WalkerPast::Circle(orbit.frequency),
@@ -107,7 +107,7 @@ fn orbits_of_a_long_memory_are_quantised() {
     // Zeros of J0 and of J1 (Abramowitz and Stegun, table 9.5).
     let zeros = [2.404_826, 3.831_706, 5.520_078, 7.015_587, 8.653_728, 10.173_468];
     let far = |time: f64| {
-        let found = orbits(&walker(-4.0 / time, time, 0.0, 1e-4), 11.0).unwrap();
+        let found = orbits(&walker(-4.0 / time, time, 0.0, 1e-4), 11.0);
         assert_eq!(found.len(), zeros.len(), "{found:?}");
         let away = found.iter().zip(zeros).map(|(orbit, zero)| (orbit.radius - zero).abs());
         away.fold(0.0, f64::max)
@@ -127,7 +127,7 @@ fn large_orbits_are_those_of_a_particle_with_a_mass() {
         let speed = scenario.free_speed();
         let mass = 1.5 / (1.0 + speed * speed).powf(1.5);
         let radius = speed * mass / rotation;
-        let found = orbits(&scenario, 2.0 * radius).unwrap();
+        let found = orbits(&scenario, 2.0 * radius);
         let nearest = found.iter().map(|o| (o.radius - radius).abs()).fold(f64::INFINITY, f64::min);
         errors.push(nearest / radius);
     }
@@ -137,5 +137,5 @@ fn large_orbits_are_those_of_a_particle_with_a_mass() {
 
 #[test]
 fn a_particle_that_does_not_walk_has_no_orbits() {
-    assert_eq!(orbits(&walker(-1.9, 1.0, 0.3, 0.0), 9.0), Err(StabilityError::Alpha(-1.9)));
+    assert!(orbits(&walker(-1.9, 1.0, 0.3, 0.0), 9.0).is_empty());
 }

@@ -189,18 +189,12 @@ impl Walker {
 
     fn scenario(&self) -> Result<(WalkerScenario, Option<Vec<theory::Orbit>>), Failure> {
         let scenario = self.on_flat_field()?;
-        let walks = scenario.free_speed() > 0.0;
-        let orbits = if self.has_orbits() && walks {
-            let found = theory::orbits(&scenario, self.largest_radius);
-            Some(found.map_err(|error| Failure::Failed(error.to_string()))?)
-        } else {
-            self.has_orbits().then(Vec::new)
-        };
+        let orbits = self.has_orbits().then(|| theory::orbits(&scenario, self.largest_radius));
         if self.start == Some(StartName::Flat) {
             return Ok((scenario, orbits));
         }
         let started = match &orbits {
-            Some(orbits) if walks => self.on_orbit(scenario, orbits)?,
+            Some(orbits) if scenario.free_speed() > 0.0 => self.on_orbit(scenario, orbits)?,
             _ => {
                 let velocity = [scenario.free_speed(), 0.0];
                 WalkerScenario { past: WalkerPast::Straight(velocity), velocity, ..scenario }

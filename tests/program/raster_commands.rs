@@ -223,6 +223,7 @@ fn a_raster_is_compared_with_rows_of_cells() {
         ("--kick 0.1", ["--kick", "--lines"]),
         ("--grid uniform", ["--grid uniform", "second order"]),
         ("--spacing 2", ["--spacing 2", "at most"]),
+        ("--grid windowed --spacing 1e-8", ["--spacing: the grid has", "fewer lines"]),
         ("--time-limit 0", ["--time-limit 0", "above 0"]),
     ] {
         folder.refuses(&format!("{line} {option}"), &words);

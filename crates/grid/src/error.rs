@@ -41,6 +41,9 @@ pub enum GridError {
         /// Right end
         to: f64,
     },
+    /// The grid of a raster has too few or too many cells.
+    #[error("the grid has {0:.3e} cells: it must have at least four and at most 1e8")]
+    Cells(f64),
     /// Tolerances must be ≥ 0 and not both 0, steps > 0.
     #[error("unusable stepping: tolerances must be ≥ 0 and not both 0, steps > 0")]
     Stepping,

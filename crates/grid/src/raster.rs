@@ -147,8 +147,9 @@ impl Plane {
         let (from, to) =
             (((ends.0 - beyond) / spacing).floor(), ((ends.1 + beyond) / spacing).ceil());
         let count = to - from + 1.0;
-        if y.iter().any(|y| !y.is_finite()) || !(4.0..=1e8).contains(&(count * y.len() as f64)) {
-            return Err(GridError::Domain { from: low, to: high });
+        let cells = count * y.len() as f64;
+        if y.iter().any(|y| !y.is_finite()) || !(4.0..=1e8).contains(&cells) {
+            return Err(GridError::Cells(cells));
         }
         let rows = vec![vec![0.0; count as usize]; y.len()];
         Ok(Self { y, first: from as i64, rows, spacing, ends })

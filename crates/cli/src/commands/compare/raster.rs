@@ -212,6 +212,9 @@ fn watch(comparison: &Comparison) -> Watch {
 }
 
 fn explain(error: GridError) -> Failure {
+    if let GridError::Cells(_) = error {
+        return Failure::input("--spacing", format!("{error}: take a wider one, or fewer lines"));
+    }
     let advice = "another --step or --grid-tolerance, or fewer lines, may help: a deep groove is stiff, and the grid \
     is explicit";
     Failure::Run(format!("grid: {error}; {advice}"))

@@ -27,7 +27,7 @@ pub fn direct_sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[
 /// `S(x) = Σ_j w_j K(x − y_j)` at each target, by one lattice that contains them all: a [`Sum`] on their span.
 ///
 /// # Panics
-/// The numbers of weights and sources differ, or a target is not finite.
+/// The numbers of weights and sources differ, a source is NaN, or a target is not finite.
 pub fn sum(kernel: &Kernel, sources: &[f64], weights: &[f64], targets: &[f64]) -> Vec<f64> {
     let Span { low, high } = Span::of(targets.iter());
     let sum = Sum::on((low, high), kernel, sources, weights);
@@ -49,9 +49,11 @@ impl Sum {
     /// The sum on the closed interval from `low` to `high`, empty if `low > high`.
     ///
     /// # Panics
-    /// The numbers of weights and sources differ, or the kernel has no reach and an end or a source is infinite.
+    /// The numbers of weights and sources differ, a source is NaN, or the kernel has no reach and an end or a source
+    /// is infinite.
     pub fn on((low, high): (f64, f64), kernel: &Kernel, sources: &[f64], weights: &[f64]) -> Self {
         assert_eq!(sources.len(), weights.len(), "one weight per source");
+        assert!(!sources.iter().any(|y| y.is_nan()), "a source is NaN");
         let reach = kernel.reach.unwrap_or(f64::INFINITY);
         let near_targets = Span { low, high }.widened(reach);
         let held = || sources.iter().zip(weights).filter(|&(y, _)| near_targets.contains(*y));

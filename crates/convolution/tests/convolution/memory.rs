@@ -184,6 +184,13 @@ fn a_density_of_another_spacing_is_refused() {
 }
 
 #[test]
+#[should_panic(expected = "a source is NaN")]
+fn a_source_that_is_no_number_is_refused() {
+    let value = TRIPLE_SLOPE.value();
+    stickslip_convolution::sum(&TRIPLE_SLOPE.with(&value), &[1.0, f64::NAN], &[1.0, 1.0], &[1.5]);
+}
+
+#[test]
 fn fields_are_read_by_many_threads_and_convolvers_move_between_them() {
     fn shared<T: Send + Sync>() {}
     shared::<Field>();

@@ -344,3 +344,18 @@ fn a_sweep_whose_folder_vanishes_says_so_and_saves_its_points() {
     assert!(fs::read(kept).unwrap() == folder.prints(line), "{kept}");
     fs::remove_file(kept).unwrap();
 }
+
+#[cfg(unix)]
+#[test]
+fn beyond_the_limit_on_the_size_of_files_a_write_fails() {
+    let folder = Folder::new("limited");
+    folder.write("run.json", "before");
+    let inner = folder.command(&format!("{RUN} -o run.json"));
+    let mut shell = std::process::Command::new("sh");
+    shell.current_dir(folder.path("")).arg("-c").arg("ulimit -f 8; exec \"$0\" \"$@\"");
+    let output = shell.arg(inner.get_program()).args(inner.get_args()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("cannot write run.json"), "{}", said(&output));
+    assert_eq!(folder.read("run.json"), b"before");
+    assert_eq!(folder.names(), ["run.json"]);
+}

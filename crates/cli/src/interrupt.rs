@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::files::temporary::remove_unfinished;
 use crate::message::say;
 use crate::session::Session;
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 use std::io;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
@@ -40,15 +40,16 @@ fn state() -> &'static State {
     STATE.get_or_init(State::default)
 }
 
-/// Makes the first signal end the program, from now on.
+/// Makes the first signal end the program, from now on. Beyond the limit on the size of files, `ulimit -f`, a write
+/// fails as on a full disk, instead of ending the program by SIGXFSZ.
 pub(crate) fn end_at_once() -> io::Result<()> {
     static WAITS: AtomicBool = AtomicBool::new(false);
     if WAITS.swap(true, Ordering::SeqCst) {
         return Ok(());
     }
-    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let mut signals = Signals::new([SIGINT, SIGTERM, SIGXFSZ])?;
     let wait = move || {
-        for signal in signals.forever() {
+        for signal in signals.forever().filter(|signal| *signal != SIGXFSZ) {
             let number = u8::try_from(signal).unwrap_or_default();
             let is_first = !state().received.swap(true, Ordering::SeqCst);
             state().signal.store(number, Ordering::SeqCst);

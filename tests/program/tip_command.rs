@@ -299,7 +299,7 @@ fn the_units_of_an_image_are_read_or_asked_for() {
     folder.write("pit.gsf", missing);
     folder.refuses(
         "tip pit.gsf",
-        &["MEASURED.csv pit.gsf", "row 11 has a height that is not finite"],
+        &["MEASURED.csv pit.gsf", "row 11 has a height that is not finite: interpolate it"],
     );
     folder.write("flat.csv", (0..20).map(|i| format!("{i},1\n")).collect::<String>());
     folder.refuses("tip flat.csv", &["MEASURED.csv flat.csv", "all heights are 1"]);

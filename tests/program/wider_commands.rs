@@ -168,6 +168,11 @@ fn cycles_and_branches_of_a_wider_law_are_documents_that_their_readers_take() {
         assert_eq!(found["slips"], slips, "{line}");
         assert!(found["floquet_error"].as_f64().unwrap() < 1e-7, "{line}: {}", found["floquet"]);
     }
+    let healing = "--alpha 1.5 --r 1 --healing-time 10 --format text";
+    for line in [format!("cycle {healing}"), format!("run {healing} --kick 0.1 --until 300")] {
+        let text = String::from_utf8(folder.prints(&line)).unwrap();
+        assert!(text.contains("amplitude of u, unhealed"), "{text}");
+    }
     let branch = schema(&folder, "continue");
     let line =
         "continue --over alpha --beta 0 --r 1 --depth-limit 20 --to 2.6 -o b.json --plot b.svg";

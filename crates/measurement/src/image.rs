@@ -38,7 +38,7 @@ pub enum ImageError {
         rows: usize,
     },
     /// Heights that are not finite.
-    #[error("row {row} has a height that is not finite")]
+    #[error("row {row} has a height that is not finite: interpolate it, or crop the image")]
     NotFinite {
         /// Row, from 1.
         row: usize,

@@ -1,6 +1,6 @@
 //! Summaries of periodic motion: cycles, branches, sweeps.
 
-use super::{Summary, again, digits};
+use super::{Summary, again, amplitude_of_u, digits};
 use crate::commands::job::Product;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
@@ -33,7 +33,7 @@ impl Product for CycleDocument {
             .row("wavelength", format!("{} σ", held(self.wavelength, self.wavelength_error)))
             .row("amplitude of x0", format!("{amplitude} σ"))
             .row(
-                "amplitude of u",
+                amplitude_of_u(&self.parameters.law),
                 format!("{} kσ²/a", held(self.amplitude_u, self.amplitude_u_error)),
             )
             .maybe("largest multiplier", leading)

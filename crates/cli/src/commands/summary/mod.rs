@@ -13,7 +13,7 @@ pub(in crate::commands) use run::{of_lines, of_run};
 use crate::made::{Document, Made};
 use crate::message::harmless;
 use std::fmt::Write;
-use stickslip::{Dimension, InUnits, KnownScales, digits};
+use stickslip::{Dimension, InUnits, KnownScales, Law, digits};
 
 /// The summary of a result.
 #[derive(Debug, Default)]
@@ -169,6 +169,15 @@ fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
 pub(crate) fn times(ratio: f64) -> String {
     let rounded = format!("{ratio:.1e}").parse().unwrap_or(ratio);
     digits(rounded, 2)
+}
+
+/// The name of the amplitude of u: on a surface that heals that of U(x), which u never has, as u is U(x) exp(-D/(rT)) at
+/// the distance D behind the support.
+fn amplitude_of_u(law: &Law) -> &'static str {
+    match law.healing_time {
+        Some(_) => "amplitude of u, unhealed",
+        None => "amplitude of u",
+    }
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Summaries of runs.
 
-use super::{Summary, again, digits};
+use super::{Summary, again, amplitude_of_u, digits};
 use crate::commands::job::Product;
 use crate::commands::verify::claims::described;
 use crate::commands::verify::kept;
 use stickslip::{
-    HoldDocument, LargestDifferenceDocument, LoopDocument, ModelParameters, OscillationDocument,
-    RegimeName, RunDocument, RunEnd, VerifyDocument, to_its_digits,
+    HoldDocument, LargestDifferenceDocument, Law, LoopDocument, ModelParameters,
+    OscillationDocument, RegimeName, RunDocument, RunEnd, VerifyDocument, to_its_digits,
 };
 
 /// The summary of a run with the result `end`.
@@ -18,7 +18,7 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summa
     let summary = Summary::new(summary(end) + &verified);
     let summary = summary.row("α, r", parameters(&document.parameters.model_parameters()));
     let summary = match &end.oscillation {
-        Some(found) => oscillation(summary, found),
+        Some(found) => oscillation(summary, found, &document.parameters.law),
         None => summary,
     };
     let worked = |loops: &Vec<LoopDocument>| {
@@ -77,7 +77,7 @@ fn of_across(document: &RunDocument) -> Summary {
         .row("α, r", parameters(&document.parameters.model_parameters()))
         .row("stiffness across", digits(stiffness, 10));
     let summary = match motion {
-        Some(found) => oscillation(summary, found),
+        Some(found) => oscillation(summary, found, &document.parameters.law),
         None => summary,
     };
     summary
@@ -101,7 +101,7 @@ fn parameters(model: &ModelParameters) -> String {
     format!("{}, {}", digits(model.alpha, 10), digits(model.r, 10))
 }
 
-fn oscillation(summary: Summary, found: &OscillationDocument) -> Summary {
+fn oscillation(summary: Summary, found: &OscillationDocument, law: &Law) -> Summary {
     let held = |value: f64, error: Option<f64>, unit: &str| {
         format!("{} {unit}", to_its_digits(value, error.unwrap_or(0.0)))
     };
@@ -110,7 +110,7 @@ fn oscillation(summary: Summary, found: &OscillationDocument) -> Summary {
         .row("wavelength", held(found.wavelength, found.wavelength_error, "σ"))
         .row("amplitude of x0", held(found.amplitude_x0, found.amplitude_x0_error, "σ"))
         .maybe(
-            "amplitude of u",
+            amplitude_of_u(law),
             found.amplitude_u.map(|u| held(u, found.amplitude_u_error, "kσ²/a")),
         )
         .row("slips in a period", found.slips.to_string())

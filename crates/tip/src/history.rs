@@ -194,7 +194,7 @@ impl Moment {
 }
 
 impl Heights {
-    /// The heights at the fraction τ of the step.
+    /// The height at the fraction τ of the step.
     pub fn at(&self, tau: f64) -> f64 {
         self.start + RADAU.value(&self.rise(), tau)
     }

@@ -6,7 +6,7 @@
 use crate::history::{STEP_NUMBERS, Step};
 use thiserror::Error;
 
-/// Words, in the order in which they were written.
+/// A saved state: 64-bit words, in the order in which they were written.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct State {
     words: Vec<u64>,

@@ -6,8 +6,8 @@ use super::Dimension;
 pub(super) const DIMENSIONLESS: [&str; 7] =
     ["parameters", "history", "work", "software", "verification", "physical", "floquet"];
 
-/// The dimension of the number, or of the numbers, called `name` in the part called `part` (empty for a column of a
-/// table); `None` if it has none. An error has that of its quantity.
+/// The dimension of the field `name` in the part `part` of a document; `part` is empty for a column of a table. `None`
+/// for fields without a dimension. An error has the dimension of its quantity.
 pub fn dimension(part: &str, name: &str) -> Option<Dimension> {
     let quantity = name.strip_suffix("_error");
     of_part(part, name).or_else(|| of_name(name)).or_else(|| quantity.and_then(of_name))

@@ -183,6 +183,12 @@ fn cycles_and_branches_of_a_wider_law_are_documents_that_their_readers_take() {
     assert_eq!(document["trapping"], Value::Null);
     let hopf = document["special"][0]["alpha"].as_f64().unwrap();
     assert!((hopf - 2.300_070).abs() < 1e-6, "{hopf}");
+    // A branch ends where its cycles reach the corner of |h|.
+    let line = "continue --over alpha --r 0.7731 --healing-time 96.2 --depth-limit 5.52 --to 1.5";
+    let document = folder.prints_json(line);
+    assert_eq!(document["branches"][0]["end"], "lost");
+    let remark = document["remarks"][0].as_str().unwrap_or_default();
+    assert!(remark.contains("the height under the tip reaches 0"), "{document}");
     let from = "continue --over r --from c.json --to 1.1";
     assert_eq!(folder.prints_json(from)["parameters"]["depth_limit"], 10.0);
 }

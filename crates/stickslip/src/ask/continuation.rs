@@ -20,6 +20,8 @@ use stickslip_tip::Trajectory;
 const MOST_BRANCHES: usize = 12;
 /// Period doublings within this relative distance of each other count as one.
 const SAME: f64 = 1e-6;
+/// A height under the tip that is this fraction of the range of heights reaches 0.
+const TOUCH: f64 = 0.01;
 
 /// Branches of periodic motions. Lengths in σ, times in Γ/k, heights in kσ²/a; amplitudes are half
 /// peak-to-peak.
@@ -304,17 +306,36 @@ impl Ask for Continue {
     }
 }
 
-/// A remark on a branch that ends where the tip swings back too far for cycles to be computed.
+/// A remark on a branch that is lost, if the reason is known: the tip swings back too far for cycles to be computed, or
+/// the branch ends at the corner of exp(-|h|/b).
 fn remark_on_lost_branch(branch: &Branch) -> Option<String> {
-    let retreat = branch.last.farthest_retreat().filter(|_| branch.end == End::Lost)?;
+    if branch.end != End::Lost {
+        return None;
+    }
     let model = branch.last.model();
-    Some(format!(
-        "the branch that is lost at alpha = {}, r = {} goes on: from there the tip swings back by more than {}, \
-         farther than cycles can",
-        digits(model.alpha(), 6),
-        digits(model.r(), 6),
-        digits(retreat, 4),
-    ))
+    let place = format!("at alpha = {}, r = {}", digits(model.alpha(), 6), digits(model.r(), 6));
+    if let Some(retreat) = branch.last.farthest_retreat() {
+        return Some(format!(
+            "the branch that is lost {place} goes on: from there the tip swings back by more than {}, farther than \
+             cycles can",
+            digits(retreat, 4),
+        ));
+    }
+    touches_the_corner(&branch.last).then(|| {
+        format!(
+            "the branch that is lost {place} ends where the height under the tip reaches 0, the corner of exp(-|h|/b): \
+             cycles on both sides of 0 are another branch, begun --from one of them"
+        )
+    })
+}
+
+/// Whether the height under the tip reaches 0 without passing through it.
+fn touches_the_corner(cycle: &stickslip_cycles::Cycle) -> bool {
+    let motion = cycle.motion();
+    let heights = motion.steps().iter().filter_map(|step| motion.height(step.t));
+    let (low, high) =
+        heights.fold((f64::MAX, f64::MIN), |(low, high), h| (h.min(low), h.max(high)));
+    low.abs().min(high.abs()) < TOUCH * (high - low)
 }
 
 /// Whether a branch that was already followed ends at this period doubling.

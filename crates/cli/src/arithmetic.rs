@@ -66,7 +66,7 @@ const ARGUMENTS: u32 = 8000;
 
 /// CRC-32 of the values of these functions at arguments from -12 to 12.
 fn functions() -> u32 {
-    /// Fraction of the golden ratio: its multiples modulo 1 fill an interval evenly.
+    /// Fractional part of the golden ratio: its multiples modulo 1 fill an interval evenly.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let arguments = (1..=ARGUMENTS).map(|i| 24.0 * ((f64::from(i) * GOLDEN).fract() - 0.5));
     let mut hasher = Hasher::new();

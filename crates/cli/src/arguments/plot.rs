@@ -39,8 +39,8 @@ pub(crate) struct PlotArguments {
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) y_range: Option<String>,
 
-    /// First and last time of an animation, LO:HI, in Γ/k or in the unit of its time axis; for a raster from the start
-    /// of the scan [default: the last ripples of a run, all of a raster]
+    /// First and last time of an animation, LO:HI, in the unit of its time axis; for a raster, from the start of the scan
+    /// [default: the last ripples of a run, all of a raster]
     #[arg(long, value_name = "LO:HI", allow_hyphen_values = true)]
     pub(crate) times: Option<String>,
 

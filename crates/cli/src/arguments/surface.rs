@@ -13,7 +13,7 @@ pub(crate) struct SurfaceArguments {
     #[arg(value_name = "RUN.json")]
     pub(crate) run: PathBuf,
 
-    /// Times within the run [default: its end].
+    /// Times within the run, in Γ/k [default: its end].
     #[arg(long, value_name = "T1,T2,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) at: Option<Vec<f64>>,
 
@@ -21,16 +21,17 @@ pub(crate) struct SurfaceArguments {
     #[arg(long, value_name = "X1,X2,…", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["range", "spacing"])]
     pub(crate) x: Option<Vec<f64>>,
 
-    /// First and last position, and the number of positions [default: from 12 behind the start of the tip to 12 ahead
-    /// of its end].
+    /// First and last position, in σ, and the number of positions [default: from 12 behind the start of the tip to 12
+    /// ahead of its end].
     #[arg(long, value_name = "LO:HI:N", allow_hyphen_values = true)]
     pub(crate) range: Option<Interval>,
 
-    /// Distance of the positions, if the range has no number of them [default: 0.05].
+    /// Distance of the positions, in σ, if the range contains no number of positions [default: 0.05].
     #[arg(long, value_name = "DX", allow_hyphen_values = true)]
     pub(crate) spacing: Option<f64>,
 
-    /// First and last position across the path, and the number of positions: images u(x,y,t) instead of curves u(x,t).
+    /// First and last position across the path, in σ, and the number of positions: images u(x,y,t) instead of curves
+    /// u(x,t).
     #[arg(
         long,
         value_name = "LO:HI:N",

@@ -64,7 +64,7 @@ pub(crate) fn gsf(frame: &Frame, rows: &[Vec<f64>], factor: f64) -> Vec<u8> {
     bytes
 }
 
-/// An image that was read; in nm if it has a unit of length.
+/// An image that was read; positions are in nm if they have a unit of length.
 #[derive(Debug)]
 pub(crate) struct Image {
     /// Centres of the columns.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-/// Bits of each channel by which similar colours are joined, if there are too many.
+/// If there are too many colours, those with the same leading bits of each channel, of this number, are joined.
 const BITS: u8 = 5;
 const MOST: usize = 255;
 

@@ -25,7 +25,8 @@ const EXACT: f64 = 1e5;
 const SWINGS: [f64; 3] = [0.3, 0.6, 1.0];
 /// Step of the parameters, which are of order 1.
 const STEP: f64 = 1e-5;
-/// Weight of a quantity that is held, times its standard deviation: the quantity then deviates by 1e-4 of the latter.
+/// Weight of a held quantity over the reciprocal of its standard deviation: the quantity then misses its goal by 1e-4 of
+/// the offset from the best value.
 const HELD: f64 = 100.0;
 /// Largest deviation of a held quantity from its goal, as a fraction of the distance from the best value to the goal.
 const MISSED: f64 = 0.05;

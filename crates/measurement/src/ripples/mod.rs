@@ -143,10 +143,10 @@ pub enum RippleError {
     /// The image is too small or damaged.
     #[error(transparent)]
     Image(#[from] ImageError),
-    /// The retrace is not one of this image.
+    /// The retrace does not belong to the image.
     #[error("{0}")]
     Retrace(&'static str),
-    /// The lateral image is not one of this image.
+    /// The lateral image does not belong to the image of heights.
     #[error("{0}")]
     Lateral(&'static str),
     /// No wave is stronger than the noise.

@@ -98,8 +98,9 @@ pub fn scan(
         let start = state.filter(|_| scan.zigzag).unwrap_or((line.from, 0.0));
         let mut own = vec![];
         let mut within = |part: f64| observe(n as f64 + part);
-        let asked = LineRequest { method, stepping, times, steps: &mut own, observe: &mut within };
-        let (at, end, took) = plane.line(scan, n, start, asked)?;
+        let request =
+            LineRequest { method, stepping, times, steps: &mut own, observe: &mut within };
+        let (at, end, took) = plane.line(scan, n, start, request)?;
         x0.push(at);
         steps.push(own);
         state = Some(end);

@@ -25,7 +25,7 @@ pub struct Observer {
     /// Distance of l from l0 beyond which the motion is not steady.
     far: f64,
     /// Length of history kept behind the extrema, so that all contributions to the ripple behind the tip are
-    /// available.
+    /// available; 0 for a footprint without a reach.
     reaches: f64,
     /// Start time of the run; `None` before the first step.
     start: Option<f64>,
@@ -34,7 +34,6 @@ pub struct Observer {
     extrema: Extrema,
     /// Steps since the last extremum, of a footprint without a reach: only its creep is measured on them.
     risen: Thinned,
-    has_reach: bool,
     tail: Tail,
 }
 
@@ -54,7 +53,6 @@ impl Observer {
             unsteady: f64::NEG_INFINITY,
             extrema: Extrema::default(),
             risen: Thinned::default(),
-            has_reach: model.tip().reach().is_some(),
             tail: Tail::default(),
         }
     }
@@ -69,7 +67,7 @@ impl Observer {
         if self.extrema.observe(step, self.r) {
             self.risen.clear();
         }
-        if !self.has_reach {
+        if self.reaches <= 0.0 {
             self.risen.observe(step);
         }
         self.tail.push(step);

@@ -203,17 +203,13 @@ fn on_rows(comparison: &Comparison, rows: (RowMethod, f64)) -> Result<RasterComp
 
 /// The observer of a grid's lines.
 fn watch(comparison: &Comparison) -> Watch {
-    Watch::new(
-        comparison.session,
-        Unit::Lines,
-        (0.0, comparison.plan.lines() as f64),
-        comparison.limit,
-    )
+    let Comparison { session, plan, limit, .. } = comparison;
+    Watch::new(session, Unit::Lines, (0.0, plan.lines() as f64), *limit)
 }
 
 fn explain(error: GridError) -> Failure {
     if let GridError::Cells(_) = error {
-        return Failure::input("--spacing", format!("{error}: take a wider one, or fewer lines"));
+        return Failure::input("--spacing", format!("{error}; take a wider one, or fewer lines"));
     }
     let advice = "another --step or --grid-tolerance, or fewer lines, may help: a deep groove is stiff, and the grid \
     is explicit";

@@ -47,7 +47,7 @@ pub(super) fn mode(steady: f64, amplitude: f64, period: f64) -> impl Fn(f64) -> 
     move |t| steady + amplitude * cos(TAU * t / period)
 }
 
-/// A number of steps that keeps the displacement in each of them short enough; `None` if no mesh has so many.
+/// A number of steps at which the displacement in each step is short enough; `None` if it exceeds [`MOST_STEPS`].
 pub(super) fn steps_of_mode(equation: &Embedding, period: f64, amplitude: f64) -> Option<usize> {
     let farthest = equation.r * period + PI * amplitude;
     let longest = longest_displacement(equation.band);

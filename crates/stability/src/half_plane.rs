@@ -205,7 +205,8 @@ impl HalfPlane {
     }
 }
 
-/// All zeros right of a line that is chosen so that there are at least `count` of them, if so many exist.
+/// All zeros to the right of a line. The line is placed so that at least `count` zeros lie there, or all zeros if fewer
+/// than `count` exist.
 pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, StabilityError> {
     if let Some(left) = h.left_of_all() {
         return HalfPlane::counted(h, left)?.spectrum(h);

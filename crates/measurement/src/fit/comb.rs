@@ -218,7 +218,8 @@ impl Comb {
         Noise::of(&residuals, &rows.lines, (columns.len(), within.min(rows.y.len())))
     }
 
-    /// Columns of all doubled and drifting components; none if there are too few rows for so many columns.
+    /// Columns of all doubled and drifting components. There are none if the rows are fewer than twice the number of
+    /// all columns, those of the periodic wave included.
     pub(super) fn besides(&self, rows: &Rows) -> Vec<Vec<f64>> {
         let found = [self.doubled(rows), self.drifting(rows)].concat();
         if 2 * (found.len() + self.wave.len()) > rows.y.len() { vec![] } else { found }

@@ -26,7 +26,7 @@ type Complex64 = Complex<f64>;
 
 /// Number of harmonics of θ'.
 const HARMONICS: usize = 16;
-/// Points of a wavelength: so many that the harmonics of 1/θ' and 1/θ'² that are used have little aliasing.
+/// Number of points of a wavelength. It is large enough to keep the aliasing of the harmonics of 1/θ' and 1/θ'² small.
 const POINTS: usize = 4 * HARMONICS;
 /// Harmonics of θ' and Y of a tip that gives way across the lines, and points of a wavelength.
 pub(super) const HARMONICS_ACROSS: usize = 10;

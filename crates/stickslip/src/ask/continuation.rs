@@ -324,7 +324,7 @@ fn remark_on_lost_branch(branch: &Branch) -> Option<String> {
     touches_the_corner(&branch.last).then(|| {
         format!(
             "the branch that is lost {place} ends where the height under the tip reaches 0, the corner of exp(-|h|/b): \
-             cycles on both sides of 0 are another branch, begun --from one of them"
+             cycles on both sides of 0 form another branch, which --from follows from one of them"
         )
     })
 }

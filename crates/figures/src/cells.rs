@@ -3,7 +3,7 @@
 use crate::curve::Frame;
 use crate::drawing::{Drawing, Paint, Path, Rect, Step};
 use crate::style::colour;
-use stickslip::CellsDocument;
+use stickslip::{CellsDocument, ColourName};
 use stickslip_tip::sorting;
 
 /// Draws the cells, a path for each category. A cell extends half-way to its neighbours; cells at the ends are symmetric
@@ -31,6 +31,18 @@ fn cell(frame: Frame, x: (f64, f64), y: (f64, f64)) -> Option<Step> {
     let (left, bottom) = frame.place((x.0, y.0))?;
     let (right, top) = frame.place((x.1, y.1))?;
     Some(Step::Rect(Rect { left, top, right, bottom }))
+}
+
+/// Cells at positions in any order; `kinds` has a row for each y.
+pub(crate) fn sorted(
+    (x, y): (&[f64], &[f64]),
+    kinds: &[Vec<Option<usize>>],
+    names: Vec<String>,
+    colours: Vec<ColourName>,
+) -> CellsDocument {
+    let ((x, columns), (y, rows)) = (ascending(x), ascending(y));
+    let row = |row: &usize| columns.iter().map(|column| kinds[*row][*column]).collect();
+    CellsDocument { kinds: rows.iter().map(row).collect(), x, y, names, colours }
 }
 
 /// The values in ascending order, with the index of each.

@@ -2,9 +2,9 @@
 
 #[cfg(feature = "animation")]
 use crate::curve::Frame;
-use crate::drawing::{Anchor, Drawing, Rect, Text};
+use crate::drawing::{Anchor, Drawing, Paint, Rect, Text};
 use crate::panel::{MARGIN_BOTTOM, MARGIN_TOP, Panel};
-use crate::style::TITLE_SIZE;
+use crate::style::{PAPER, TITLE_SIZE};
 use crate::text::wrapped;
 use stickslip::{FigureDocument, PanelDocument};
 
@@ -83,13 +83,20 @@ impl<'a> Sheet<'a> {
         Self { size: (width, top), title, panels }
     }
 
-    pub(crate) fn draw(&self, drawing: &mut Drawing) {
+    /// The figure as a drawing, on white paper or without a ground.
+    pub(crate) fn drawing(&self, has_ground: bool) -> Drawing {
+        let mut drawing = Drawing::default();
+        if has_ground {
+            let (right, bottom) = self.size;
+            drawing.rect(Rect { left: 0.0, top: 0.0, right, bottom }, Paint::fill(PAPER));
+        }
         for (i, line) in self.title.iter().enumerate() {
             let (x, y) = (0.5 * self.size.0, 8.0 + TITLE_LINE * (i as f64 + 0.75));
             let (label, size, anchor) = (line.clone(), TITLE_SIZE, Anchor::Middle);
             drawing.text(Text { x, y, label, size, anchor, upright: false });
         }
-        self.panels.iter().for_each(|p| p.panel.draw(p.space, p.between, p.axes, drawing));
+        self.panels.iter().for_each(|p| p.panel.draw(p.space, p.between, p.axes, &mut drawing));
+        drawing
     }
 
     /// The axes of each panel.

@@ -8,7 +8,7 @@ use stickslip::{
 use stickslip_tip::{Model, TipFunction};
 
 fn figure(panels: Vec<PanelDocument>) -> FigureDocument {
-    FigureDocument { panels, ..FigureDocument::new("test", "α < α_c & r > 0", vec![]) }
+    FigureDocument::new("test", "α < α_c & r > 0", vec![], panels)
 }
 
 fn panel(x: &[f64], y: &[f64]) -> PanelDocument {

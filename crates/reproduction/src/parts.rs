@@ -9,7 +9,7 @@ use thiserror::Error;
 /// A figure without panels.
 pub(super) fn figure(name: &str, title: &str, models: &[Model]) -> FigureDocument {
     let models = models.iter().map(|model| ModelParameters::of(model, None)).collect();
-    FigureDocument::new(name, title, models)
+    FigureDocument::new(name, title, models, vec![])
 }
 
 /// Axes without curves.

@@ -48,12 +48,10 @@ impl<'a> Stage<'a> {
     ) -> Result<Self, FigureError> {
         let size = Size::new(Some(film.width()), None)?;
         let sheet = Sheet::of(still, size.units());
-        let mut drawing = Drawing::default();
-        sheet.draw(&mut drawing);
         let density = size.pixels().0;
         let mut background = blank(sheet.size, density, MOST)?;
         let painter = Painter::new(density);
-        painter.paint(&drawing, &mut background);
+        painter.paint(&sheet.drawing(false), &mut background);
         let step = (film.times(times).get(2).map_or(times[1], |f| f.0) - times[0]).abs();
         let decimals = (-step.log10()).ceil().clamp(0.0, 12.0) as usize;
         Ok(Self { background, sheet, painter, decimals })

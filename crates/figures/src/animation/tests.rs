@@ -410,7 +410,7 @@ fn every_frame_of_a_raster_shows_the_heights_at_its_time() {
 
 #[test]
 fn what_does_not_move_is_refused_with_what_does() {
-    let figure = stickslip::FigureDocument::new("still", "", vec![]);
+    let figure = stickslip::FigureDocument::new("still", "", vec![], vec![]);
     let error = scene_of(&figure, &Shot::default()).map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("run or raster") && error.contains(".png"), "{error}");
     let name = crate::FigureFormat::of(std::path::Path::new("a/b.gif")).unwrap_err().to_string();

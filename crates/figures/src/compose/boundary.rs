@@ -22,7 +22,6 @@ impl Drawn for BoundaryDocument {
             return Err(FigureError::Nothing(message.into()));
         }
         let title = format!("Stability of steady motion, {}", law_name(&any(self)));
-        let mut figure = FigureDocument::new("boundary", &title, models(self));
         let scale = scale(self);
         let mut panel = PanelDocument::new("", (R, ALPHA));
         (panel.x_scale, panel.y_scale) = (scale, scale);
@@ -34,12 +33,8 @@ impl Drawn for BoundaryDocument {
         if self.branches.len() > 1 || self.branches.iter().any(turns) {
             for (i, branch) in self.branches.iter().enumerate() {
                 let name = if i == 0 { "where pairs of roots cross" } else { "" };
-                panel.curves.push(CurveDocument::new(
-                    StyleName::Dotted,
-                    name,
-                    &branch.r,
-                    &branch.alpha,
-                ));
+                let BranchDocument { r, alpha, .. } = branch;
+                panel.curves.push(CurveDocument::new(StyleName::Dotted, name, r, alpha));
             }
         }
         // The branches may go to infinity: the axes are those of the boundary.
@@ -52,8 +47,7 @@ impl Drawn for BoundaryDocument {
             });
             panel.notes = notes(self, &panel);
         }
-        figure.panels = vec![panel];
-        Ok(figure)
+        Ok(FigureDocument::new("boundary", &title, models(self), vec![panel]))
     }
 }
 
@@ -61,7 +55,6 @@ impl Drawn for BoundaryDocument {
 /// positive, below if it is negative.
 pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, FigureError> {
     let title = format!("Oscillation at onset, {}", law_name(&any(document)));
-    let mut figure = FigureDocument::new("criticality", &title, models(document));
     let slopes = &document.onset.amplitude_squared_slope;
     let excess: Vec<f64> = slopes
         .iter()
@@ -74,13 +67,13 @@ pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, Fi
     else {
         return Err(FigureError::Nothing("no point of the boundary has a criticality".into()));
     };
-    let mut panel = PanelDocument::new("", (R, "d ln α/d(a²) (σ⁻²)"));
-    panel.x_scale = scale(document);
-    panel.x_range = (last > first).then_some([first, last]);
-    panel.curves = vec![
+    let curves = vec![
         CurveDocument::new(StyleName::Dashed, "", &[first, last], &[0.0; 2]),
         CurveDocument::new(StyleName::Line, "", &document.r, &excess),
     ];
+    let mut panel = PanelDocument::of_curves((R, "d ln α/d(a²) (σ⁻²)"), curves);
+    panel.x_scale = scale(document);
+    panel.x_range = (last > first).then_some([first, last]);
     // Room on the other side of zero for the name of that side.
     let (low, high) = (low.min(-0.2 * high), high.max(-0.2 * low));
     let air = 0.06 * (high - low);
@@ -93,8 +86,7 @@ pub(super) fn onset_of(document: &BoundaryDocument) -> Result<FigureDocument, Fi
         NoteDocument::new("supercritical", (middle, 0.1 * high)),
         NoteDocument::new("subcritical", (middle, 0.6 * low)),
     ];
-    figure.panels = vec![panel];
-    Ok(figure)
+    Ok(FigureDocument::new("criticality", &title, models(document), vec![panel]))
 }
 
 fn scale(document: &BoundaryDocument) -> ScaleName {

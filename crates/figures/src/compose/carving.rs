@@ -86,13 +86,12 @@ impl Carving {
 impl Scene for Carving {
     fn still(&self) -> FigureDocument {
         let model = self.document.parameters.model_parameters();
-        let mut figure = FigureDocument::new("carving", &self.title, vec![model]);
         let mut ground = PanelDocument::new("", SURFACE);
         let ends = self.x.first().zip(self.x.last());
         ground.x_range = ends.map(|(first, last)| [*first, *last]);
         ground.y_range = Some(self.heights);
-        figure.panels = vec![ground, whole(&self.trail, self.labels(), self.times)];
-        figure
+        let panels = vec![ground, whole(&self.trail, self.labels(), self.times)];
+        FigureDocument::new("carving", &self.title, vec![model], panels)
     }
 
     fn times(&self) -> [f64; 2] {
@@ -107,21 +106,22 @@ impl Scene for Carving {
             Support::None => None,
             support => Some((support.position(t), height)),
         };
-        let mut ground = PanelDocument::new("", SURFACE);
-        ground.curves = vec![CurveDocument::new(StyleName::Line, "", &self.x, &u)];
-        let mut force = PanelDocument::new("", self.labels());
-        force.curves = past(&self.trail, t, quantity(&self.trajectory, t)).into();
-        let (unit, note, panels) = ("Γ/k".into(), String::new(), vec![ground, force]);
+        let ground = vec![CurveDocument::new(StyleName::Line, "", &self.x, &u)];
+        let force = past(&self.trail, t, quantity(&self.trajectory, t)).into();
+        let panels = vec![
+            PanelDocument::of_curves(SURFACE, ground),
+            PanelDocument::of_curves(self.labels(), force),
+        ];
+        let (unit, note) = ("Γ/k".into(), String::new());
         Ok(Moment { t, unit, note, panels, tip: (x0, height), support })
     }
 }
 
 /// Axes with a whole curve against time in the background.
 pub(super) fn whole(curve: &CurveDocument, labels: (&str, &str), times: [f64; 2]) -> PanelDocument {
-    let mut panel = PanelDocument::new("", labels);
-    (panel.natural, panel.x_range) = (NATURAL, Some(times));
-    panel.curves = vec![CurveDocument { colour: Some(ColourName::Silver), ..curve.clone() }];
-    panel
+    let curves = vec![curve.clone().coloured(ColourName::Silver)];
+    let panel = PanelDocument::of_curves(labels, curves);
+    PanelDocument { natural: NATURAL, x_range: Some(times), ..panel }
 }
 
 /// The part of a curve before time t, and a dot at its value at t, `now`.

@@ -10,34 +10,29 @@ impl Drawn for CompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = &self.parameters.run.model_parameters();
         let title = format!("Closed equation and grid, {}", model_name(model));
-        let mut figure = FigureDocument::new("compare", &title, vec![model.clone()]);
         let lag = |x0: &[f64]| -> Vec<f64> {
             self.t.iter().zip(x0).map(|(t, x)| model.r * t - x).collect()
         };
         let (closed, grid) = (lag(&self.closed.x0), lag(&self.grid.x0));
-        let mut motions = PanelDocument::new("", (LAG.0, LAG_OF_STEADY_SUPPORT));
-        let curves = |closed: &[f64], grid: &[f64]| {
-            vec![
+        let motions = |labels, closed: &[f64], grid: &[f64]| {
+            let curves = vec![
                 CurveDocument::new(StyleName::Line, "closed equation", &self.t, closed),
                 CurveDocument::new(StyleName::Dashed, "grid", &self.t, grid),
-            ]
+            ];
+            PanelDocument::of_curves(labels, curves)
         };
-        motions.curves = curves(&closed, &grid);
         let apart = |labels, x: &Vec<f64>, a: &Vec<f64>, b: &Vec<f64>| {
             differences(labels, [[&**x, a, b]].into_iter())
         };
-        figure.panels = vec![
-            motions,
+        let mut panels = vec![
+            motions((LAG.0, LAG_OF_STEADY_SUPPORT), &closed, &grid),
             apart(("t (Γ/k)", "|Δx₀| (σ)"), &self.t, &self.closed.x0, &self.grid.x0),
             apart(("x (σ)", "|Δu| (kσ²/a)"), &self.x, &self.closed.u, &self.grid.u),
         ];
         if let (Some(closed), Some(grid)) = (&self.closed.y0, &self.grid.y0) {
-            let mut across = PanelDocument::new("", ("t (Γ/k)", "y₀(t) (σ)"));
-            across.curves = curves(closed, grid);
-            let difference = apart(("t (Γ/k)", "|Δy₀| (σ)"), &self.t, closed, grid);
-            figure.panels.splice(1..1, [across]);
-            figure.panels.splice(3..3, [difference]);
+            panels.insert(1, motions(("t (Γ/k)", "y₀(t) (σ)"), closed, grid));
+            panels.insert(3, apart(("t (Γ/k)", "|Δy₀| (σ)"), &self.t, closed, grid));
         }
-        Ok(figure)
+        Ok(FigureDocument::new("compare", &title, vec![model.clone()], panels))
     }
 }

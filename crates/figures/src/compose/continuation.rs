@@ -42,13 +42,12 @@ impl Drawn for ContinueDocument {
             false => format!("α = {}", seven_digits(model.alpha)),
         };
         let title = format!("Cycles, {}, {fixed}", law_name(model));
-        let mut figure = FigureDocument::new("continue", &title, vec![model.clone()]);
         let branches = Branches::of(self, over_alpha);
         let label = if over_alpha { ALPHA } else { R };
         let amplitudes = branches.panel((label, "amplitude of x₀ (σ)"), |p| p.amplitude, false);
         let periods = branches.panel((label, "period (Γ/k)"), |p| p.period, true);
-        figure.panels = vec![amplitudes, periods];
-        Ok(figure)
+        let panels = vec![amplitudes, periods];
+        Ok(FigureDocument::new("continue", &title, vec![model.clone()], panels))
     }
 }
 

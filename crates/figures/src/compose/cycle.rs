@@ -32,19 +32,17 @@ impl Drawn for CycleDocument {
         let name = model_name(&parameters);
         let period = Quantity::new(self.period, "Γ/k").in_text(&seven_digits(self.period));
         let title = format!("{name}: {stable} cycle, T = {period}");
-        let mut figure = FigureDocument::new("cycle", &title, vec![parameters]);
         let (r, steady) = (model.r(), model.steady_l());
         let motion = self.history.under(*model.wider(), Support::Moving(r))?;
         let part = Part::of(&motion, view.x_range);
         let l = part.line("l(t)", &|step, t| step.l(r, t));
         let velocity = part.line("ẋ₀(t)", &|step, t| step.velocity(t));
-        let ripple = ripple(&model, &motion)?;
-        figure.panels = vec![
+        let mut panels = vec![
             against(L, l, Some(&steady_level(steady))),
             against(VELOCITY, velocity, Some(&support_level(r))),
         ];
-        figure.panels.extend(ripple);
-        Ok(figure)
+        panels.extend(ripple(&model, &motion)?);
+        Ok(FigureDocument::new("cycle", &title, vec![parameters], panels))
     }
 }
 
@@ -76,10 +74,8 @@ fn ripple(model: &Model, motion: &Trajectory) -> Result<Option<PanelDocument>, F
     let flat = InitialSurface::flat();
     let u = Surface::new(model, &flat, &long).far_behind(long.end(), &shifted);
     let u = u.map_err(damaged)?.to_vec();
-    let mut panel = PanelDocument::new("", SURFACE);
-    panel.natural = NATURAL;
-    panel.curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
-    Ok(Some(panel))
+    let curves = vec![CurveDocument::new(StyleName::Line, "u far behind the tip", &x, &u)];
+    Ok(Some(PanelDocument { natural: NATURAL, ..PanelDocument::of_curves(SURFACE, curves) }))
 }
 
 /// Peak-to-peak of l at the nodes, in σ.

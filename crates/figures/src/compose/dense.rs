@@ -146,9 +146,7 @@ impl<'a> Part<'a> {
         }
         let high: Vec<f64> = columns.iter().map(|c| c[1].1).collect();
         let low: Vec<f64> = columns.iter().map(|c| c[0].1).collect();
-        let mut band = CurveDocument::new(StyleName::Band, name, &x, &high);
-        band.low = Some(low.iter().map(|v| v.is_finite().then_some(*v)).collect());
-        band
+        CurveDocument::band(name, &x, &low, &high)
     }
 }
 

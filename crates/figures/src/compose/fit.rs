@@ -24,20 +24,14 @@ impl Drawn for FitDocument {
             format!("{} = {}{unit}", symbol(&n.name), with_error(&n.estimate))
         });
         let title = words.collect::<Vec<String>>().join(", ");
-        let mut figure = FigureDocument::new("fit", &title, models(self));
-        let count = self.numbers.len().max(1);
-        figure.columns = count;
-        for data in &self.data {
-            for mut panel in panels(data, length) {
-                panel.span = count;
-                figure.panels.push(panel);
-            }
-        }
+        let columns = self.numbers.len().max(1);
+        let data = self.data.iter().flat_map(|data| panels(data, length));
+        let data = data.map(|panel| PanelDocument { span: columns, ..panel });
         // A number without an interval has no profile.
         let followed = self.numbers.iter().filter(|n| n.profile_values.len() > 1);
-        figure.panels.extend(followed.map(|n| profile(n, length)));
-        figure.remarks.clone_from(&self.remarks);
-        Ok(figure)
+        let panels = data.chain(followed.map(|n| profile(n, length))).collect();
+        let figure = FigureDocument::new("fit", &title, models(self), panels);
+        Ok(FigureDocument { columns, remarks: self.remarks.clone(), ..figure })
     }
 }
 
@@ -88,9 +82,8 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     let y = labelled(y, data.y_unit.as_deref());
     let mut above = PanelDocument::new(&data.source, (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
-    let mut measured = CurveDocument::new(style, "as measured", &data.x, &data.y);
-    measured.colour = Some(ColourName::Grey);
-    above.curves = vec![measured];
+    let measured = CurveDocument::new(style, "as measured", &data.x, &data.y);
+    above.curves = vec![measured.coloured(ColourName::Grey)];
     // A loop goes there and back: two lines.
     let half = if data.kind == "loop" { data.x.len() / 2 } else { data.x.len() }.max(1);
     let style = if is_series { StyleName::Dots } else { StyleName::Line };
@@ -103,9 +96,8 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     }));
     let left: Vec<f64> = data.y.iter().zip(&data.model).map(|(y, model)| y - model).collect();
     let difference = residual("model", data.y_unit.as_deref());
-    let mut below = PanelDocument::new("", (&x, &difference));
-    below.curves = vec![CurveDocument::new(StyleName::Points, "", &data.x, &left)];
-    [above, below]
+    let left = vec![CurveDocument::new(StyleName::Points, "", &data.x, &left)];
+    [above, PanelDocument::of_curves((&x, &difference), left)]
 }
 
 /// The unit of a parameter; documents of older versions contain only that of lengths.
@@ -117,18 +109,12 @@ fn unit_of<'a>(number: &'a NumberFitted, length: Option<&'a str>) -> Option<&'a 
 fn profile(number: &NumberFitted, unit: Option<&str>) -> PanelDocument {
     let unit = unit_of(number, unit).map(|unit| format!(" ({unit})"));
     let label = format!("{}{}", symbol(&number.name), unit.unwrap_or_default());
-    let mut panel = PanelDocument::new("", (&label, "root of likelihood"));
     let (x, y) = (&number.profile_values, &number.profile_roots);
-    panel.curves = vec![CurveDocument::new(StyleName::Line, "", x, y)];
+    let mut curves = vec![CurveDocument::new(StyleName::Line, "", x, y)];
     if let (Some(first), Some(last)) = (x.first(), x.last()) {
-        for end in [-END, END] {
-            panel.curves.push(CurveDocument::new(
-                StyleName::Dashed,
-                "",
-                &[*first, *last],
-                &[end, end],
-            ));
-        }
+        let ends = [*first, *last];
+        let level = |at| CurveDocument::new(StyleName::Dashed, "", &ends, &[at, at]);
+        curves.extend([-END, END].map(level));
     }
-    panel
+    PanelDocument::of_curves((&label, "root of likelihood"), curves)
 }

@@ -18,7 +18,6 @@ impl Drawn for FitImageDocument {
             format!("Ripples: α = {}, r = {}", with_error(&self.alpha), with_error(&self.r));
         let tip = TipDocument::from(&self.parameters.tip.clone().unwrap_or_default().0);
         let model = ModelParameters::papers(tip, self.alpha.value, None, self.r.value);
-        let mut figure = FigureDocument::new("fit-image", &title, vec![model]);
         let image = &self.levelled;
         let ends = |at: &[f64]| match at {
             [first, .., last] if first < last => Ok([*first, *last]),
@@ -43,28 +42,23 @@ impl Drawn for FitImageDocument {
             colours: ColoursName::Cividis,
             z_range: None,
         });
-        figure.panels =
-            vec![surface, ripple(self, (&labelled("distance from the crest", unit), &height))];
-        figure.columns = 2;
-        figure.remarks.clone_from(&self.remarks);
-        Ok(figure)
+        let ripple = ripple(self, (&labelled("distance from the crest", unit), &height));
+        let figure = FigureDocument::new("fit-image", &title, vec![model], vec![surface, ripple]);
+        Ok(FigureDocument { columns: 2, remarks: self.remarks.clone(), ..figure })
     }
 }
 
 /// The mean ripple with its error, and that of the model.
 fn ripple(document: &FitImageDocument, labels: (&str, &str)) -> PanelDocument {
     let profile = &document.profile;
-    let mut panel = PanelDocument::new("mean ripple", labels);
     let (x, height) = (&profile.distance, &profile.height);
     let rows = || height.iter().zip(&profile.error);
     let high: Vec<f64> = rows().map(|(height, error)| height + 1.96 * error).collect();
-    let low = rows().map(|(height, error)| Some(height - 1.96 * error)).collect();
-    let mut band = CurveDocument::new(StyleName::Band, "95 % of the mean", x, &high);
-    band.low = Some(low);
-    band.colour = Some(ColourName::Silver);
-    let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, height);
-    measured.colour = Some(ColourName::Grey);
-    let model = CurveDocument::new(StyleName::Line, "model", x, &profile.model);
-    panel.curves = vec![band, measured, model];
-    panel
+    let low: Vec<f64> = rows().map(|(height, error)| height - 1.96 * error).collect();
+    let curves = vec![
+        CurveDocument::band("95 % of the mean", x, &low, &high).coloured(ColourName::Silver),
+        CurveDocument::new(StyleName::Points, "as measured", x, height).coloured(ColourName::Grey),
+        CurveDocument::new(StyleName::Line, "model", x, &profile.model),
+    ];
+    PanelDocument { curves, ..PanelDocument::new("mean ripple", labels) }
 }

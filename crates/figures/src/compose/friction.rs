@@ -29,25 +29,22 @@ impl Drawn for FrictionDocument {
         };
         let labels =
             (label("support at x", &self.length_unit), label("lateral force", &self.force_unit));
-        let mut panel = PanelDocument::new("", (&labels.0, &labels.1));
+        let mut curves = vec![];
         let (ends, offset) = ([*first, *last], self.offset.value);
         for (name, force, style) in [
             ("kinetic", self.kinetic.value, StyleName::Dashed),
             ("static", self.static_peak.value, StyleName::Dotted),
         ] {
             for (name, at) in [(name, offset + force), ("", offset - force)] {
-                let mut line = CurveDocument::new(style, name, &ends, &[at, at]);
-                line.colour = Some(ColourName::Grey);
-                panel.curves.push(line);
+                let line = CurveDocument::new(style, name, &ends, &[at, at]);
+                curves.push(line.coloured(ColourName::Grey));
             }
         }
         let trace = CurveDocument::new(StyleName::Line, "trace", x, &self.rows.trace);
-        let mut retrace = CurveDocument::new(StyleName::Line, "retrace", x, &self.rows.retrace);
-        retrace.colour = Some(ColourName::Vermillion);
-        panel.curves.extend([trace, retrace]);
-        let mut figure = FigureDocument::new("friction", &title, vec![]);
-        figure.panels = vec![panel];
-        figure.remarks.clone_from(&self.remarks);
-        Ok(figure)
+        let retrace = CurveDocument::new(StyleName::Line, "retrace", x, &self.rows.retrace);
+        curves.extend([trace, retrace.coloured(ColourName::Vermillion)]);
+        let panel = PanelDocument::of_curves((&labels.0, &labels.1), curves);
+        let figure = FigureDocument::new("friction", &title, vec![], vec![panel]);
+        Ok(FigureDocument { remarks: self.remarks.clone(), ..figure })
     }
 }

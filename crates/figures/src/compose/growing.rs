@@ -138,15 +138,13 @@ impl Growing {
 impl Scene for Growing {
     fn still(&self) -> FigureDocument {
         let model = self.document.parameters.model_parameters();
-        let mut figure = FigureDocument::new("growing", &self.title, vec![model]);
         let mut surface = PanelDocument::new("", MAP);
         surface.map = Some(self.map(self.whole.u.clone()));
         let mut lag = PanelDocument::new("", (MAP.0, LAG.1));
         let ends = self.whole.x.first().zip(self.whole.x.last());
         lag.x_range = ends.map(|(first, last)| [*first, *last]);
         (lag.natural, lag.y_range) = (NATURAL, Some(self.lags));
-        figure.panels = vec![surface, lag];
-        figure
+        FigureDocument::new("growing", &self.title, vec![model], vec![surface, lag])
     }
 
     fn times(&self) -> [f64; 2] {
@@ -162,15 +160,13 @@ impl Scene for Growing {
         surface.map = Some(self.map(u));
         let (line, r) = (&self.lines[n], self.plan.law.model.r());
         let track = line.track();
-        let mut lag = PanelDocument::new("", (MAP.0, LAG.1));
-        if let Some(before) = n.checked_sub(1).map(|before| &self.lines[before]) {
-            let mut before = trace(before, before.trajectory().end(), r);
-            before.colour = Some(ColourName::Silver);
-            lag.curves.push(before);
-        }
+        let before = n.checked_sub(1).map(|before| &self.lines[before]);
+        let before = before.map(|before| trace(before, before.trajectory().end(), r));
         let now = (track.x(r * since), line.lag(since));
-        lag.curves.push(trace(line, since, r));
-        lag.curves.push(CurveDocument::new(StyleName::Dots, "", &[now.0], &[now.1]));
+        let mut lags = Vec::from_iter(before.map(|before| before.coloured(ColourName::Silver)));
+        lags.push(trace(line, since, r));
+        lags.push(CurveDocument::new(StyleName::Dots, "", &[now.0], &[now.1]));
+        let lag = PanelDocument::of_curves((MAP.0, LAG.1), lags);
         Ok(Moment {
             t,
             unit: "Γ/k".into(),

@@ -53,21 +53,17 @@ impl Drawn for LoadMapDocument {
         };
         let critical: Vec<f64> = self.critical_load.iter().map(inside).collect();
         if critical.iter().any(|load| load.is_finite()) {
-            let mut curve =
+            let curve =
                 CurveDocument::new(StyleName::Line, "critical load", &self.velocity, &critical);
-            curve.colour = Some(ColourName::Vermillion);
-            panel.curves.push(curve);
+            panel.curves.push(curve.coloured(ColourName::Vermillion));
         }
         let (v, f) = (self.lever.velocity, self.lever.load);
         let [left, right] = parameters.r_range;
         if (left..=right).contains(&v) && (bottom..=top).contains(&f) {
-            let mut lever = CurveDocument::new(StyleName::Dots, "lever", &[v], &[f]);
-            lever.colour = Some(ColourName::Black);
-            panel.curves.push(lever);
+            let lever = CurveDocument::new(StyleName::Dots, "lever", &[v], &[f]);
+            panel.curves.push(lever.coloured(ColourName::Black));
         }
-        let mut figure = FigureDocument::new("load-map", &title, vec![]);
-        figure.panels = vec![panel];
-        Ok(figure)
+        Ok(FigureDocument::new("load-map", &title, vec![], vec![panel]))
     }
 }
 

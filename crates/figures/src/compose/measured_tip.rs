@@ -30,35 +30,30 @@ impl Drawn for MeasuredTipDocument {
         let tip = TipDocument::Gaussians { gaussians: self.gaussians.clone() };
         let alpha = self.critical_alpha.value;
         let model = ModelParameters::papers(tip, alpha, None, self.parameters.r);
-        let mut figure = FigureDocument::new("tip", &title, vec![model]);
         let x_label = labelled("x", unit);
         let along: Vec<f64> = evenly([*first, *last], POINTS).collect();
         let ground: Vec<f64> = along.iter().map(|x| self.ground(*x)).collect();
         let fit: Vec<f64> = along.iter().map(|x| height(self, *x)).collect();
         let height_label = labelled("height", self.parameters.height_unit.as_deref());
-        let mut data = PanelDocument::new("", (&x_label, &height_label));
-        let mut measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
-        measured.colour = Some(ColourName::Grey);
-        data.curves = vec![
-            measured,
+        let measured = CurveDocument::new(StyleName::Points, "as measured", x, &self.profile.f);
+        let data = vec![
+            measured.coloured(ColourName::Grey),
             CurveDocument::new(StyleName::Dashed, "ground", &along, &ground),
             CurveDocument::new(StyleName::Line, "fit", &along, &fit),
         ];
         let difference = residual("fit", self.parameters.height_unit.as_deref());
-        let mut rest = PanelDocument::new("", (&x_label, &difference));
-        let mut noise = CurveDocument::new(
-            StyleName::Band,
-            "noise from row to row",
-            &[*first, *last],
-            &[self.noise, self.noise],
-        );
-        noise.low = Some(vec![Some(-self.noise); 2]);
-        noise.colour = Some(ColourName::Silver);
-        rest.curves =
-            vec![noise, CurveDocument::new(StyleName::Points, "", x, &self.profile.residuals())];
-        figure.panels = vec![data, rest];
-        figure.remarks.clone_from(&self.remarks);
-        Ok(figure)
+        let [low, high] = [-self.noise, self.noise].map(|noise| [noise; 2]);
+        let noise = CurveDocument::band("noise from row to row", &[*first, *last], &low, &high);
+        let rest = vec![
+            noise.coloured(ColourName::Silver),
+            CurveDocument::new(StyleName::Points, "", x, &self.profile.residuals()),
+        ];
+        let panels = vec![
+            PanelDocument::of_curves((&x_label, &height_label), data),
+            PanelDocument::of_curves((&x_label, &difference), rest),
+        ];
+        let figure = FigureDocument::new("tip", &title, vec![model], panels);
+        Ok(FigureDocument { remarks: self.remarks.clone(), ..figure })
     }
 }
 

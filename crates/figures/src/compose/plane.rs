@@ -69,9 +69,8 @@ impl Plane {
         let mut panel = PanelDocument::new("", MAP);
         panel.map = Some(surface_map((&self.x, &self.y), self.surface(t)?, colours));
         let (x, y): (Vec<f64>, Vec<f64>) = self.path(t).into_iter().map(|[x, y]| (x, y)).unzip();
-        let mut path = CurveDocument::new(StyleName::Line, "path of the tip", &x, &y);
-        path.colour = Some(ColourName::Silver);
-        panel.curves = vec![path];
+        let path = CurveDocument::new(StyleName::Line, "path of the tip", &x, &y);
+        panel.curves = vec![path.coloured(ColourName::Silver)];
         Ok(panel)
     }
 

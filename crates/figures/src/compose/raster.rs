@@ -1,6 +1,6 @@
 //! Figure of a raster: the surface with its crests, and the lags, which the instrument measures as lateral force.
 
-use super::axes::{MAP, SPRING, differences, evenly, heights_within, surface_map};
+use super::axes::{MAP, SPRING, SURFACE, differences, evenly, heights_within, surface_map};
 use super::drawn::{Drawn, View};
 #[cfg(feature = "animation")]
 use super::growing::Growing;
@@ -31,7 +31,6 @@ impl Drawn for RasterDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters;
         let title = raster_title(parameters);
-        let mut figure = FigureDocument::new("raster", &title, vec![parameters.model_parameters()]);
         let map = self.height_map()?;
         let mut surface = PanelDocument::new(&heading(self), MAP);
         let wave = self.pattern.as_ref().and_then(|p| p.q.zip(p.kappa));
@@ -45,11 +44,10 @@ impl Drawn for RasterDocument {
         let x = map.x.clone();
         let z_range = heights_within(&map);
         surface.map = Some(MapDocument { z_range, ..heights(map) });
-        let lags = lags(self, x)?;
-        figure.panels = vec![surface, lags];
+        let (models, panels) = (vec![parameters.model_parameters()], vec![surface, lags(self, x)?]);
         // Beside its passes the strip of one line would be far smaller than they.
-        figure.columns = if parameters.path == PathName::Repeat { 1 } else { 2 };
-        Ok(figure)
+        let columns = if parameters.path == PathName::Repeat { 1 } else { 2 };
+        Ok(FigureDocument { columns, ..FigureDocument::new("raster", &title, models, panels) })
     }
 
     #[cfg(feature = "animation")]
@@ -61,9 +59,8 @@ impl Drawn for RasterDocument {
 impl Drawn for RasterCompareDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let parameters = &self.parameters.raster;
-        let model = &parameters.model_parameters();
         let title = format!("Raster and grid, {}", raster_title(parameters));
-        let mut figure = FigureDocument::new("raster-compare", &title, vec![model.clone()]);
+        let mut panels = vec![];
         let map = HeightMap { x: self.x.clone(), y: self.y.clone(), u: self.closed_u.clone() };
         let off = self.closed_u.iter().zip(&self.grid_u);
         let row = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
@@ -75,44 +72,41 @@ impl Drawn for RasterCompareDocument {
             let z_label = "Δu (kσ²/a)".into();
             difference.map =
                 Some(MapDocument { z_label, colours: ColoursName::BlueRed, ..heights(apart) });
-            figure.panels = vec![surface, difference];
+            panels = vec![surface, difference];
         }
         let panel = |label: &str, sides: fn(&ComparedLine) -> Option<[&Vec<f64>; 2]>| {
             let columns = |line| sides(line).map(|[a, b]| [&*line.t, a, b]);
             let labels = ("t since the start of a line (Γ/k)", label);
             differences(labels, self.lines.iter().filter_map(columns))
         };
-        figure.panels.push(panel("|Δx₀| (σ)", |line| Some([&line.closed_x0, &line.grid_x0])));
+        panels.push(panel("|Δx₀| (σ)", |line| Some([&line.closed_x0, &line.grid_x0])));
         if self.max_difference.y0.is_some() {
-            figure.panels.push(panel("|Δy₀| (σ)", |line| {
+            panels.push(panel("|Δy₀| (σ)", |line| {
                 Some([line.closed_y0.as_ref()?, line.grid_y0.as_ref()?])
             }));
         }
-        Ok(figure)
+        let models = vec![parameters.model_parameters()];
+        Ok(FigureDocument::new("raster-compare", &title, models, panels))
     }
 }
 
 impl Drawn for RasterSurfaceDocument {
     /// A height map, or profiles if there are too few rows for a map.
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let model = &self.parameters.model_parameters();
         let title = raster_title(&self.parameters);
-        let mut figure = FigureDocument::new("raster-surface", &title, vec![model.clone()]);
-        for map in &self.surfaces {
-            let mut panel;
+        let panel = |map: &HeightMap| {
             if is_even(&map.x) && is_even(&map.y) {
-                panel = PanelDocument::new("", MAP);
-                panel.map = Some(heights(map.clone()));
-            } else {
-                panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
-                let curve = |(y, u): (&f64, &Vec<f64>)| {
-                    CurveDocument::new(StyleName::Line, &format!("y = {}", short(*y)), &map.x, u)
-                };
-                panel.curves = map.y.iter().zip(&map.u).map(curve).collect();
+                let map = Some(heights(map.clone()));
+                return PanelDocument { map, ..PanelDocument::new("", MAP) };
             }
-            figure.panels.push(panel);
-        }
-        Ok(figure)
+            let curve = |(y, u): (&f64, &Vec<f64>)| {
+                CurveDocument::new(StyleName::Line, &format!("y = {}", short(*y)), &map.x, u)
+            };
+            PanelDocument::of_curves(SURFACE, map.y.iter().zip(&map.u).map(curve).collect())
+        };
+        let models = vec![self.parameters.model_parameters()];
+        let panels = self.surfaces.iter().map(panel).collect();
+        Ok(FigureDocument::new("raster-surface", &title, models, panels))
     }
 }
 
@@ -178,9 +172,7 @@ pub(super) fn crest_lines(
         points.0.push(points.0.last().copied().unwrap_or(0.0));
         points.1.push(f64::NAN);
     }
-    let mut curve = CurveDocument::new(StyleName::Line, "", &points.0, &points.1);
-    curve.colour = Some(ColourName::Vermillion);
-    curve
+    CurveDocument::new(StyleName::Line, "", &points.0, &points.1).coloured(ColourName::Vermillion)
 }
 
 /// Ranges of the patch in x and y: along the middle of the lines, among the last half of the lines.
@@ -244,9 +236,7 @@ fn paths(document: &RasterDocument) -> Result<CurveDocument, FigureError> {
         x.push(line.x0(end));
         y.push(f64::NAN);
     }
-    let mut curve = CurveDocument::new(StyleName::Line, "", &x, &y);
-    curve.colour = Some(ColourName::Silver);
-    Ok(curve)
+    Ok(CurveDocument::new(StyleName::Line, "", &x, &y).coloured(ColourName::Silver))
 }
 
 /// The lag along each line against the position x of the support.

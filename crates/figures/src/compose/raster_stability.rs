@@ -30,18 +30,18 @@ impl Drawn for RasterStabilityDocument {
         };
         let across = stiffness_name(self.parameters.stiffness_across);
         let title = format!("{}, {lines}{across}", model_name(model));
-        let mut figure = FigureDocument::new("raster-stability", &title, vec![model.clone()]);
         let q = &growth.q;
         let ends = [0.0, q.last().copied().unwrap_or(1.0)];
-        let mut factor = PanelDocument::new("", ("q (1/σ)", "growth from line to line"));
-        factor.curves = vec![
+        let factor = vec![
             CurveDocument::new(StyleName::Thin, "", &ends, &[1.0, 1.0]),
             CurveDocument::new(StyleName::Line, "", q, &growth.factor),
         ];
-        let mut phase = PanelDocument::new("", ("q (1/σ)", "phase from line to line"));
-        phase.curves = vec![CurveDocument::new(StyleName::Line, "", q, &growth.phase)];
-        figure.panels = vec![factor, phase];
-        Ok(figure)
+        let phase = vec![CurveDocument::new(StyleName::Line, "", q, &growth.phase)];
+        let panels = vec![
+            PanelDocument::of_curves(("q (1/σ)", "growth from line to line"), factor),
+            PanelDocument::of_curves(("q (1/σ)", "phase from line to line"), phase),
+        ];
+        Ok(FigureDocument::new("raster-stability", &title, vec![model.clone()], panels))
     }
 }
 
@@ -51,16 +51,14 @@ impl Drawn for RasterBoundaryDocument {
         let law = terms_name(&parameters.law) + &stiffness_name(parameters.stiffness_across);
         let title =
             format!("{}, r = {}{law}", tip_name(&(&parameters.tip.0).into()), short(parameters.r));
-        let mut figure = FigureDocument::new("raster-boundary", &title, vec![]);
-        let mut threshold = PanelDocument::new("", ("pitch (σ)", "critical α"));
         let one_way = match &self.thresholds {
             Some(columns) => by_kind(&self.pitch, columns),
             None => vec![CurveDocument::new(StyleName::Line, "one-way", &self.pitch, &self.alpha)],
         };
-        let mut zigzag = CurveDocument::new(StyleName::Dashed, "zigzag", &self.pitch, &[]);
-        zigzag.y = self.alpha_zigzag.clone();
+        let mut threshold = PanelDocument::of_curves(("pitch (σ)", "critical α"), one_way);
+        let alpha = self.alpha_zigzag.clone();
+        let mut zigzag = CurveDocument::with_gaps(StyleName::Dashed, "zigzag", &self.pitch, alpha);
         zigzag.colour = self.thresholds.as_ref().map(|_| ColourName::Black);
-        threshold.curves = one_way;
         if self.alpha_zigzag.iter().any(Option::is_some) {
             threshold.curves.push(zigzag);
         }
@@ -70,13 +68,12 @@ impl Drawn for RasterBoundaryDocument {
             let highest = lowest.copied().fold(0.0, f64::max);
             threshold.y_range = (highest > 0.0).then_some([0.0, AIR * highest]);
         }
-        let mut angle = PanelDocument::new("", ("pitch (σ)", "crest to scan axis (°)"));
-        angle.curves = match &self.thresholds {
+        let angles = match &self.thresholds {
             Some(columns) => angles(&self.pitch, &self.crest_angle, &columns.kind),
             None => vec![CurveDocument::new(StyleName::Line, "", &self.pitch, &self.crest_angle)],
         };
-        figure.panels = vec![threshold, angle];
-        Ok(figure)
+        let angle = PanelDocument::of_curves(("pitch (σ)", "crest to scan axis (°)"), angles);
+        Ok(FigureDocument::new("raster-boundary", &title, vec![], vec![threshold, angle]))
     }
 }
 
@@ -91,26 +88,22 @@ fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
     let ThresholdColumns { ripples, bunching, snaking, .. } = columns;
     let curves = KINDS.iter().zip([ripples, bunching, snaking]);
     let drawn = curves.filter(|(_, alpha)| alpha.iter().any(Option::is_some));
-    drawn.map(|((kind, colour), alpha)| curve((kind.as_str(), *colour), pitch, alpha)).collect()
+    let curve = |((kind, colour), alpha): (&(RasterKindName, ColourName), &Vec<Option<f64>>)| {
+        CurveDocument::with_gaps(StyleName::Line, kind.as_str(), pitch, alpha.clone())
+            .coloured(*colour)
+    };
+    drawn.map(curve).collect()
 }
 
 /// Angles of the critical waves, interrupted where their kind changes.
 fn angles(pitch: &[f64], angle: &[f64], first: &[RasterKindName]) -> Vec<CurveDocument> {
     let of = |kind: RasterKindName| {
         let rows = angle.iter().zip(first);
-        rows.map(|(angle, first)| (*first == kind).then_some(*angle)).collect::<Vec<_>>()
+        rows.map(|(angle, first)| (*first == kind).then_some(*angle)).collect()
     };
     let kinds = KINDS.iter().filter(|(kind, _)| first.contains(kind));
-    kinds.map(|(kind, colour)| curve(("", *colour), pitch, &of(*kind))).collect()
-}
-
-fn curve(
-    (name, colour): (&str, ColourName),
-    pitch: &[f64],
-    values: &[Option<f64>],
-) -> CurveDocument {
-    let mut curve = CurveDocument::new(StyleName::Line, name, pitch, &[]);
-    curve.y = values.to_vec();
-    curve.colour = Some(colour);
-    curve
+    let curve = |(kind, colour): &(RasterKindName, ColourName)| {
+        CurveDocument::with_gaps(StyleName::Line, "", pitch, of(*kind)).coloured(*colour)
+    };
+    kinds.map(curve).collect()
 }

@@ -3,12 +3,12 @@
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
 use super::tip::tip_name;
-use crate::cells::{ascending, edges};
+use crate::cells::{ascending, edges, sorted};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
-    CellsDocument, ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument,
-    PathName, PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
+    ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument, PathName,
+    PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
 };
 
 /// Regimes with their colours, in the order of the legend.
@@ -27,9 +27,8 @@ const MOST_ANGLES: usize = 150;
 
 impl Drawn for RasterSweepDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
-        let mut figure = FigureDocument::new("raster-sweep", &title(self), vec![]);
         let parameters = &self.parameters;
-        figure.panels = match (parameters.pitch.as_slice(), parameters.alpha.as_slice()) {
+        let panels = match (parameters.pitch.as_slice(), parameters.alpha.as_slice()) {
             ([], _) | (_, []) => {
                 return Err(FigureError::Damaged("the grid has no points".into()));
             }
@@ -41,7 +40,7 @@ impl Drawn for RasterSweepDocument {
             (pitch, [_]) => row(self, "pitch (σ)", pitch),
             _ => vec![map(self)],
         };
-        Ok(figure)
+        Ok(FigureDocument::new("raster-sweep", &title(self), vec![], panels))
     }
 }
 
@@ -76,21 +75,15 @@ fn map(document: &RasterSweepDocument) -> PanelDocument {
             *cell = kind(point);
         }
     }
-    let (x, pitches) = ascending(&parameters.pitch);
-    let (y, alphas) = ascending(&parameters.alpha);
-    let row = |alpha: &usize| pitches.iter().map(|pitch| kinds[*alpha][*pitch]).collect();
     let is_bunched = |point: &RasterSweepPoint| point.regime == Some(RasterRegimeName::Bunched);
     let hidden = usize::from(!document.points.iter().any(is_bunched));
     let named = &REGIMES[..REGIMES.len() - hidden];
+    let names = named.iter().map(|(name, _)| name.to_string()).collect();
+    let colours = named.iter().map(|(_, colour)| *colour).collect();
+    let cells = sorted((&parameters.pitch, &parameters.alpha), &kinds, names, colours);
     // Whole cells, for the numbers in them.
-    (panel.x_range, panel.y_range) = (ends(&x), ends(&y));
-    panel.cells = Some(CellsDocument {
-        kinds: alphas.iter().map(row).collect(),
-        x,
-        y,
-        names: named.iter().map(|(name, _)| name.to_string()).collect(),
-        colours: named.iter().map(|(_, colour)| *colour).collect(),
-    });
+    (panel.x_range, panel.y_range) = (ends(&cells.x), ends(&cells.y));
+    panel.cells = Some(cells);
     if document.points.len() <= MOST_ANGLES {
         panel.notes = document.points.iter().filter_map(angle).collect();
     }
@@ -123,9 +116,8 @@ fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
         first.critical_alpha.filter(|at| (low..=high).contains(at))
     };
     let y: Vec<f64> = pitches.iter().map(|pitch| of(*pitch).unwrap_or(f64::NAN)).collect();
-    let mut curve = CurveDocument::new(StyleName::Line, "α_c from line to line", &x, &y);
-    curve.colour = Some(ColourName::Black);
-    y.iter().any(|y| y.is_finite()).then_some(curve)
+    let curve = CurveDocument::new(StyleName::Line, "α_c from line to line", &x, &y);
+    y.iter().any(|y| y.is_finite()).then_some(curve.coloured(ColourName::Black))
 }
 
 /// Wavelength, angle and coherence of ripples against the parameter that varies.
@@ -148,15 +140,12 @@ fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<Panel
                 *here = value(point);
             }
         }
-        let name = regime.to_string();
-        let mut curve = CurveDocument::new(StyleName::Dots, &name, values, &y);
-        curve.colour = Some(colour);
-        y.iter().any(|y| y.is_finite()).then_some(curve)
+        let curve = CurveDocument::new(StyleName::Dots, &regime.to_string(), values, &y);
+        y.iter().any(|y| y.is_finite()).then_some(curve.coloured(colour))
     };
     let panel = |(y_label, measure): (&str, Measure)| {
-        let mut panel = PanelDocument::new("", (label, y_label));
-        panel.curves = REGIMES.into_iter().filter_map(|regime| curve(measure, regime)).collect();
-        panel
+        let curves = REGIMES.into_iter().filter_map(|regime| curve(measure, regime));
+        PanelDocument::of_curves((label, y_label), curves.collect())
     };
     measures.into_iter().map(panel).collect()
 }

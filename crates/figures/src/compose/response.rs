@@ -13,12 +13,10 @@ impl Drawn for ResponseDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         let model = &self.parameters.model_parameters();
         let title = format!("Linear response, {}", model_name(model));
-        let mut figure = FigureDocument::new("response", &title, vec![model.clone()]);
-        let mut panel = PanelDocument::new("", ("t (Γ/k)", "l − l₀ (σ)"));
         let t = &self.samples.t;
-        let mut curve = CurveDocument::new(StyleName::Line, "", t, &[]);
-        curve.y = self.samples.deviation.clone();
-        panel.curves = vec![curve];
+        let deviation = self.samples.deviation.clone();
+        let curve = CurveDocument::with_gaps(StyleName::Line, "", t, deviation);
+        let mut panel = PanelDocument::of_curves(("t (Γ/k)", "l − l₀ (σ)"), vec![curve]);
         if let (Some(first), Some(last)) = (t.first().copied(), t.last().copied()) {
             let begins = self.parameters.pulses.iter().map(|p| p.time - WIDTHS * p.width);
             let from = begins.fold(self.origin, f64::min).max(first);
@@ -29,7 +27,6 @@ impl Drawn for ResponseDocument {
                 panel.heading = format!("on the shaded background {modes} modes are not enough");
             }
         }
-        figure.panels = vec![panel];
-        Ok(figure)
+        Ok(FigureDocument::new("response", &title, vec![model.clone()], vec![panel]))
     }
 }

@@ -36,7 +36,7 @@ const LOOP_POINTS: u32 = 4000;
 impl Drawn for RunDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
         let model = self.parameters.model_parameters();
-        let mut figure = FigureDocument::new("run", &run_title(self), vec![model]);
+        let mut figure = FigureDocument::new("run", &run_title(self), vec![model], vec![]);
         if self.parameters.stiffness_across.is_some() {
             figure.panels = sampled(self);
             figure.panels.extend(across(self, view)?);
@@ -172,9 +172,8 @@ fn loops(trajectory: &Trajectory, (from, to): (f64, f64)) -> Option<PanelDocumen
     sort_numbers(&mut t);
     let way: Vec<f64> = t.iter().map(|t| trajectory.support().position(*t)).collect();
     let lag: Vec<f64> = t.iter().map(|t| trajectory.lag(*t)).collect();
-    let mut panel = PanelDocument::new("", (WAY, LAG.1));
-    panel.curves = vec![CurveDocument::new(StyleName::Line, "lateral force", &way, &lag)];
-    Some(panel)
+    let curve = CurveDocument::new(StyleName::Line, "lateral force", &way, &lag);
+    Some(PanelDocument::of_curves((WAY, LAG.1), vec![curve]))
 }
 
 /// A curve against time, with a constant level.
@@ -183,15 +182,12 @@ pub(super) fn against(
     curve: CurveDocument,
     level: Option<&Level>,
 ) -> PanelDocument {
-    let mut panel = PanelDocument::new("", labels);
-    panel.natural = NATURAL;
     let ends: Vec<f64> = curve.x.first().into_iter().chain(curve.x.last()).copied().collect();
-    panel.curves = vec![curve];
-    if let Some((level, name)) = level {
-        let level = vec![*level; ends.len()];
-        panel.curves.push(CurveDocument::new(StyleName::Dashed, name, &ends, &level));
-    }
-    panel
+    let level = level.map(|(level, name)| {
+        CurveDocument::new(StyleName::Dashed, name, &ends, &vec![*level; ends.len()])
+    });
+    let curves = [curve].into_iter().chain(level).collect();
+    PanelDocument { natural: NATURAL, ..PanelDocument::of_curves(labels, curves) }
 }
 
 /// y0 against time, and the path of the tip in the plane, on the surface if the run has a history.
@@ -203,9 +199,8 @@ fn across(run: &RunDocument, view: &View) -> Result<Vec<PanelDocument>, FigureEr
         let plane = Plane::of(run, view.x_range).or_else(|_| Plane::of(run, None))?;
         return Ok(vec![swing, plane.seen(plane.times()[1], None)?]);
     }
-    let mut path = PanelDocument::new("", ("x₀ (σ)", "y₀ (σ)"));
-    path.curves = vec![CurveDocument::new(StyleName::Line, "path of the tip", &samples.x0, y0)];
-    Ok(vec![swing, path])
+    let path = CurveDocument::new(StyleName::Line, "path of the tip", &samples.x0, y0);
+    Ok(vec![swing, PanelDocument::of_curves(("x₀ (σ)", "y₀ (σ)"), vec![path])])
 }
 
 /// l and the velocity at the samples.
@@ -239,10 +234,9 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
     t.retain(|t| (from..=to).contains(t));
     sort_numbers(&mut t);
     let value: Vec<f64> = t.iter().map(|t| force.value(*t)).collect();
-    let mut panel = PanelDocument::new("", FORCE);
-    panel.x_range = Some([from, to]);
-    panel.curves = vec![CurveDocument::new(StyleName::Line, "external force", &t, &value)];
-    Some(panel)
+    let curve = CurveDocument::new(StyleName::Line, "external force", &t, &value);
+    let panel = PanelDocument::of_curves(FORCE, vec![curve]);
+    Some(PanelDocument { x_range: Some([from, to]), ..panel })
 }
 
 /// The surface at the end of the visible part: all of it, and, if there are many ripples, the last of them.

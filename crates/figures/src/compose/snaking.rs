@@ -34,25 +34,20 @@ impl Drawn for SnakingBoundaryDocument {
             held.collect::<String>(),
             terms_name(&parameters.law)
         );
-        let mut figure = FigureDocument::new("snaking-boundary", &title, vec![]);
-        let mut threshold = PanelDocument::new("", (label, "critical α"));
-        let mut snaking = CurveDocument::new(StyleName::Line, "snaking", x, &self.alpha);
-        snaking.colour = Some(ColourName::Green);
-        let mut stick_slip = CurveDocument::new(StyleName::Line, "stick-slip", x, &[]);
-        stick_slip.y = self.alpha_stick_slip.clone();
-        stick_slip.colour = Some(ColourName::Blue);
-        threshold.curves.push(snaking);
+        let snaking = CurveDocument::new(StyleName::Line, "snaking", x, &self.alpha);
+        let snaking = vec![snaking.coloured(ColourName::Green)];
+        let mut threshold = PanelDocument::of_curves((label, "critical α"), snaking);
         if self.alpha_stick_slip.iter().any(Option::is_some) {
-            threshold.curves.push(stick_slip);
+            let alpha = self.alpha_stick_slip.clone();
+            let stick_slip = CurveDocument::with_gaps(StyleName::Line, "stick-slip", x, alpha);
+            threshold.curves.push(stick_slip.coloured(ColourName::Blue));
             let lower = self.alpha.iter().zip(&self.alpha_stick_slip);
             let lower = lower.map(|(a, b)| b.map_or(*a, |b| a.min(b))).fold(0.0, f64::max);
             threshold.y_range = (lower > 0.0).then_some([0.0, AIR * lower]);
         }
-        let mut wavelength = PanelDocument::new("", (label, "wavelength of snaking (σ)"));
-        let mut along = CurveDocument::new(StyleName::Line, "", x, &self.wavelength);
-        along.colour = Some(ColourName::Green);
-        wavelength.curves = vec![along];
-        figure.panels = vec![threshold, wavelength];
-        Ok(figure)
+        let along = CurveDocument::new(StyleName::Line, "", x, &self.wavelength);
+        let along = vec![along.coloured(ColourName::Green)];
+        let wavelength = PanelDocument::of_curves((label, "wavelength of snaking (σ)"), along);
+        Ok(FigureDocument::new("snaking-boundary", &title, vec![], vec![threshold, wavelength]))
     }
 }

@@ -28,10 +28,9 @@ impl Drawn for StabilityDocument {
         };
         let across = stiffness_name(self.parameters.stiffness_across);
         let title = format!("{}{across}: {what}", model_name(&model));
-        let mut figure = FigureDocument::new("stability", &title, vec![model]);
         let name = if self.snaking.is_some() { "along the scan" } else { "" };
-        figure.panels = vec![exponents(name, &self.roots, self.certificate.largest_error)];
-        Ok(figure)
+        let panels = vec![exponents(name, &self.roots, self.certificate.largest_error)];
+        Ok(FigureDocument::new("stability", &title, vec![model], panels))
     }
 }
 
@@ -62,9 +61,7 @@ fn dots(
 ) -> CurveDocument {
     let here = roots.iter().filter(|root| wanted(root.re));
     let (x, y): (Vec<f64>, Vec<f64>) = here.map(|root| (root.re, root.im)).unzip();
-    let mut dots = CurveDocument::new(StyleName::Dots, name, &x, &y);
-    dots.colour = Some(colour);
-    dots
+    CurveDocument::new(StyleName::Dots, name, &x, &y).coloured(colour)
 }
 
 /// Ranges of both axes, which include the origin, and some of the unstable half-plane.
@@ -87,13 +84,12 @@ impl Drawn for WalkingDocument {
         }
         let model = &self.parameters.model_parameters();
         let title = format!("Steady walks, {}", model_name(model));
-        let mut figure = FigureDocument::new("walking", &title, vec![model.clone()]);
         let panel = |walk: &WalkDocument| {
             let speed = Quantity::new(walk.speed, "kσ/Γ").in_text(&format!("{:.6}", walk.speed));
             let name = format!("v = {speed}: {}", walk.stability());
             exponents(&name, &walk.roots, walk.certificate.largest_error)
         };
-        figure.panels = self.walks.iter().map(panel).collect();
-        Ok(figure)
+        let panels = self.walks.iter().map(panel).collect();
+        Ok(FigureDocument::new("walking", &title, vec![model.clone()], panels))
     }
 }

@@ -23,10 +23,9 @@ impl Drawn for SurfaceDocument {
         let model = &self.parameters.model;
         let far = if self.parameters.far_behind { ", far behind the tip" } else { "" };
         let title = format!("{}{far}", model_name(model));
-        let mut figure = FigureDocument::new("surface", &title, vec![model.clone()]);
-        figure.panels =
+        let panels =
             if self.images.is_empty() { curves(&self.surfaces, view) } else { images(self) };
-        Ok(figure)
+        Ok(FigureDocument::new("surface", &title, vec![model.clone()], panels))
     }
 }
 
@@ -36,9 +35,8 @@ fn images(document: &SurfaceDocument) -> Vec<PanelDocument> {
     let range = extremes(heights.filter(|u| u.is_finite()));
     let range = range.filter(|(low, high)| low < high).map(|(low, high)| [low, high]);
     let panel = |image: &stickslip::SurfaceImage| {
-        let mut panel = PanelDocument::new(&time(image.t), MAP);
-        panel.map = Some(surface_map((&image.x, &image.y), image.u.clone(), range));
-        panel
+        let map = Some(surface_map((&image.x, &image.y), image.u.clone(), range));
+        PanelDocument { map, ..PanelDocument::new(&time(image.t), MAP) }
     };
     document.images.iter().map(panel).collect()
 }
@@ -51,23 +49,18 @@ fn curves(surfaces: &[SurfaceCurve], view: &View) -> Vec<PanelDocument> {
     let from = shown.iter().map(|range| range[0]).fold(f64::INFINITY, f64::min);
     let to = shown.iter().map(|range| range[1]).fold(f64::NEG_INFINITY, f64::max);
     let x_range = view.x_range.or((from < to).then_some([from, to]));
-    let mut panels = vec![];
-    for surface in surfaces {
-        let mut panel = PanelDocument::new("", SURFACE);
-        panel.natural = NATURAL;
-        panel.x_range = x_range;
-        if high - low > 1e-6 {
-            let air = 0.06 * (high - low);
-            panel.y_range = Some([low - air, high + air]);
-        }
+    let air = 0.06 * (high - low);
+    let y_range = (high - low > 1e-6).then_some([low - air, high + air]);
+    let panel = |surface: &SurfaceCurve| {
         // The line ends where the tip has not come yet.
         let end = touched(surface, high - low).map_or(f64::INFINITY, |range| range[1]);
         let shown = surface.x.partition_point(|x| *x <= end);
         let (x, u) = (&surface.x[..shown], &surface.u[..shown.min(surface.u.len())]);
         let curve = CurveDocument::new(StyleName::Line, &time(surface.t), x, u);
-        panel.curves.push(curve);
-        panels.push(panel);
-    }
+        let panel = PanelDocument::of_curves(SURFACE, vec![curve]);
+        PanelDocument { natural: NATURAL, x_range, y_range, ..panel }
+    };
+    let panels: Vec<PanelDocument> = surfaces.iter().map(panel).collect();
     if panels.len() <= MOST_PANELS {
         return panels;
     }

@@ -33,13 +33,12 @@ impl Drawn for SweepDocument {
     fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
         judge_sweep(&self.parameters)?;
         let title = format!("Regimes of motion, {}", fixed(&self.parameters));
-        let mut figure = FigureDocument::new("sweep", &title, models(&self.parameters));
-        figure.panels = match varied(&self.parameters).as_slice() {
+        let panels = match varied(&self.parameters).as_slice() {
             [slow, fast] => vec![cells::panel(self, *slow, *fast)],
             [axis] => row::panels(self, *axis),
             _ => vec![],
         };
-        Ok(figure)
+        Ok(FigureDocument::new("sweep", &title, models(&self.parameters), panels))
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn tip_name(tip: &TipDocument) -> String {
 pub(crate) fn model_name(model: &ModelParameters) -> String {
     let [alpha, r] = [model.alpha, model.r].map(seven_digits);
     let dragged = if model.law.no_spring { ", no spring".into() } else { format!(", r = {r}") };
-    format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), wider_name(model))
+    format!("{}, α = {alpha}{dragged}{}", tip_name(&model.tip), terms_name(&model.law))
 }
 
 /// Model and motion of a run.
@@ -72,11 +72,7 @@ fn path_name(parameters: &Raster) -> String {
 
 /// Tip and extensions of the basic model, which are the same at every α and r.
 pub(crate) fn law_name(model: &ModelParameters) -> String {
-    format!("{}{}", tip_name(&model.tip), wider_name(model))
-}
-
-fn wider_name(model: &ModelParameters) -> String {
-    terms_name(&model.law)
+    tip_name(&model.tip) + &terms_name(&model.law)
 }
 
 /// The terms of the extended model, such as ", b = 3, T_h = 50".

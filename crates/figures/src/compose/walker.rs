@@ -1,10 +1,9 @@
 //! Figure of a walker: its path with the circular orbits of theory, its speed, and its distance from the origin.
 
-use super::axes::NATURAL;
+use super::axes::{NATURAL, evenly};
 use super::drawn::{Drawn, View};
 use super::quantity::Quantity;
 use crate::error::FigureError;
-
 use crate::number::short;
 use std::f64::consts::TAU;
 use stickslip::{CurveDocument, FigureDocument, PanelDocument, StyleName, WalkerDocument};
@@ -21,40 +20,36 @@ impl Drawn for WalkerDocument {
         if samples.t.is_empty() {
             return Err(FigureError::Nothing("there are no samples to draw".into()));
         }
-        let mut figure = FigureDocument::new("walker", &title(self), vec![]);
-        let mut path = PanelDocument::new("", ("x₀ (σ)", "y₀ (σ)"));
         let farthest = samples.x0.iter().zip(y0).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
-        path.curves = orbits(self, farthest);
-        path.curves.push(CurveDocument::new(StyleName::Line, "path", &samples.x0, y0));
+        let mut curves = orbits(self, farthest);
+        curves.push(CurveDocument::new(StyleName::Line, "path", &samples.x0, y0));
+        let mut path = PanelDocument::of_curves(("x₀ (σ)", "y₀ (σ)"), curves);
         path.natural = NATURAL;
         if self.orbits.is_some() {
             let range = Some([-1.1 * farthest, 1.1 * farthest]);
             (path.x_range, path.y_range) = (range, range);
         }
-        let against = |label: &str,
-                       name: &str,
-                       x: &[f64],
-                       y: &[f64],
-                       level: Option<(f64, &str)>| {
-            let value: Vec<f64> = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).collect();
-            let mut panel = PanelDocument::new("", ("t (Γ/k)", label));
-            panel.curves = vec![CurveDocument::new(StyleName::Line, name, &samples.t, &value)];
-            if let (Some((level, name)), [first, .., last]) = (level, samples.t.as_slice()) {
-                let ends = [*first, *last];
-                panel.curves.push(CurveDocument::new(StyleName::Dashed, name, &ends, &[level; 2]));
-            }
-            panel
-        };
+        let against =
+            |label: &str, name: &str, x: &[f64], y: &[f64], level: Option<(f64, &str)>| {
+                let value: Vec<f64> = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).collect();
+                let mut curves =
+                    vec![CurveDocument::new(StyleName::Line, name, &samples.t, &value)];
+                if let (Some((level, name)), [first, .., last]) = (level, samples.t.as_slice()) {
+                    let ends = [*first, *last];
+                    curves.push(CurveDocument::new(StyleName::Dashed, name, &ends, &[level; 2]));
+                }
+                PanelDocument::of_curves(("t (Γ/k)", label), curves)
+            };
         let free = Some((self.free_speed, "free walker"));
         let speed = against("|ẋ₀| (kσ/Γ)", "speed", &samples.velocity, velocity_y, free);
         // Beside two thirds for the speed, the path has about equal scales.
-        figure.columns = 3;
-        figure.panels = vec![path, PanelDocument { span: 2, ..speed }];
+        let mut panels = vec![path, PanelDocument { span: 2, ..speed }];
         if self.orbits.is_some() {
             let distance = against("|x₀| (σ)", "distance from the origin", &samples.x0, y0, None);
-            figure.panels.push(PanelDocument { span: 3, ..distance });
+            panels.push(PanelDocument { span: 3, ..distance });
         }
-        Ok(figure)
+        let figure = FigureDocument::new("walker", &title(self), vec![], panels);
+        Ok(FigureDocument { columns: 3, ..figure })
     }
 }
 
@@ -63,8 +58,7 @@ fn orbits(walker: &WalkerDocument, farthest: f64) -> Vec<CurveDocument> {
     let all = walker.orbits.iter().flatten().filter(|orbit| orbit.radius <= 1.2 * farthest);
     let mut names = ["circular orbits, stable", "circular orbits, unstable"];
     let circle = |radius: f64| -> (Vec<f64>, Vec<f64>) {
-        let angles = (0..=POINTS).map(|i| TAU * f64::from(i) / f64::from(POINTS));
-        angles.map(|angle| (radius * angle.cos(), radius * angle.sin())).unzip()
+        evenly([0.0, TAU], POINTS).map(|angle| (radius * angle.cos(), radius * angle.sin())).unzip()
     };
     all.map(|orbit| {
         let is_unstable = orbit.stable == Some(false);

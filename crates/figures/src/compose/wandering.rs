@@ -42,7 +42,6 @@ impl Wandering {
         let lag = has_spring.then(|| track(Trajectory::lag, LAG));
         let tracks: Vec<Track> = lag.into_iter().chain([track(Trajectory::y0, ACROSS)]).collect();
         let model = run.parameters.model_parameters();
-        let mut still = FigureDocument::new("wandering", &run_title(run), vec![model]);
         let mut map = plane.seen(times[1], None)?;
         let colours = map.map.as_mut().and_then(|map| {
             let heights = extremes(map.z.iter().flatten().copied());
@@ -50,8 +49,9 @@ impl Wandering {
             map.z_range
         });
         map.curves.clear();
-        still.panels = vec![map];
-        still.panels.extend(tracks.iter().map(|track| whole(&track.curve, track.labels, times)));
+        let tracked = tracks.iter().map(|track| whole(&track.curve, track.labels, times));
+        let panels = [map].into_iter().chain(tracked).collect();
+        let still = FigureDocument::new("wandering", &run_title(run), vec![model], panels);
         Ok(Self { plane, still, colours, tracks })
     }
 }
@@ -68,10 +68,8 @@ impl Scene for Wandering {
     fn moment(&mut self, t: f64) -> Result<Moment, FigureError> {
         let mut panels = vec![self.plane.seen(t, self.colours)?];
         panels.extend(self.tracks.iter().map(|Track { of, labels, curve }| {
-            let mut panel = PanelDocument::new("", *labels);
-            panel.natural = NATURAL;
-            panel.curves = past(curve, t, of(self.plane.trajectory(), t)).into();
-            panel
+            let curves = past(curve, t, of(self.plane.trajectory(), t)).into();
+            PanelDocument { natural: NATURAL, ..PanelDocument::of_curves(*labels, curves) }
         }));
         let (unit, note) = ("Γ/k".into(), String::new());
         let (tip, support) = (self.plane.tip(t).into(), self.plane.support(t).map(Into::into));

@@ -37,8 +37,13 @@ impl FigureDocument {
     /// "stickslip/figure"
     pub const FORMAT: &'static str = "stickslip/figure";
 
-    /// A figure without panels.
-    pub fn new(name: &str, title: &str, models: Vec<ModelParameters>) -> Self {
+    /// A figure of these panels, below each other.
+    pub fn new(
+        name: &str,
+        title: &str,
+        models: Vec<ModelParameters>,
+        panels: Vec<PanelDocument>,
+    ) -> Self {
         Self {
             format: Self::FORMAT.into(),
             format_version: FORMAT_VERSION,
@@ -47,7 +52,7 @@ impl FigureDocument {
             title: title.into(),
             parameters: FigureParameters { models },
             remarks: vec![],
-            panels: vec![],
+            panels,
             columns: 1,
         }
     }
@@ -130,6 +135,11 @@ impl PanelDocument {
             span: 1,
             ..Self::default()
         }
+    }
+
+    /// A panel of curves without a heading.
+    pub fn of_curves(labels: (&str, &str), curves: Vec<CurveDocument>) -> Self {
+        Self { curves, ..Self::new("", labels) }
     }
 }
 
@@ -236,15 +246,31 @@ pub struct CurveDocument {
 impl CurveDocument {
     /// A curve in the colour of its style; an empty name keeps it out of the legend.
     pub fn new(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> Self {
+        Self::with_gaps(style, name, x, finite(y))
+    }
+
+    /// The same, with gaps at missing ordinates.
+    pub fn with_gaps(style: StyleName, name: &str, x: &[f64], y: Vec<Option<f64>>) -> Self {
         Self {
             name: (!name.is_empty()).then(|| name.into()),
             style,
             x: x.to_vec(),
-            y: y.iter().map(|y| y.is_finite().then_some(*y)).collect(),
+            y,
             low: None,
             colour: None,
             smooth: false,
         }
+    }
+
+    /// The area between two curves.
+    pub fn band(name: &str, x: &[f64], low: &[f64], high: &[f64]) -> Self {
+        Self { low: Some(finite(low)), ..Self::new(StyleName::Band, name, x, high) }
+    }
+
+    /// The curve in this colour.
+    #[must_use]
+    pub fn coloured(self, colour: ColourName) -> Self {
+        Self { colour: Some(colour), ..self }
     }
 }
 
@@ -325,6 +351,11 @@ pub enum ArrowName {
     Down,
     /// Up, at the upper edge.
     Up,
+}
+
+/// The values, with gaps where they are not finite.
+fn finite(values: &[f64]) -> Vec<Option<f64>> {
+    values.iter().map(|value| value.is_finite().then_some(*value)).collect()
 }
 
 fn one() -> usize {

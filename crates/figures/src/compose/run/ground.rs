@@ -84,15 +84,13 @@ impl Ground<'_> {
             let last = x.len() - 1;
             (x[0], x[last]) = (behind_x[0], behind_x[behind_x.len() - 1]);
             let high: Vec<f64> = columns.iter().map(|c| c.2).collect();
-            let mut band = CurveDocument::new(StyleName::Band, &name, &x, &high);
-            band.low = Some(columns.iter().map(|c| Some(c.1)).collect());
-            panel.curves.push(band);
+            let low: Vec<f64> = columns.iter().map(|c| c.1).collect();
+            panel.curves.push(CurveDocument::band(&name, &x, &low, &high));
         }
         // From the last ripple on, so that the two are seen to be one.
         let joint = x.partition_point(|x| *x < self.tip - GROOVE - wavelength);
-        let mut rest = CurveDocument::new(StyleName::Line, "", &x[joint..], &u[joint..]);
-        rest.colour = Some(ColourName::Blue);
-        panel.curves.push(rest);
+        let rest = CurveDocument::new(StyleName::Line, "", &x[joint..], &u[joint..]);
+        panel.curves.push(rest.coloured(ColourName::Blue));
         panel.x_range = Some([range.0, range.1]);
         self.fit(&mut panel, &x, &u, ripples);
         Ok(panel)
@@ -104,9 +102,7 @@ impl Ground<'_> {
     }
 
     fn panel(&self) -> PanelDocument {
-        let mut panel = PanelDocument::new("", SURFACE);
-        panel.natural = NATURAL;
-        panel
+        PanelDocument { natural: NATURAL, ..PanelDocument::new("", SURFACE) }
     }
 
     /// Fits the ordinates to the ripples behind the tip, if its own pit and the untouched surface would leave too
@@ -120,30 +116,26 @@ impl Ground<'_> {
         let (mut from, mut to) = (low, high);
         if count >= FEW && span < LEAST_PART * (high - low) && span > 1e-6 * natural {
             (from, to) = (ripples.0 - 0.35 * span, ripples.1 + 0.35 * span);
-            let beyond = |value: f64, y: f64, arrow| {
-                let text = format!("{} at the tip", height(value));
-                NoteDocument { arrow: Some(arrow), ..NoteDocument::new(&text, (self.tip, y)) }
+            let beyond = |text: String, y: f64, arrow| NoteDocument {
+                arrow: Some(arrow),
+                ..NoteDocument::new(&text, (self.tip, y))
             };
+            let air = 0.12 * (to - from);
             if low < from {
-                panel.notes.push(beyond(low, from + 0.12 * (to - from), ArrowName::Down));
+                let text = format!("{} at the tip", height(low));
+                panel.notes.push(beyond(text, from + air, ArrowName::Down));
             }
             if high > to {
                 let text = format!("{} ahead", height(high));
-                let y = to - 0.12 * (to - from);
-                let note = NoteDocument {
-                    arrow: Some(ArrowName::Up),
-                    ..NoteDocument::new(&text, (self.tip, y))
-                };
-                panel.notes.push(note);
+                panel.notes.push(beyond(text, to - air, ArrowName::Up));
             }
             panel.y_range = Some([from, to]);
         } else {
             let pad = 0.06 * (to - from).max(1e-6 * natural);
             (from, to) = (from - pad, to + pad);
         }
-        let mut mark = CurveDocument::new(StyleName::Dashed, "tip", &[self.tip; 2], &[from, to]);
-        mark.colour = Some(ColourName::Grey);
-        panel.curves.insert(0, mark);
+        let mark = CurveDocument::new(StyleName::Dashed, "tip", &[self.tip; 2], &[from, to]);
+        panel.curves.insert(0, mark.coloured(ColourName::Grey));
     }
 }
 

@@ -1,11 +1,9 @@
 //! The phase diagram: regimes over two parameters.
 
 use super::varied::{Phase, Varied};
-use crate::cells::ascending;
+use crate::cells::sorted;
 use crate::compose::axes::{ALPHA, R};
-use stickslip::{
-    CellsDocument, ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument,
-};
+use stickslip::{ColourName, CurveDocument, PanelDocument, StyleName, SweepDocument};
 use stickslip_stability::{critical, trapping_alpha};
 use stickslip_tip::{TipFunction, Wider};
 
@@ -17,18 +15,11 @@ pub(super) fn panel(document: &SweepDocument, slow: Varied, fast: Varied) -> Pan
         let kind = Phase::of(&point).and_then(|p| Phase::ALL.iter().position(|all| *all == p));
         kinds[fast.place(&point)][slow.place(&point)] = kind;
     }
-    let (x, columns) = ascending(slow.values);
-    let (y, rows) = ascending(fast.values);
-    let row = |row: &usize| columns.iter().map(|column| kinds[*row][*column]).collect();
-    panel.x_range = ends(&x);
-    panel.y_range = ends(&y);
-    panel.cells = Some(CellsDocument {
-        kinds: rows.iter().map(row).collect(),
-        x,
-        y,
-        names: Phase::ALL.iter().map(|phase| phase.name().into()).collect(),
-        colours: Phase::ALL.iter().map(|phase| phase.colour()).collect(),
-    });
+    let names = Phase::ALL.iter().map(|phase| phase.name().into()).collect();
+    let colours = Phase::ALL.iter().map(|phase| phase.colour()).collect();
+    let cells = sorted((slow.values, fast.values), &kinds, names, colours);
+    (panel.x_range, panel.y_range) = (ends(&cells.x), ends(&cells.y));
+    panel.cells = Some(cells);
     panel.curves = lines(document, slow, fast);
     panel
 }
@@ -62,10 +53,8 @@ fn lines(document: &SweepDocument, slow: Varied, fast: Varied) -> Vec<CurveDocum
     let line = |style, name: &str, y: fn(&(f64, f64, f64)) -> f64, colour| {
         let shown: Vec<f64> =
             thresholds.iter().map(|t| if is_above { y(t) - t.1 } else { y(t) }).collect();
-        let mut curve = CurveDocument::new(style, name, &x, &shown);
-        curve.colour = Some(colour);
-        curve.smooth = true;
-        curve
+        let curve = CurveDocument::new(style, name, &x, &shown).coloured(colour);
+        CurveDocument { smooth: true, ..curve }
     };
     vec![
         line(StyleName::Line, "α_c", |t| t.1, ColourName::Black),

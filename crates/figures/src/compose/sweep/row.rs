@@ -47,9 +47,7 @@ pub(super) fn panels(document: &SweepDocument, axis: Varied) -> Vec<PanelDocumen
 /// Adds the mean of an ensemble and its spread, and fits the ordinates to them.
 fn draw(panel: &mut PanelDocument, found: &StatisticsDocument, (first, last): (f64, f64)) {
     let line = |style, name: &str, at: f64| {
-        let mut curve = CurveDocument::new(style, name, &[first, last], &[at, at]);
-        curve.colour = Some(ColourName::Black);
-        curve
+        CurveDocument::new(style, name, &[first, last], &[at, at]).coloured(ColourName::Black)
     };
     panel.curves.push(line(StyleName::Line, "mean", found.mean));
     let spread = found.deviation.unwrap_or_default();
@@ -91,9 +89,7 @@ fn panel(document: &SweepDocument, axis: Varied, label: &str, value: Measure) ->
             (StyleName::SmallTriangles, at_foot.as_str(), without, foot),
         ];
         for (style, name, x, y) in kinds.into_iter().filter(|(_, _, x, _)| !x.is_empty()) {
-            let mut curve = CurveDocument::new(style, name, &x, &y);
-            curve.colour = Some(phase.mark());
-            panel.curves.push(curve);
+            panel.curves.push(CurveDocument::new(style, name, &x, &y).coloured(phase.mark()));
         }
     }
     panel

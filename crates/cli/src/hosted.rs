@@ -5,8 +5,8 @@
 //! let made = hosted::call(["run", "--alpha=1.2", "--r=1", "--until=60"], &host)?;
 //! ```
 
-pub use crate::made::{Document, Made};
-pub use crate::session::{Host, Pace, Supply};
+pub use crate::session::{Host, Made, Pace, Supply};
+pub use stickslip_saved::Document;
 
 use crate::arguments::{Cli, Command};
 use crate::commands::carried_out;
@@ -14,7 +14,6 @@ use crate::commands::quantities::{Translated, translated};
 use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
-use crate::made;
 use crate::message::harmless;
 use crate::session::Session;
 use clap::{ArgAction, CommandFactory, FromArgMatches};
@@ -23,9 +22,8 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use stickslip::{Tabular, UnitsDocument, Unusable, VerifyDocument, identified};
-use stickslip_figures::Drawn;
-use stickslip_saved::{Saved, Taker, drawn_as};
+use stickslip::{UnitsDocument, Unusable, VerifyDocument, identified};
+use stickslip_saved::{Saved, drawn};
 use stickslip_tip::stop;
 
 /// The reason why there is no result.
@@ -199,35 +197,29 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
 pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
     let (kind, mut source) = identified(source, "stickslip/COMMAND")?;
     match kind.format.as_deref() {
-        Some(UnitsDocument::FORMAT) => UnitsDocument::read(&mut source).map(made::plain),
-        Some(VerifyDocument::FORMAT) => VerifyDocument::read(&mut source).map(made::plain),
-        _ => drawn_as(source, Keep),
-    }
-}
-
-/// Visitor that keeps a document unchanged.
-struct Keep;
-
-impl Taker for Keep {
-    type Taken = Box<dyn Document>;
-
-    fn take<D: Drawn + Tabular + Saved>(self, document: D) -> Box<dyn Document> {
-        made::pictured(document)
+        Some(UnitsDocument::FORMAT) => Ok(Box::new(UnitsDocument::read(&mut source)?)),
+        Some(VerifyDocument::FORMAT) => Ok(Box::new(VerifyDocument::read(&mut source)?)),
+        _ => drawn(source),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::any::Any;
     use stickslip::{RunDocument, SweepDocument};
 
     fn host(supplies: impl IntoIterator<Item = (&'static str, Supply)>) -> Arc<Host> {
         Arc::new(Host::new(supplies.into_iter().map(|(name, supply)| (name.into(), supply))))
     }
 
+    fn run_of(document: &dyn Document) -> &RunDocument {
+        (document as &dyn Any).downcast_ref().unwrap()
+    }
+
     fn run(words: &[&str], host: &Arc<Host>) -> RunDocument {
         let made = call(words.iter().copied(), host).unwrap().unwrap();
-        made.document.any().downcast_ref::<RunDocument>().unwrap().clone()
+        run_of(&*made.document).clone()
     }
 
     #[test]
@@ -239,9 +231,8 @@ mod tests {
         let host = host([]);
         let in_hand = run(&words, &host);
         let written = load(&file).unwrap();
-        let written = written.any().downcast_ref::<RunDocument>().unwrap();
         let text = |run: &RunDocument| serde_json::to_string(run).unwrap();
-        assert_eq!(text(&in_hand), text(written));
+        assert_eq!(text(&in_hand), text(run_of(&*written)));
         assert!(in_hand.history.is_some());
     }
 
@@ -257,13 +248,11 @@ mod tests {
             words("--alpha=0.8", &["--noise=1e-3", "--noise-spacing=0.5"]),
             words("--alpha=0.9", &["--history=none"]),
         ];
-        let run_of =
-            |made: &Made| made.document.any().downcast_ref::<RunDocument>().unwrap().clone();
         let together: Vec<_> =
             runs(&commands, &host([])).unwrap().into_iter().map(Result::unwrap).collect();
         for ((words, own), made) in commands.iter().zip(&together) {
             let alone = call(words.iter().map(String::as_str), own).unwrap().unwrap();
-            let (beside, single) = (run_of(made), run_of(&alone));
+            let (beside, single) = (run_of(&*made.document), run_of(&*alone.document));
             assert_eq!(beside.regime, single.regime);
             assert_eq!(beside.samples.t, single.samples.t);
             for (a, b) in beside.samples.x0.iter().zip(&single.samples.x0) {
@@ -370,7 +359,7 @@ mod tests {
         assert!(matches!(call(words, &host), Err(Refusal::Stopped(_))));
         host.stop().store(false, Ordering::Relaxed);
         let made = call(["sweep", "--r=1", "--alpha=1:1.2:2"], &host).unwrap().unwrap();
-        let sweep = made.document.any().downcast_ref::<SweepDocument>().unwrap();
+        let sweep = (&*made.document as &dyn Any).downcast_ref::<SweepDocument>().unwrap();
         assert_eq!(sweep.points.len(), 2);
         assert!(made.headline.contains("2 points"), "{}", made.headline);
         assert_eq!(host.pace(), Some(Pace { part: Some(1.0), counted: "2 of 2 points".into() }));

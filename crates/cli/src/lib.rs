@@ -15,7 +15,6 @@ mod failure;
 mod files;
 pub mod hosted;
 mod interrupt;
-mod made;
 mod message;
 mod session;
 mod sign_of_life;

@@ -4,7 +4,6 @@
 //! A host, such as a Python interpreter, makes one for each call.
 
 use crate::failure::Failure;
-use crate::made::{Document, Made};
 use crate::message::{self, harmless, short};
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -12,6 +11,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use stickslip_saved::Document;
 
 /// The surroundings of a command. Copies share one host.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +30,16 @@ pub(crate) struct TypedQuantity {
     pub(crate) typed: String,
     /// The quantity and the number, with its unit.
     pub(crate) meant: String,
+}
+
+/// The result of a command.
+pub struct Made {
+    /// The document.
+    pub document: Box<dyn Document>,
+    /// The main result, in one line.
+    pub headline: String,
+    /// The summary as aligned lines.
+    pub text: String,
 }
 
 /// State shared by a host and its current command.
@@ -142,7 +152,7 @@ impl Session {
     /// The document of this kind that the host supplies under a name.
     pub(crate) fn document<D: Any + Clone>(&self, path: &Path) -> Option<D> {
         match self.host()?.supplies.get(path)? {
-            Supply::Document(document) => document.any().downcast_ref::<D>().cloned(),
+            Supply::Document(document) => (&**document as &dyn Any).downcast_ref::<D>().cloned(),
             Supply::Text(_) | Supply::Bytes(_) | Supply::Columns(_) => None,
         }
     }

@@ -9,6 +9,7 @@ use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use std::any::Any;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use stickslip::RunDocument;
@@ -73,7 +74,7 @@ impl Document {
     ) -> PyResult<T> {
         py.detach(|| {
             let document = self.locked();
-            let run = document.any().downcast_ref::<RunDocument>();
+            let run = (&**document as &dyn Any).downcast_ref::<RunDocument>();
             let run = run.ok_or_else(|| unusable("only a run has a motion"))?;
             if self.trajectory.get().is_none() {
                 self.trajectory.set(run.trajectory().map_err(unusable)?).ok();
@@ -115,7 +116,7 @@ impl Document {
             numbers => Ok(numbers.array().map_or_else(Vec::new, |array| array.values.into_owned())),
         };
         let columns = self.whole(py, |document| {
-            let columns = document.table().columns().into_iter();
+            let columns = document.drawn().columns().into_iter();
             columns.map(|(name, column)| (name, own(column))).collect::<Vec<_>>()
         })?;
         let dict = PyDict::new(py);
@@ -150,8 +151,7 @@ impl Document {
         let size = Size::new(width, dpi).map_err(unusable)?;
         let view = View { x_range, y_range, ..View::default() };
         let bytes = self.whole(py, |document| {
-            let drawn = document.drawn().ok_or_else(|| unusable("there is no picture of it"))?;
-            let figure = figures::of(drawn, &view).map_err(unusable)?;
+            let figure = figures::of(document.drawn(), &view).map_err(unusable)?;
             figures::draw(&figure, format, &size).map_err(unusable)
         })??;
         Ok(PyBytes::new(py, &bytes))
@@ -175,8 +175,7 @@ impl Document {
         let film = Film::new(seconds, fps, width).map_err(unusable)?;
         let shot = Shot { times, scales: None };
         let bytes = self.whole(py, |document| {
-            let drawn = document.drawn().ok_or_else(|| unusable("there is no animation of it"))?;
-            let mut scene = figures::scene_of(drawn, &shot).map_err(unusable)?;
+            let mut scene = figures::scene_of(document.drawn(), &shot).map_err(unusable)?;
             figures::animate(&mut *scene, format, &film).map_err(unusable)
         })??;
         Ok(PyBytes::new(py, &bytes))

@@ -16,7 +16,7 @@ pub(crate) struct Taken(Vec<(&'static str, Py<PyArray1<f64>>)>);
 impl Taken {
     /// Moves the samples out of a document, if it is a run.
     pub(crate) fn from(py: Python<'_>, document: &mut dyn Document) -> Option<Self> {
-        let samples = samples(document.any_mut())?;
+        let samples = samples(document)?;
         let mut taken = vec![];
         for (name, column) in columns(samples) {
             if let Some(numbers) = column {
@@ -40,7 +40,7 @@ impl Taken {
 
 /// Moves copies into the document.
 pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Vec<f64>)>) {
-    let Some(samples) = samples(document.any_mut()) else { return };
+    let Some(samples) = samples(document) else { return };
     for (name, numbers) in copies {
         match name {
             "t" => samples.t = numbers,
@@ -58,7 +58,7 @@ pub(crate) fn restore(document: &mut dyn Document, copies: Vec<(&'static str, Ve
 
 /// Removes the copies from the document.
 pub(crate) fn forget(document: &mut dyn Document) {
-    if let Some(samples) = samples(document.any_mut()) {
+    if let Some(samples) = samples(document) {
         drop(columns(samples));
     }
 }

@@ -6,7 +6,7 @@
 
 mod drawn;
 
-pub use drawn::{Taker, drawn, drawn_as};
+pub use drawn::{Document, drawn};
 
 use std::io::{self, Read, Write};
 use stickslip::{

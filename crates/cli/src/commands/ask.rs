@@ -21,7 +21,6 @@ use stickslip::{
     self as documents, Ask, Context, Document, KnownScales, Physical, Question, Refused, Tip,
     parameter,
 };
-use stickslip_figures::Drawn;
 
 /// A context that reports progress to the terminal or to the host, which may cancel the work.
 pub(crate) fn context(session: &Session) -> Context {
@@ -184,7 +183,7 @@ pub(crate) fn answer<Q: Ask>(
     tip: &TipArguments,
 ) -> Result<(), Failure>
 where
-    Document<Q>: Product + Drawn,
+    Document<Q>: Product,
 {
     let open = || Job::open(session, Q::FORMAT, &place.outlet, place.plot.as_deref());
     let (document, job) = answered_into(session, question, place, tip, open)?;
@@ -218,7 +217,7 @@ pub(crate) fn answer_values<Q: Ask, K: Questions>(
     chosen_by: &str,
 ) -> Result<(), Failure>
 where
-    Document<Q>: Product + Drawn,
+    Document<Q>: Product,
 {
     refuse_unknown::<Q, K>(options, &values, chosen_by)?;
     let question: Q = parameter::question(values)?;

@@ -9,7 +9,6 @@ use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, format_of};
 use crate::files::table::{write_csv, write_npz};
-use crate::made::{pictured, plain};
 use crate::session::Session;
 use crate::sign_of_life;
 use std::io::{self, IsTerminal, Write};
@@ -19,7 +18,7 @@ use stickslip_figures::Drawn;
 use stickslip_saved::Saved;
 
 /// The result of a command: a document with columns, a figure and a summary.
-pub(crate) trait Product: Saved + Tabular {
+pub(crate) trait Product: Saved + Drawn {
     /// The summary for the user.
     fn summary(&self) -> Summary;
 }
@@ -95,23 +94,14 @@ impl Job {
     }
 
     /// Draws and writes the result, and prints the summary.
-    pub(crate) fn finish<P: Product + Drawn>(self, product: P) -> Result<(), Failure> {
+    pub(crate) fn finish(self, product: impl Product) -> Result<(), Failure> {
         // The document first: a picture that fails costs no result.
         let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
         let figure = self.write_with(&product, &product, &summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        session.give(|| summary.of(pictured(product)));
+        session.give(|| summary.of(product));
         drawn
-    }
-
-    /// Writes a result without a figure, and prints the summary.
-    pub(crate) fn write<P: Product>(self, product: P) -> Result<(), Failure> {
-        let session = self.session.clone();
-        let summary = product.summary().in_units(product.physical());
-        self.write_with(&product, &product, &summary)?;
-        session.give(|| summary.of(plain(product)));
-        Ok(())
     }
 
     /// Writes a result, as a document or as this table, and prints the summary; returns the figure still to be drawn.
@@ -136,17 +126,17 @@ impl Job {
     }
 
     /// Draws a result that was already written as these bytes, and prints the summary.
-    pub(crate) fn finish_bytes<P: Product + Drawn>(
+    pub(crate) fn finish_bytes(
         mut self,
         bytes: &[u8],
-        product: P,
+        product: impl Product,
     ) -> Result<(), Failure> {
         let figure = self.figure.take();
         let summary = product.summary().in_units(product.physical());
         self.output.write_bytes(bytes)?;
         after(&self.session, product.serialized(), &summary, &self.fields, self.has_summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        self.session.give(|| summary.of(pictured(product)));
+        self.session.give(|| summary.of(product));
         drawn
     }
 }

@@ -79,11 +79,11 @@ fn figure(
         .map_err(|error| Failure::input(named(), error))?;
     // With the velocity of the support times need the single r of the document.
     let r = match &arguments.in_units.velocity {
-        Some(_) => figures::of(&*document, view).map_err(refused)?.one_r(),
+        Some(_) => figures::of(document.drawn(), view).map_err(refused)?.one_r(),
         None => None,
     };
     let view = View { scales: scales(session, &arguments.in_units, None, r)?, ..*view };
-    figures::of(&*document, &view).map_err(refused)
+    figures::of(document.drawn(), &view).map_err(refused)
 }
 
 fn size(arguments: &PlotArguments) -> Result<Size, Failure> {

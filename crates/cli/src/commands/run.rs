@@ -76,9 +76,8 @@ fn integrated<R: Motion>(
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();
     let checkpoint = checkpoint.map(|path| file("--checkpoint", path)).transpose()?;
-    let numbers = R::Step::NUMBERS;
-    let (target, sink) =
-        open(session, arguments, order, checkpoint.as_ref().map(File::path), numbers)?;
+    let checkpoint_path = checkpoint.as_ref().map(File::path);
+    let (target, sink) = open::<R::Step>(session, arguments, order, checkpoint_path)?;
 
     let mut record = record(order, scenario, sink);
     write::head(&mut record, order, scenario)?;
@@ -108,12 +107,11 @@ fn file(option: &str, path: &Path) -> Result<File, Failure> {
 }
 
 /// Opens the output of the run.
-fn open(
+fn open<S: Recorded>(
     session: &Session,
     arguments: &RunArguments,
     order: &Order,
     checkpoint: Option<&Path>,
-    [of_step, of_sample]: [usize; 2],
 ) -> Result<(Target, Sink), Failure> {
     let (output, fields) = (arguments.output(), &arguments.fields);
     if order.format == RunFormat::Jsonl {
@@ -128,7 +126,7 @@ fn open(
     }
     let job = job(session, order, output, arguments.plot.as_deref(), fields)?;
     let target = Target::Document(Box::new(job));
-    let numbers = if keeps_history(order) { of_step } else { of_sample };
+    let numbers = if keeps_history(order) { S::NUMBERS } else { S::SAMPLE_NUMBERS };
     let journal = |path| record::journal(path, numbers);
     Ok((target, checkpoint.map_or(Ok(Sink::Memory), journal)?))
 }

@@ -19,7 +19,7 @@ pub(crate) fn units(session: &Session, arguments: &UnitsArguments) -> Result<(),
     }
     let question = question(session, arguments)?;
     let job = Job::open(session, UnitsDocument::FORMAT, outlet, None)?;
-    job.write(question.answered().map_err(|failure| as_typed(failure, arguments))?)
+    job.finish(question.answered().map_err(|failure| as_typed(failure, arguments))?)
 }
 
 /// The rejection of a quantity with its value as typed.

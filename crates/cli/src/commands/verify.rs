@@ -101,7 +101,7 @@ fn finish(
     let failure =
         failure_of(session, broken_in(&verification, run.parameters.tolerance), &differences);
     let job = job.silent_if(failure.is_some());
-    job.write(VerifyDocument::new(run.parameters, verification, differences, None))?;
+    job.finish(VerifyDocument::new(run.parameters, verification, differences, None))?;
     failure.map_or(Ok(()), Err)
 }
 

@@ -25,27 +25,24 @@ impl Rows {
         Ok(Self(journal))
     }
 
-    /// Resumes a journal, truncated to the mark, and returns its rows of N numbers.
-    pub(crate) fn resume<const N: usize>(
-        path: &Path,
-        mark: Mark,
-    ) -> io::Result<(Self, Vec<[f64; N]>)> {
+    /// Resumes a journal of rows of this length, truncated to the mark, and returns their numbers.
+    pub(crate) fn resume(path: &Path, mark: Mark, numbers: usize) -> io::Result<(Self, Vec<f64>)> {
         let journal = Journal::resume(path, MAGIC, mark)?;
         let damaged = || io::Error::new(io::ErrorKind::InvalidData, "it does not hold such rows");
         let mut bytes = vec![];
         let file = std::fs::File::open(path)?;
         file.take(mark.bytes).read_to_end(&mut bytes)?;
-        let rows = bytes.strip_prefix(&*head(N)).ok_or_else(damaged)?;
+        let rows = bytes.strip_prefix(&*head(numbers)).ok_or_else(damaged)?;
         let (words, rest) = rows.as_chunks::<8>();
-        let (rows, more) = words.as_chunks::<N>();
-        if !(rest.is_empty() && more.is_empty()) {
+        if !(rest.is_empty() && words.len().is_multiple_of(numbers)) {
             return Err(damaged());
         }
-        Ok((Self(journal), rows.iter().map(|row| row.map(f64::from_le_bytes)).collect()))
+        Ok((Self(journal), words.iter().map(|word| f64::from_le_bytes(*word)).collect()))
     }
 
-    pub(crate) fn write<const N: usize>(&mut self, row: [f64; N]) -> io::Result<()> {
-        self.0.write_all(row.map(f64::to_le_bytes).as_flattened())
+    pub(crate) fn write(&mut self, row: &[f64]) -> io::Result<()> {
+        let bytes: Vec<[u8; 8]> = row.iter().map(|number| number.to_le_bytes()).collect();
+        self.0.write_all(bytes.as_flattened())
     }
 
     /// Writes all rows to the disk.
@@ -79,14 +76,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("journal");
         let mut rows = Rows::create(&path, &path, 2).unwrap();
-        rows.write([1.0, -0.0]).unwrap();
+        rows.write(&[1.0, -0.0]).unwrap();
         let mark = rows.sync().unwrap();
-        rows.write([2.0, f64::INFINITY]).unwrap();
+        rows.write(&[2.0, f64::INFINITY]).unwrap();
         rows.sync().unwrap();
         drop(rows);
-        assert!(Rows::resume::<4>(&path, mark).is_err());
-        let (_, found) = Rows::resume::<2>(&path, mark).unwrap();
-        let bits = |row: &[f64; 2]| row.map(f64::to_bits);
-        assert_eq!(found.iter().map(bits).collect::<Vec<_>>(), [bits(&[1.0, -0.0])]);
+        assert!(Rows::resume(&path, mark, 4).is_err());
+        let (_, found) = Rows::resume(&path, mark, 2).unwrap();
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&found), bits(&[1.0, -0.0]));
     }
 }

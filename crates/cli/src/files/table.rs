@@ -5,14 +5,14 @@ use super::output::Output;
 use crate::failure::Failure;
 use crate::message::harmless;
 use std::io::{self, Write};
-use stickslip::{Column, Rows, Tabular, arrays_in_units, columns_in_units};
+use stickslip::{Column, Tabular, arrays_in_units, columns_in_units};
 
 /// Writes the columns as CSV, with their names and a line for each row.
 pub(crate) fn write_csv(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
     let columns = columns_in_units(table);
     let names: Vec<&str> = columns.iter().map(|(name, _)| &**name).collect();
     let rows = columns.iter().filter_map(|(_, column)| rows(column)).min().unwrap_or(0);
-    let columns: Vec<Cells> = columns.iter().map(|(_, column)| Cells::of(column)).collect();
+    let columns: Vec<Cells> = columns.iter().map(|(_, column)| cells(column)).collect();
     output.write_with(|out| {
         writeln!(out, "{}", names.join(","))?;
         let mut line = String::new();
@@ -32,7 +32,7 @@ fn write_row(
         if i > 0 {
             line.push(',');
         }
-        column.append(row, line);
+        column(row, line);
     }
     line.push('\n');
     out.write_all(line.as_bytes())
@@ -48,35 +48,20 @@ fn rows(column: &Column) -> Option<usize> {
     }
 }
 
-/// A column as text.
-enum Cells<'a> {
-    Numbers(&'a [f64]),
-    Optional(&'a Rows<'a, Option<f64>>),
-    Words(&'a Rows<'a, String>),
-    /// Repeated text, formatted once because shortest digits are expensive.
-    Repeated(Vec<String>, usize),
-}
+/// A function that appends the text of a row of a column to a line.
+type Cells<'a> = Box<dyn Fn(usize, &mut String) + 'a>;
 
-impl<'a> Cells<'a> {
-    fn of(column: &'a Column) -> Self {
-        match column {
-            Column::Numbers(values) => Self::Numbers(values),
-            Column::Optional(values) => Self::Optional(values),
-            Column::Words(words, _) => Self::Words(words),
-            Column::Repeated { values, each } => {
-                Self::Repeated(values.iter().map(f64::to_string).collect(), *each)
-            }
-        }
-    }
-
-    fn append(&self, row: usize, line: &mut String) {
-        match self {
-            Self::Numbers(values) => line.push_str(&values[row].to_string()),
-            Self::Optional(values) => {
-                line.push_str(&values.at(row).map(|value| value.to_string()).unwrap_or_default());
-            }
-            Self::Words(words) => line.push_str(&harmless(&words.at(row))),
-            Self::Repeated(texts, each) => line.push_str(&texts[row / each % texts.len()]),
+fn cells<'a>(column: &'a Column) -> Cells<'a> {
+    match column {
+        Column::Numbers(values) => Box::new(|row, line| line.push_str(&values[row].to_string())),
+        Column::Optional(values) => Box::new(|row, line| {
+            line.push_str(&values.at(row).map(|value| value.to_string()).unwrap_or_default());
+        }),
+        Column::Words(words, _) => Box::new(|row, line| line.push_str(&harmless(&words.at(row)))),
+        Column::Repeated { values, each } => {
+            // Formatted once, because shortest digits are expensive.
+            let texts: Vec<String> = values.iter().map(f64::to_string).collect();
+            Box::new(move |row, line| line.push_str(&texts[row / each % texts.len()]))
         }
     }
 }

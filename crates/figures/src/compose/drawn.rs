@@ -3,7 +3,7 @@
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
 use crate::scene::{Scene, Shot};
-use stickslip::{FigureDocument, KnownScales, Tabular};
+use stickslip::{FigureDocument, KnownScales, Tabular, UnitsDocument, VerifyDocument};
 
 /// Options of a figure, in addition to its document.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,4 +35,20 @@ pub trait Drawn: Tabular {
         let why = "animations show the motion of a saved run or raster: name this picture .svg, .png or .pdf";
         Err(FigureError::Still(why.into()))
     }
+}
+
+impl Drawn for UnitsDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        Err(no_picture())
+    }
+}
+
+impl Drawn for VerifyDocument {
+    fn figure(&self, _: &View) -> Result<FigureDocument, FigureError> {
+        Err(no_picture())
+    }
+}
+
+fn no_picture() -> FigureError {
+    FigureError::Nothing("there is no picture of it".into())
 }

@@ -27,7 +27,8 @@ pub(super) fn write(
     let named = || format!("{option} {}", arguments.document.display());
     let document = stickslip_saved::drawn(open(session, option, &arguments.document)?)
         .map_err(|error| Failure::input(named(), error))?;
-    let scales = scales(session, &arguments.in_units, None, one_r(arguments, &*document))?;
+    let document = document.drawn();
+    let scales = scales(session, &arguments.in_units, None, one_r(arguments, document))?;
     let known = scales.or_else(|| document.physical().map(|physical| physical.scales));
     let unit = if known.is_some_and(|known| known.time.is_some()) { "s" } else { "Γ/k" };
     if let Some((_, Some(given))) =
@@ -42,7 +43,7 @@ pub(super) fn write(
         }
         error => drawing_failure(&error),
     };
-    let mut scene = figures::scene_of(&*document, &shot).map_err(failed)?;
+    let mut scene = figures::scene_of(document, &shot).map_err(failed)?;
     output.write_bytes(&figures::animate(&mut *scene, format, &film).map_err(failed)?)
 }
 

@@ -5,8 +5,7 @@ use crate::arguments::RunArguments;
 use crate::commands::ask::context;
 use crate::commands::summary;
 use crate::failure::Failure;
-use crate::made::{Made, pictured};
-use crate::session::Session;
+use crate::session::{Made, Session};
 use std::path::Path;
 use stickslip::{Order, Physical, RunDocument, RunEnd, ask_runs};
 
@@ -39,5 +38,5 @@ fn summary(order: &Order, run: RunDocument) -> Made {
     let summary = summary::of_run(&document, &RunEnd::from(&document));
     let summary = summary.in_units(document.physical.as_ref());
     document.history.take_if(|_| !order.history);
-    summary.of(pictured(document))
+    summary.of(document)
 }

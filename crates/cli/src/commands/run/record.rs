@@ -1,6 +1,6 @@
 //! Record of a run in progress: its samples, in memory or written immediately, and its history.
 
-use super::motion::Recorded;
+use super::motion::{Recorded, numbers_of, sample_of};
 use crate::failure::Failure;
 use crate::files::place::taken;
 use crate::files::rows::{Rows, journal_of};
@@ -66,7 +66,7 @@ impl<S: Recorded> Record<S> {
             }
             steps.push(*step);
             if let Sink::Journal(path, journal) = &mut self.sink {
-                step.write(journal).map_err(|error| failed(path, error))?;
+                journal.write(step.numbers().as_ref()).map_err(|error| failed(path, error))?;
             }
         }
         // A time at which one step ends is the next one's.
@@ -100,7 +100,8 @@ impl<S: Recorded> Record<S> {
             match &mut self.sink {
                 Sink::Lines(stream) => stream.line(&RunLine::Sample(sample))?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
-                    S::write_sample(&sample, journal).map_err(|error| failed(path, error))?;
+                    let row = &numbers_of(&sample)[..S::SAMPLE_NUMBERS];
+                    journal.write(row).map_err(|error| failed(path, error))?;
                     self.samples.push(&sample);
                 }
                 _ => self.samples.push(&sample),
@@ -136,7 +137,8 @@ impl<S: Recorded> Record<S> {
             })
         };
         let rows = if self.steps.is_some() {
-            let (rows, steps) = S::read(path, mark).map_err(unusable)?;
+            let (rows, numbers) = Rows::resume(path, mark, S::NUMBERS).map_err(unusable)?;
+            let steps: Vec<S> = numbers.chunks_exact(S::NUMBERS).map(S::from_numbers).collect();
             let along: Vec<Step> = steps.iter().map(|step| *step.as_ref()).collect();
             if !follow_each_other(&along, t) {
                 return Err(unusable(io::Error::other(OTHER_ROWS)));
@@ -146,8 +148,8 @@ impl<S: Recorded> Record<S> {
             }
             rows
         } else {
-            let (rows, samples) = S::read_samples(path, mark).map_err(unusable)?;
-            self.samples.extend(samples);
+            let (rows, numbers) = Rows::resume(path, mark, S::SAMPLE_NUMBERS).map_err(unusable)?;
+            self.samples.extend(numbers.chunks_exact(S::SAMPLE_NUMBERS).map(sample_of));
             self.taken = self.samples.t.len() as u64;
             let due = |(i, t): (u64, &f64)| self.times.at(i) == Some(*t);
             if !(0..).zip(&self.samples.t).all(due) {

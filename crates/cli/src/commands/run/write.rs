@@ -7,7 +7,6 @@ use crate::commands::fields::Fields;
 use crate::commands::job::{self, Job};
 use crate::commands::{summary, verify};
 use crate::failure::Failure;
-use crate::made::pictured;
 use crate::session::Session;
 use std::path::Path;
 use stickslip::{
@@ -106,7 +105,7 @@ pub(super) fn all<R: Motion>(
         document.history.take_if(|_| !order.history);
     }
     let tolerance = document.parameters.tolerance;
-    session.give(|| summary.of(pictured(document)));
+    session.give(|| summary.of(document));
     let failure = match found {
         Err(failure) => Some(failure),
         Ok(found) => found.and_then(|found| verify::broken(&found, tolerance)),

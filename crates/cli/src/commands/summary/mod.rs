@@ -10,10 +10,11 @@ mod walker;
 
 pub(in crate::commands) use run::{of_lines, of_run};
 
-use crate::made::{Document, Made};
 use crate::message::harmless;
+use crate::session::Made;
 use std::fmt::Write;
 use stickslip::{Dimension, InUnits, KnownScales, Law, digits};
+use stickslip_saved::Document;
 
 /// The summary of a result.
 #[derive(Debug, Default)]
@@ -82,8 +83,8 @@ impl Summary {
     }
 
     /// The result of an in-process command: the document and its summary, without commands to try.
-    pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
-        let summary = Self { next: vec![], ..self };
+    pub(crate) fn of(self, document: impl Document) -> Made {
+        let (summary, document) = (Self { next: vec![], ..self }, Box::new(document));
         Made { document, text: summary.text(), headline: summary.headline }
     }
 

@@ -12,10 +12,10 @@ use stickslip::{
     RasterSweepPoint, ShardDocument, Software, SweepDocument, SweepFound, SweepParameters,
     SweepPoint,
 };
-use stickslip_figures::{Drawn, FigureError, judge_sweep};
+use stickslip_figures::{FigureError, judge_sweep};
 
 /// A document of points that may be computed in parts.
-pub(crate) trait Divided: Product + Drawn + Physical {
+pub(crate) trait Divided: Product + Physical {
     /// A point of the document.
     type Point: Part;
     /// Parameters of all points.

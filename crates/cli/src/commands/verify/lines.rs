@@ -61,7 +61,7 @@ pub(super) fn verify(
         }
     };
     let job = job.silent_if(failure.is_some());
-    job.write(VerifyDocument::new(head.parameters, verification, differences, Some(lines)))?;
+    job.finish(VerifyDocument::new(head.parameters, verification, differences, Some(lines)))?;
     failure.map_or(Ok(()), Err)
 }
 

@@ -62,6 +62,16 @@ impl Failure {
         Self::Input { option: option.into(), message: message.to_string() }
     }
 
+    /// An error at run time.
+    pub(crate) fn run(error: impl Display) -> Self {
+        Self::Run(error.to_string())
+    }
+
+    /// An error of writing a file.
+    pub(crate) fn writing(path: &Path, error: io::Error) -> Self {
+        Self::Write { target: path.display().to_string(), error }
+    }
+
     /// A rejection of the file that an option names.
     pub(crate) fn file(option: &str, path: &Path, message: impl Display) -> Self {
         Self::input(format!("{option} {}", path.display()), message)

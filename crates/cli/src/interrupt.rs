@@ -86,27 +86,27 @@ fn after_a_while(signal: u8) -> Option<Failure> {
 /// A listener for signals, or for cancellation by a host, while there are partial results.
 pub(crate) struct Interrupt {
     session: Session,
-    /// Whether a signal must leave time to save partial results.
-    keeps: bool,
+}
+
+/// The signal received, if any; of a host, which has cancelled the work, that of Ctrl-C.
+pub(crate) fn signal(session: &Session) -> Option<u8> {
+    match session.host() {
+        Some(host) => host.stop().load(Ordering::Relaxed).then_some(SIGINT as u8),
+        None => Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0),
+    }
 }
 
 impl Interrupt {
     /// Starts listening.
     pub(crate) fn listen(session: &Session) -> Result<Self, Failure> {
-        let interrupt = Self { session: session.clone(), keeps: !session.has_host() };
-        if !interrupt.keeps {
+        let interrupt = Self { session: session.clone() };
+        if session.has_host() {
             return Ok(interrupt);
         }
         state().keepers.fetch_add(1, Ordering::SeqCst);
         let listening = end_at_once();
         listening.map_err(|error| Failure::Run(format!("cannot listen for signals: {error}")))?;
         Ok(interrupt)
-    }
-
-    /// A listener for work without partial results: a signal ends the program immediately, and a host can cancel the
-    /// work.
-    pub(crate) fn of_host(session: &Session) -> Self {
-        Self { session: session.clone(), keeps: false }
     }
 
     /// Registers the error for a command whose partial results are always in a file: the program ends soon after a
@@ -119,10 +119,7 @@ impl Interrupt {
 
     /// The signal received, if any.
     pub(crate) fn signal(&self) -> Option<u8> {
-        match self.session.host() {
-            Some(host) => host.stop().load(Ordering::Relaxed).then_some(SIGINT as u8),
-            None => Some(state().signal.load(Ordering::Relaxed)).filter(|signal| *signal > 0),
-        }
+        signal(&self.session)
     }
 
     /// Flag set by the first signal; the work checks it.
@@ -136,7 +133,7 @@ impl Interrupt {
 
 impl Drop for Interrupt {
     fn drop(&mut self) {
-        if !self.keeps {
+        if self.session.has_host() {
             return;
         }
         *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;

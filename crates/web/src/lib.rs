@@ -22,17 +22,8 @@ use serde::Serialize;
 use stickslip::{RunFound, Samples};
 use wasm_bindgen::prelude::*;
 
-fn js_error(refusal: &Refusal) -> JsError {
-    JsError::new(&refusal.to_string())
-}
-
-fn json<T: Serialize>(result: Result<T, Refusal>) -> Result<String, JsError> {
-    let text = result.and_then(|result| serde_json::to_string(&result).map_err(Refusal::Json));
-    text.map_err(|refusal| js_error(&refusal))
-}
-
-fn read(parameters: &str) -> Result<Parameters, JsError> {
-    Parameters::read(parameters).map_err(|refusal| js_error(&refusal))
+fn json(result: &impl Serialize) -> Result<String, JsError> {
+    Ok(serde_json::to_string(result)?)
 }
 
 /// The result of a run without its samples and history.
@@ -55,8 +46,7 @@ impl Tip {
     /// A parameter out of range, or a run that fails.
     #[wasm_bindgen(constructor)]
     pub fn new(parameters: &str) -> Result<Self, JsError> {
-        let motion = Motion::of(&read(parameters)?, js_sys::Date::now);
-        motion.map(Self).map_err(|refusal| js_error(&refusal))
+        Ok(Self(Motion::of(&Parameters::read(parameters)?, js_sys::Date::now)?))
     }
 
     /// Columns t, l, x0', lag R - x0, x0 and y0 at the default times of the program, one column after the other.
@@ -70,7 +60,7 @@ impl Tip {
     /// # Errors
     /// An x that is not finite.
     pub fn heights(&self, t: f64, from: f64, to: f64, count: usize) -> Result<Vec<f64>, JsError> {
-        self.0.heights(t, (from, to), count).map_err(|refusal| js_error(&refusal))
+        Ok(self.0.heights(t, (from, to), count)?)
     }
 
     /// The position x0 of the tip, the position of the support, and y0, at time t.
@@ -91,7 +81,7 @@ impl Tip {
         let document = self.0.document();
         let mut found = document.answer.clone();
         (found.history, found.samples) = (None, Samples::default());
-        json(Ok(Summary { found, remarks: document.remarks.clone() }))
+        json(&Summary { found, remarks: document.remarks.clone() })
     }
 
     /// The document of the run, as the program writes it.
@@ -99,7 +89,7 @@ impl Tip {
     /// # Errors
     /// A value that is not representable in JSON.
     pub fn document(&self) -> Result<String, JsError> {
-        json(Ok(self.0.document()))
+        json(self.0.document())
     }
 }
 
@@ -109,7 +99,7 @@ impl Tip {
 /// A parameter out of range.
 #[wasm_bindgen]
 pub fn linear(parameters: &str) -> Result<String, JsError> {
-    json(linear::linear(&read(parameters)?))
+    json(&linear::linear(&Parameters::read(parameters)?)?)
 }
 
 /// The document of the limit cycle.
@@ -118,7 +108,7 @@ pub fn linear(parameters: &str) -> Result<String, JsError> {
 /// A parameter out of range, or no cycle at these parameters.
 #[wasm_bindgen]
 pub fn cycle(parameters: &str) -> Result<String, JsError> {
-    json(periodic::cycle_document(&read(parameters)?))
+    json(&periodic::cycle_document(&Parameters::read(parameters)?)?)
 }
 
 /// The command line that computes the same run.
@@ -127,7 +117,7 @@ pub fn cycle(parameters: &str) -> Result<String, JsError> {
 /// Text that is not a set of parameters.
 #[wasm_bindgen]
 pub fn command(parameters: &str) -> Result<String, JsError> {
-    Ok(line::run(&read(parameters)?))
+    Ok(line::run(&Parameters::read(parameters)?))
 }
 
 /// The classes (see `map`) of the motions at one r and several α.
@@ -136,7 +126,7 @@ pub fn command(parameters: &str) -> Result<String, JsError> {
 /// A parameter out of range.
 #[wasm_bindgen]
 pub fn settled(parameters: &str, r: f64, alphas: &[f64]) -> Result<Vec<u8>, JsError> {
-    map::row(&read(parameters)?, r, alphas).map_err(|refusal| js_error(&refusal))
+    Ok(map::row(&Parameters::read(parameters)?, r, alphas)?)
 }
 
 /// The critical α at each r, NaN where steady motion has no onset.
@@ -145,7 +135,7 @@ pub fn settled(parameters: &str, r: f64, alphas: &[f64]) -> Result<Vec<u8>, JsEr
 /// A tip out of range.
 #[wasm_bindgen]
 pub fn boundary(parameters: &str, velocities: &[f64]) -> Result<Vec<f64>, JsError> {
-    map::boundary(&read(parameters)?, velocities).map_err(|refusal| js_error(&refusal))
+    Ok(map::boundary(&Parameters::read(parameters)?, velocities)?)
 }
 
 /// Scans line by line and returns the pattern.
@@ -157,14 +147,14 @@ pub fn boundary(parameters: &str, velocities: &[f64]) -> Result<Vec<f64>, JsErro
 /// A parameter out of range, or a line that fails.
 #[wasm_bindgen]
 pub fn raster(parameters: &str, scan: &str, on_line: &js_sys::Function) -> Result<String, JsError> {
-    let scan = scan::Scan::read(scan).map_err(|refusal| js_error(&refusal))?;
-    json(scan::raster(&read(parameters)?, &scan, |line, row, columns, heights| {
+    let (parameters, scan) = (Parameters::read(parameters)?, scan::Scan::read(scan)?);
+    json(&scan::raster(&parameters, &scan, |line, row, columns, heights| {
         let heights = js_sys::Float64Array::from(heights);
         let [line, row, columns] = [line, row, columns].map(|n| JsValue::from(n as f64));
         // An error in the page does not end the scan.
         let _ =
             on_line.apply(&JsValue::NULL, &[line, row, columns, heights.into()].iter().collect());
-    }))
+    })?)
 }
 
 /// The command line that computes the same raster.
@@ -173,8 +163,7 @@ pub fn raster(parameters: &str, scan: &str, on_line: &js_sys::Function) -> Resul
 /// Text that is not a set of parameters.
 #[wasm_bindgen]
 pub fn raster_command(parameters: &str, scan: &str) -> Result<String, JsError> {
-    let scan = scan::Scan::read(scan).map_err(|refusal| js_error(&refusal))?;
-    Ok(line::raster(&read(parameters)?, &scan))
+    Ok(line::raster(&Parameters::read(parameters)?, &scan::Scan::read(scan)?))
 }
 
 /// The document of a walker.
@@ -183,7 +172,7 @@ pub fn raster_command(parameters: &str, scan: &str) -> Result<String, JsError> {
 /// A parameter out of range, or a run that fails.
 #[wasm_bindgen]
 pub fn walker(parameters: &str) -> Result<String, JsError> {
-    json(walk::walker(parameters, js_sys::Date::now))
+    json(&walk::walker(parameters, js_sys::Date::now)?)
 }
 
 /// The command line that computes the same walker.
@@ -192,9 +181,7 @@ pub fn walker(parameters: &str) -> Result<String, JsError> {
 /// Text that is not a set of parameters.
 #[wasm_bindgen]
 pub fn walker_command(parameters: &str) -> Result<String, JsError> {
-    let given =
-        serde_json::from_str(parameters).map_err(|error| js_error(&Refusal::Json(error)))?;
-    Ok(line::walker(&given))
+    Ok(line::walker(&serde_json::from_str(parameters).map_err(Refusal::Json)?))
 }
 
 /// The parameters of the questions `run`, `raster` and `walker`, as JSON.

@@ -10,6 +10,7 @@ use crate::arguments::{
 use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
+use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -122,7 +123,7 @@ impl Given {
         let mut given = self.given.clone();
         if self.tip.is_given() {
             let tip = serde_json::to_value(Tip(tip(session, &self.tip)?));
-            given.insert("tip".into(), tip.map_err(|error| Failure::Run(error.to_string()))?);
+            given.insert("tip".into(), tip.map_err(Failure::run)?);
         }
         Ok(overridden(base, given))
     }
@@ -190,6 +191,29 @@ where
     job.finish(document)
 }
 
+/// Writes the answer to a question, or what a signal left of it, and draws it.
+pub(crate) fn answer_until_signal<Q: Ask>(
+    question: Q,
+    context: &Context,
+    interrupt: Interrupt,
+    (job, scales): (Job, Option<&KnownScales>),
+    refused: impl FnOnce(documents::Failure) -> Failure,
+) -> Result<(), Failure>
+where
+    Document<Q>: Product,
+{
+    let found = question.answered(context);
+    let signal = interrupt.signal();
+    let document = match (found, signal) {
+        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
+        (found, _) => found.map_err(refused)?,
+    };
+    // The result can be computed again: from here on a first signal ends the program immediately.
+    let _keeps = signal.map(|_| interrupt);
+    job.finish(document.in_units(scales))?;
+    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+}
+
 /// The answer to a question, and its output, which is opened once the question is known to be valid.
 fn answered_into<Q: Ask, T>(
     session: &Session,
@@ -231,19 +255,11 @@ pub(crate) fn refuse_unknown<Q: Question, K: Questions>(
     chosen_by: &str,
 ) -> Result<(), Failure> {
     let Some(name) = parameter::unknown_parameter::<Q>(values) else { return Ok(()) };
-    refuse_parameter((name, &values[name]), &K::parameters(), chosen_by)
-}
-
-fn refuse_parameter(
-    (name, value): (&str, &Value),
-    all: &[&Parameter],
-    chosen_by: &str,
-) -> Result<(), Failure> {
-    if all.iter().all(|parameter| parameter.name != name) {
+    if K::parameters().iter().all(|parameter| parameter.name != name) {
         // Unknown to all questions: reported with the question.
         return Ok(());
     }
-    let named = format!("{} {}", option(name), parameter::typed(value));
+    let named = format!("{} {}", option(name), parameter::typed(&values[name]));
     Err(Failure::input(named, format!("has no meaning with {chosen_by}: leave one of them out")))
 }
 

@@ -47,13 +47,8 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
         values.insert("load_widths".into(), widths(session, path)?);
     }
     if values.contains_key("pitch_range") {
-        return answer_values::<RasterBoundary, _>(
-            session,
-            options,
-            values,
-            answer,
-            "--pitch-range",
-        );
+        let chosen_by = "--pitch-range";
+        return answer_values::<RasterBoundary, _>(session, options, values, answer, chosen_by);
     }
     let is_given = |name: &str| values.contains_key(name);
     if is_given("load_range") || is_given("load") || is_given("load_widths") {
@@ -65,23 +60,10 @@ pub(crate) fn boundary(session: &Session, arguments: &BoundaryArguments) -> Resu
             (failure, _) => failure,
         });
     }
-    if is_given("stiffness_range") {
-        return answer_values::<SnakingBoundary, _>(
-            session,
-            options,
-            values,
-            answer,
-            "--stiffness-range",
-        );
-    }
-    if is_given("r_range") && is_given("stiffness_across") {
-        return answer_values::<SnakingBoundary, _>(
-            session,
-            options,
-            values,
-            answer,
-            "--stiffness-across",
-        );
+    let is_over_r = is_given("r_range") && is_given("stiffness_across");
+    let snaking = is_given("stiffness_range").then_some("--stiffness-range");
+    if let Some(chosen_by) = snaking.or(is_over_r.then_some("--stiffness-across")) {
+        return answer_values::<SnakingBoundary, _>(session, options, values, answer, chosen_by);
     }
     if let Some(name) = parameter::unknown_parameter::<Boundary>(&values) {
         let message = "applies to neighbouring scan lines: give --pitch-range too, or leave it out";

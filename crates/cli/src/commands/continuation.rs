@@ -1,6 +1,6 @@
 //! `stickslip continue`.
 
-use super::ask::{context_cancelled_by, refusal};
+use super::ask::{answer_until_signal, context_cancelled_by, refusal};
 use super::cycle::{read_cycle, values};
 use super::in_units::scales;
 use super::job::{Job, judge_places};
@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use std::sync::Arc;
-use stickslip::{Ask, Continue, ContinueDocument, Physical, Unusable, parameter};
+use stickslip::{Ask, Continue, ContinueDocument, Unusable, parameter};
 
 pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result<(), Failure> {
     let ContinueArguments { options, from, answer: place } = arguments;
@@ -29,14 +29,5 @@ pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result
     let question = question.resolved(&context).map_err(refused)?;
     let scales = scales(session, &place.in_units, tip_file.1, question.support_velocity())?;
     let job = Job::open(session, ContinueDocument::FORMAT, &place.outlet, place.plot.as_deref())?;
-    let found = question.answered(&context);
-    let signal = interrupt.signal();
-    let document = match (found, signal) {
-        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
-        (found, _) => found.map_err(refused)?,
-    };
-    // The result can be computed again: from here on a first signal ends the program immediately.
-    let _keeps = signal.map(|_| interrupt);
-    job.finish(document.in_units(scales.as_ref()))?;
-    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+    answer_until_signal(question, &context, interrupt, (job, scales.as_ref()), refused)
 }

@@ -50,8 +50,8 @@ pub(super) fn values<Q: Questions>(
         let message = "the footprint is given by the document: leave --tip and its options out";
         return Err(Failure::input("--from", message));
     }
-    let failed = |error: serde_json::Error| Failure::Run(error.to_string());
-    let Value::Object(mut base) = serde_json::to_value(&document.parameters).map_err(failed)?
+    let Value::Object(mut base) =
+        serde_json::to_value(&document.parameters).map_err(Failure::run)?
     else {
         return options.values(session);
     };

@@ -49,7 +49,7 @@ impl Fields {
     /// a missing value.
     pub(crate) fn of(&self, document: &dyn erased_serde::Serialize) -> Result<String, Failure> {
         let document = serde_json::to_value(document);
-        let document = document.map_err(|error| Failure::Run(error.to_string()))?;
+        let document = document.map_err(Failure::run)?;
         Ok(self.0.iter().map(|path| format!("{}\n", shown(&document, path))).collect())
     }
 }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stickslip::FigureDocument;
 use stickslip_figures::{self as figures, FigureFormat, Size, View};
-use stickslip_reproduction::{self as reproduction, Failed};
+use stickslip_reproduction as reproduction;
 
 pub(crate) fn figures(session: &Session, arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
@@ -41,15 +41,14 @@ pub(crate) fn figures(session: &Session, arguments: &FiguresArguments) -> Result
 
 /// Makes one figure or table and returns the names of its files.
 fn make(name: FigureName, folder: &Path) -> Result<Vec<String>, Failure> {
-    let failed = |error: Failed| Failure::Run(error.to_string());
     let Some(figure) = name.figure() else {
         let (json, text) = ("reproduction.json", "reproduction.md");
-        let table = reproduction::table().map_err(failed)?;
+        let table = reproduction::table().map_err(Failure::run)?;
         open(&folder.join(json))?.write_json(&table)?;
         open(&folder.join(text))?.write_bytes(reproduction::page(&table).as_bytes())?;
         return Ok(vec![json.into(), text.into()]);
     };
-    write(&reproduction::figure(&figure).map_err(failed)?, folder)
+    write(&reproduction::figure(&figure).map_err(Failure::run)?, folder)
 }
 
 /// Writes the document and its pictures.

@@ -162,7 +162,7 @@ impl<P: Part> Finished<P> {
         let opened = open::<P>(session, &path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
             if matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded) {
-                return Failure::Write { target: path.display().to_string(), error };
+                return Failure::writing(&path, error);
             }
             taken("--output", output, &error).unwrap_or_else(|| {
                 let advice = "remove it, or choose another --output";
@@ -232,8 +232,7 @@ impl<P: Part> Finished<P> {
 
     /// The error of a part that could not be saved.
     pub(super) fn unkept(&self, error: io::Error) -> Failure {
-        let target = self.path().map_or("memory".into(), |path| path.display().to_string());
-        Failure::Write { target, error }
+        Failure::writing(self.path().unwrap_or(Path::new("memory")), error)
     }
 
     /// The file in which the parts are saved.

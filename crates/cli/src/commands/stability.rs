@@ -18,12 +18,7 @@ pub(crate) fn stability(session: &Session, arguments: &StabilityArguments) -> Re
     } else if has("pitch") || has("path") {
         answer_values::<RasterStability, _>(session, options, values, answer, "--pitch or --path")
     } else {
-        answer_values::<Stability, _>(
-            session,
-            options,
-            values,
-            answer,
-            "a single line, without --pitch or --path",
-        )
+        let chosen_by = "a single line, without --pitch or --path";
+        answer_values::<Stability, _>(session, options, values, answer, chosen_by)
     }
 }

@@ -12,7 +12,7 @@ use crate::files::distinct::distinct;
 use crate::files::input::read_run_from;
 use crate::files::lines::{Written, open};
 use crate::files::output::format_of;
-use crate::interrupt::Interrupt;
+use crate::interrupt::signal;
 use crate::session::Session;
 use motion::Motion;
 use std::ops::ControlFlow;
@@ -98,8 +98,8 @@ fn finish(
     verification: VerificationDocument,
     differences: Vec<ClaimDocument>,
 ) -> Result<(), Failure> {
-    let failure =
-        failure_of(session, broken_in(&verification, run.parameters.tolerance), &differences);
+    let broken = missed_message(&verification, run.parameters.tolerance, None);
+    let failure = failure_of(session, broken, &differences);
     let job = job.silent_if(failure.is_some());
     job.finish(VerifyDocument::new(run.parameters, verification, differences, None))?;
     failure.map_or(Ok(()), Err)
@@ -204,21 +204,16 @@ pub(super) fn repeated(
     session: &Session,
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Verification, VerificationError>,
 ) -> Result<Verification, Failure> {
-    let interrupt = Interrupt::of_host(session);
     let mut progress = Progress::new(session, 0.0, 1.0);
     let found = work(&mut |part| {
         progress.reached(part);
-        if interrupt.signal().is_some() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        if signal(session).is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     found.map_err(|error| match error {
         VerificationError::Interrupted => {
-            interrupt.signal().map_or(Failure::Run(error.to_string()), Failure::Stopped)
+            signal(session).map_or(Failure::run(error), Failure::Stopped)
         }
-        error => Failure::Run(error.to_string()),
+        error => Failure::run(error),
     })
 }
 
@@ -237,11 +232,7 @@ pub(in crate::commands) fn kept(found: &VerificationDocument) -> String {
 
 /// The message and the exit status for a run that misses its tolerance.
 pub(super) fn broken(found: &VerificationDocument, tolerance: f64) -> Option<Failure> {
-    broken_in(found, tolerance).map(Failure::Run)
-}
-
-fn broken_in(found: &VerificationDocument, tolerance: f64) -> Option<String> {
-    missed_message(found, tolerance, None)
+    missed_message(found, tolerance, None).map(Failure::Run)
 }
 
 /// The message for a run that misses its tolerance; for lines, with their numbers.

@@ -49,16 +49,16 @@ pub(crate) fn place(option: &str, path: &Path) -> Result<Place, Failure> {
 
 /// Locks an existing folder, for a command that fills it.
 pub(crate) fn folder(option: &str, path: &Path) -> Result<Lock, Failure> {
-    Lock::of(&resolved(path)).map_err(|_| Failure::input(named(option, path), IN_USE))
+    Lock::of(&resolved(path)).map_err(|_| Failure::file(option, path, IN_USE))
 }
 
 /// The error if another process writes the file of this option, or if a user's file has a derived name; `None` for
 /// any other error.
 pub(crate) fn taken(option: &str, path: &Path, error: &io::Error) -> Option<Failure> {
     match error.kind() {
-        ErrorKind::WouldBlock => Some(Failure::input(named(option, path), IN_USE)),
+        ErrorKind::WouldBlock => Some(Failure::file(option, path, IN_USE)),
         // The file that is there, and is not ours, is named.
-        ErrorKind::AlreadyExists => Some(Failure::input(named(option, path), error)),
+        ErrorKind::AlreadyExists => Some(Failure::file(option, path, error)),
         _ => None,
     }
 }
@@ -73,20 +73,16 @@ pub(super) fn refused(option: &str, path: &Path, error: &io::Error) -> Failure {
         ErrorKind::NotFound => "there is no such folder".into(),
         ErrorKind::NotConnected => {
             let message = "nobody reads from this pipe: start its reader first";
-            return Failure::input(named(option, path), message);
+            return Failure::file(option, path, message);
         }
         kind => kind.to_string(),
     };
-    Failure::input(named(option, path), format!("{said}; {advice}"))
+    Failure::file(option, path, format!("{said}; {advice}"))
 }
 
 /// Message for an output locked by another process.
 const IN_USE: &str = "is being written by another stickslip: wait until it has ended, or \
                                  choose another name";
-
-fn named(option: &str, path: &Path) -> String {
-    format!("{option} {}", path.display())
-}
 
 fn writable(path: &Path) -> io::Result<Place> {
     if path == Path::new("-") {

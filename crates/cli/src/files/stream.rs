@@ -104,7 +104,7 @@ impl Stream {
     /// Writes a line of JSON.
     pub(crate) fn line(&mut self, line: &RunLine) -> Result<(), Failure> {
         self.line.clear();
-        line.append_to(&mut self.line).map_err(|error| Failure::Run(error.to_string()))?;
+        line.append_to(&mut self.line).map_err(Failure::run)?;
         self.line.push(b'\n');
         let out: &mut dyn Write = match &mut self.sink {
             Sink::Stdout(out) => out,
@@ -147,8 +147,8 @@ impl Stream {
                 Failure::Run("standard output was closed before the end: the rest is lost".into())
             }
             Sink::Stdout(_) => Failure::Write { target: "standard output".into(), error },
-            Sink::Special(path, _) => Failure::Write { target: path.display().to_string(), error },
-            Sink::Part(part) => Failure::Write { target: part.part.display().to_string(), error },
+            Sink::Special(path, _) => Failure::writing(path, error),
+            Sink::Part(part) => Failure::writing(&part.part, error),
         }
     }
 }

@@ -56,14 +56,12 @@ impl Closed {
         x: &[f64],
     ) -> Result<ClosedDocument, Failure> {
         let Self { trajectory, work, memory, seconds } = self;
-        let failed = |error: String| Failure::Run(error);
-        let surface = SurfaceAcross::new(scenario, trajectory);
-        let surface = surface.map_err(|error| failed(error.to_string()))?;
+        let surface = SurfaceAcross::new(scenario, trajectory).map_err(Failure::run)?;
         let u = surface.image(end.min(trajectory.end()), x, &[0.0]);
         Ok(ClosedDocument {
             x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
             y0: Some(t.iter().map(|t| trajectory.y0(*t)).collect()),
-            u: u.map_err(|error| failed(error.to_string()))?.into_iter().collect(),
+            u: u.map_err(Failure::run)?.into_iter().collect(),
             work: closed_work(work, (*memory).into(), *seconds),
         })
     }
@@ -107,7 +105,7 @@ fn on_cells(
     let knots = along.path.as_ref().map_or(&[][..], |path| path.knots().0);
     let path = along.path.is_some().then_some(Path { position: &position, knots });
     let law = wider(along, path);
-    let texture = scenario.texture().map_err(|error| Failure::Run(error.to_string()))?;
+    let texture = scenario.texture().map_err(Failure::run)?;
     let start = start(scenario, &law, products, texture);
     let problem = PlaneProblem {
         model,

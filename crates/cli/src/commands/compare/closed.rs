@@ -42,7 +42,7 @@ impl Closed {
         Ok(ClosedDocument {
             x0: t.iter().map(|t| trajectory.x0(*t)).collect(),
             y0: None,
-            u: u.map_err(|error| Failure::Run(error.to_string()))?.to_vec(),
+            u: u.map_err(Failure::run)?.to_vec(),
             work: closed_work(&run.work, run.memory.into(), *seconds),
         })
     }

@@ -189,7 +189,7 @@ fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
         return Ok(None);
     }
     let scenario = Scenario { start: stickslip_tip::Start::Flat, ..scenario.clone() };
-    scenario.initial_surface().map(Some).map_err(|error| Failure::Run(error.to_string()))
+    scenario.initial_surface().map(Some).map_err(Failure::run)
 }
 
 /// The law in the types of the grid.

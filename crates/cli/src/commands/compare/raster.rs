@@ -20,7 +20,7 @@ use stickslip::{
 use stickslip_grid::{
     GridError, Layer, PlaneScan, RowMethod, Scan, ScanLine, Stepping, scan, scan_plane,
 };
-use stickslip_raster::{Free, Line, Path, Plan, RasterError, Scanning};
+use stickslip_raster::{Free, Line, Path, Plan, Scanning};
 use stickslip_tip::sorting::sort_numbers;
 use stickslip_tip::tip_function::BAND_OF_A_GAUSSIAN;
 
@@ -132,11 +132,10 @@ fn spacing(arguments: &CompareArguments, method: RowMethod, plan: &Plan) -> Resu
 
 /// All lines, and their computing time.
 fn closed(plan: &Plan, limit: f64) -> Result<(Vec<Line>, f64), Failure> {
-    let failed = |error: RasterError| Failure::Run(error.to_string());
     timed(|| {
         let pace = Pace::new(Unit::Lines, (0.0, plan.lines() as f64), limit);
-        let mut scanning = Scanning::new(plan).map_err(failed)?;
-        while scanning.next_line().map_err(failed)?.is_some() {
+        let mut scanning = Scanning::new(plan).map_err(Failure::run)?;
+        while scanning.next_line().map_err(Failure::run)?.is_some() {
             pace.judge(scanning.lines().len() as f64)?;
         }
         // A cancelled scan has no next line either.

@@ -53,7 +53,7 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
     let document = on_threads(threads, || question.document(&plan, &lines, &times))?;
     let document = document.in_units(scales.as_ref());
     if let Some(unit) = in_metres {
-        let map = document.height_map().map_err(|error| Failure::Run(error.to_string()))?;
+        let map = document.height_map().map_err(Failure::run)?;
         let bytes = field(&document.parameters, &map, unit);
         job.finish_bytes(&bytes, document)?;
     } else {

@@ -26,9 +26,8 @@ pub(super) fn scan(
 ) -> Result<(Vec<Line>, Finished<KeptLine>), Failure> {
     let has = |index| index < plan.lines();
     let mut finished: Finished<KeptLine> = Finished::beside(session, file, parameters, has)?;
-    let failed = |error: stickslip_raster::RasterError| Failure::Run(error.to_string());
-    let mut scanning =
-        Scanning::resumed(plan, taken_up(plan, finished.parts().clone())).map_err(failed)?;
+    let taken_up = taken_up(plan, finished.parts().clone());
+    let mut scanning = Scanning::resumed(plan, taken_up).map_err(Failure::run)?;
     let kept: HashSet<usize> = finished.parts().iter().map(|line| line.index).collect();
     let (first, count) = (scanning.lines().len(), plan.lines());
     finished.announce(session, first, count);
@@ -48,7 +47,7 @@ pub(super) fn scan(
         unkept.is_none()
     };
     let scan = || scanning.scan_with(threads, text, &mut take);
-    stop::with_flag(interrupt.flag(), scan).map_err(failed)?;
+    stop::with_flag(interrupt.flag(), scan).map_err(Failure::run)?;
     if let Some(error) = unkept {
         return Err(finished.unkept(error));
     }

@@ -4,8 +4,7 @@ use super::motion::Motion;
 use super::record::Record;
 use crate::arithmetic::{arithmetic, foreign};
 use crate::failure::Failure;
-use crate::files::paths::folder_of;
-use crate::files::paths::seen_from;
+use crate::files::paths::{folder_of, seen_from};
 use crate::files::place::Target;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -77,11 +76,9 @@ impl Checkpoints {
                 seconds,
                 words: state.words().len() as u64,
             };
-            let bytes = bytes(&head, &state).map_err(|error| Failure::Run(error.to_string()))?;
-            self.file.replace(&|out| out.write_all(&bytes)).map_err(|error| {
-                let target = self.file.path().display().to_string();
-                Failure::Write { target, error }
-            })
+            let bytes = bytes(&head, &state).map_err(Failure::run)?;
+            let replaced = self.file.replace(&|out| out.write_all(&bytes));
+            replaced.map_err(|error| Failure::writing(self.file.path(), error))
         });
         self.plan(running.t());
         match (&done, self.last) {

@@ -40,7 +40,7 @@ impl<R: Motion> Integration<R> {
 
     fn step(&mut self) -> Result<Option<R::Step>, Failure> {
         self.running.step().map_err(|error| match self.record.keep_part() {
-            None => Failure::Run(error.to_string()),
+            None => Failure::run(error),
             Some(part) => {
                 Failure::Run(format!("{error}; the part written so far is in {}", part.display()))
             }

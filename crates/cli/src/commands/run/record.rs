@@ -66,7 +66,9 @@ impl<S: Recorded> Record<S> {
             }
             steps.push(*step);
             if let Sink::Journal(path, journal) = &mut self.sink {
-                journal.write(step.numbers().as_ref()).map_err(|error| failed(path, error))?;
+                journal
+                    .write(step.numbers().as_ref())
+                    .map_err(|error| Failure::writing(path, error))?;
             }
         }
         // A time at which one step ends is the next one's.
@@ -101,7 +103,7 @@ impl<S: Recorded> Record<S> {
                 Sink::Lines(stream) => stream.line(&RunLine::Sample(sample))?,
                 Sink::Journal(path, journal) if self.steps.is_none() => {
                     let row = &numbers_of(&sample)[..S::SAMPLE_NUMBERS];
-                    journal.write(row).map_err(|error| failed(path, error))?;
+                    journal.write(row).map_err(|error| Failure::writing(path, error))?;
                     self.samples.push(&sample);
                 }
                 _ => self.samples.push(&sample),
@@ -124,7 +126,9 @@ impl<S: Recorded> Record<S> {
         match &mut self.sink {
             Sink::Memory => Ok(Mark::default()),
             Sink::Lines(stream) => stream.sync(),
-            Sink::Journal(path, journal) => journal.sync().map_err(|error| failed(path, error)),
+            Sink::Journal(path, journal) => {
+                journal.sync().map_err(|error| Failure::writing(path, error))
+            }
         }
     }
 
@@ -177,14 +181,9 @@ pub(super) fn journal(path: &Path, numbers: usize) -> Result<Sink, Failure> {
     let journal = journal_of(path);
     match Rows::create(&journal, path, numbers) {
         Ok(rows) => Ok(Sink::Journal(journal, rows)),
-        Err(error) => {
-            Err(taken("--checkpoint", path, &error).unwrap_or_else(|| failed(&journal, error)))
-        }
+        Err(error) => Err(taken("--checkpoint", path, &error)
+            .unwrap_or_else(|| Failure::writing(&journal, error))),
     }
-}
-
-fn failed(path: &Path, error: io::Error) -> Failure {
-    Failure::Write { target: path.display().to_string(), error }
 }
 
 fn history_too_long(t: f64) -> Failure {

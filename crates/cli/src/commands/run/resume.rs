@@ -10,8 +10,7 @@ use crate::arguments::RunArguments;
 use crate::commands::fields::Fields;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use crate::files::paths::found_from;
-use crate::files::paths::{folder_of, resolved};
+use crate::files::paths::{folder_of, found_from, resolved};
 use crate::files::place::Target as File;
 use crate::files::rows::journal_of;
 use crate::files::stream::{Stream, part_of};
@@ -105,8 +104,8 @@ fn resumed<R: Motion>(
     Ok((integration.finish(session, scenario)?, target))
 }
 
-/// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from a
-/// unknown_parameter: its files must be in its folder.
+/// Redirects the outputs to the files given now, or to those in the checkpoint. The checkpoint may come from somebody
+/// else: its files must be in its folder.
 fn redirect(order: &mut Order, checkpoint: &Path, arguments: &RunArguments) -> Result<(), Failure> {
     let named = format!("--resume {}", checkpoint.display());
     let place = |option: &str, given: Option<&Path>, held: &Path| {

@@ -3,7 +3,7 @@
 use super::disturbance::{parse_pulses, warn_of_pulses_outside};
 use super::{format_of, order};
 use crate::arguments::RunArguments;
-use crate::commands::ask::{context_cancelled_by, refuse_unknown};
+use crate::commands::ask::{answer_until_signal, context_cancelled_by, refuse_unknown};
 use crate::commands::in_units::scales;
 use crate::commands::job::Job;
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
 use std::sync::Arc;
-use stickslip::{Ask, Physical, RunFormat, Walker, WalkerDocument, parameter};
+use stickslip::{Ask, RunFormat, Walker, WalkerDocument, parameter};
 
 /// The run, up to its end or to a signal.
 pub(super) fn run(
@@ -38,14 +38,7 @@ pub(super) fn run(
     let fields = &arguments.fields;
     let job =
         Job::of_format(session, WalkerDocument::FORMAT, format_of(format), output, fields, plot)?;
-    let found = question.answered(&context);
-    let signal = interrupt.signal();
-    let document = match (found, signal) {
-        (Err(_), Some(signal)) => return Err(Failure::Stopped(signal)),
-        (found, _) => found?.in_units(scales.as_ref()),
-    };
-    job.finish(document)?;
-    signal.map_or(Ok(()), |signal| Err(Failure::Interrupted(signal)))
+    answer_until_signal(question, &context, interrupt, (job, scales.as_ref()), Failure::from)
 }
 
 /// Rejects options that are not available for a walker.

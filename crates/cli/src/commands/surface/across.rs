@@ -39,7 +39,7 @@ pub(super) fn surface(
     let (scales, in_metres) = format.scales(session, arguments, physical, r)?;
     let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;
     let surface = SurfaceAcross::new(&scenario, &trajectory);
-    let surface = surface.map_err(|error| Failure::Run(error.to_string()))?;
+    let surface = surface.map_err(Failure::run)?;
     let found = found(&surface, &places)?;
     let across = AcrossParameters {
         width_y: document.parameters.width_y,
@@ -63,7 +63,7 @@ fn found(surface: &SurfaceAcross, places: &Places) -> Result<SurfaceFound, Failu
     let mut found = SurfaceFound { surfaces: vec![], images: vec![] };
     for t in t {
         let rows = if y.is_empty() { &[0.0][..] } else { y };
-        let image = surface.image(*t, x, rows).map_err(|error| Failure::Run(error.to_string()))?;
+        let image = surface.image(*t, x, rows).map_err(Failure::run)?;
         let mut u = image.rows().into_iter().map(|row| row.to_vec());
         if y.is_empty() {
             let u = u.next().unwrap_or_default();

@@ -87,7 +87,7 @@ fn curves(
     let at = |t: &f64| {
         let u =
             if arguments.far_behind { surface.far_behind(*t, x) } else { surface.heights(*t, x) };
-        let u = u.map_err(|error| Failure::Run(error.to_string()))?.to_vec();
+        let u = u.map_err(Failure::run)?.to_vec();
         Ok(SurfaceCurve { t: *t, x: x.to_vec(), u })
     };
     places.t.iter().map(at).collect()

@@ -157,6 +157,6 @@ impl Divided for RasterSweepDocument {
 fn sum(written: &impl Serialize) -> Result<u32, Failure> {
     let mut sum = Hasher::new();
     let text = serde_json::to_writer(&mut Hashing(&mut sum), written);
-    text.map_err(|error| Failure::Run(error.to_string()))?;
+    text.map_err(Failure::run)?;
     Ok(sum.finalize())
 }

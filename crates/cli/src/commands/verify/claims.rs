@@ -10,7 +10,6 @@ use crate::failure::Failure;
 use crate::session::Session;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::fmt::Display;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use stickslip::{
@@ -362,12 +361,12 @@ fn again(
 ) -> Result<RunEnd, Failure> {
     match scenario {
         RunScenario::Along(scenario) => {
-            let surface = scenario.initial_surface().map_err(failed)?;
-            let running = Watched::new(scenario, &surface).map_err(failed)?;
+            let surface = scenario.initial_surface().map_err(Failure::run)?;
+            let running = Watched::new(scenario, &surface).map_err(Failure::run)?;
             repeated(session, scenario, until, running, witness)
         }
         RunScenario::Across(scenario) => {
-            let running = WatchedAcross::new(scenario).map_err(failed)?;
+            let running = WatchedAcross::new(scenario).map_err(Failure::run)?;
             repeated(session, &scenario.along, until, running, witness)
         }
     }
@@ -383,7 +382,7 @@ fn repeated<R: Moving>(
     let law = (&scenario.support(), scenario.model.wider());
     let mut progress = Progress::new(session, scenario.start_time(), until);
     let is_cut = until < scenario.until;
-    while let Some(step) = running.step().map_err(failed)? {
+    while let Some(step) = running.step().map_err(Failure::run)? {
         let along = step.as_ref();
         witness(along, &|t| step.sample(law, t));
         progress.reached(along.end());
@@ -397,10 +396,6 @@ fn repeated<R: Moving>(
     // A run that ended early is judged as one that a signal ended.
     let flag = Arc::new(AtomicBool::new(is_cut && running.t() < scenario.until));
     Ok(stop::with_flag(&flag, || running.became(0.0))?)
-}
-
-fn failed(error: impl Display) -> Failure {
-    Failure::Run(error.to_string())
 }
 
 /// Checks a document.

@@ -46,7 +46,7 @@ impl Axis {
                 Self { low, high, scale, ticks: ticks::logarithmic(low, high, count) }
             }
             ScaleName::Linear => {
-                let (low, high) = if is_range([low, high]) { (low, high) } else { about(low) };
+                let (low, high) = if can_be_drawn([low, high]) { (low, high) } else { about(low) };
                 Self { low, high, scale, ticks: ticks::linear(low, high, count) }
             }
         }
@@ -87,9 +87,9 @@ impl Axis {
     }
 }
 
-/// Whether two numbers are the ends of a valid axis: both drawable, and far enough apart for doubles to resolve
-/// values between them.
-pub(crate) fn is_range([low, high]: [f64; 2]) -> bool {
+/// Whether two numbers are the ends of a valid axis: below 1e100, and apart by at least 1e-12 of the larger and by
+/// 1e-100, for doubles to resolve values between them.
+pub fn can_be_drawn([low, high]: [f64; 2]) -> bool {
     let size = low.abs().max(high.abs());
     drawable(low) && drawable(high) && high - low >= (LEAST_PART * size).max(TINY)
 }
@@ -172,12 +172,16 @@ mod tests {
         ] {
             for scale in [ScaleName::Linear, ScaleName::Logarithmic] {
                 let axis = Axis::new(low, high, scale, 5.0);
-                assert!(is_range([axis.low, axis.high]), "{low} {high} {axis:?}");
+                assert!(can_be_drawn([axis.low, axis.high]), "{low} {high} {axis:?}");
                 let count = axis.labelled().count();
                 assert!((1..200).contains(&count), "{low} {high} {axis:?}");
             }
         }
-        assert!(is_range([0.0, 1e-99]) && is_range([1.0, 1.0 + 1e-11]) && !is_range([1.0, 1.0]));
+        assert!(
+            can_be_drawn([0.0, 1e-99])
+                && can_be_drawn([1.0, 1.0 + 1e-11])
+                && !can_be_drawn([1.0, 1.0])
+        );
     }
 
     #[test]

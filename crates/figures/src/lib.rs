@@ -45,9 +45,10 @@ mod ticks;
 
 #[cfg(feature = "animation")]
 pub use animation::{Film, animate};
+pub use axis::can_be_drawn;
 #[cfg(feature = "animation")]
 pub use compose::scene_of;
-pub use compose::{Drawn, View, can_be_drawn, judge_sweep, of, onset_of};
+pub use compose::{Drawn, View, judge_sweep, of, onset_of};
 pub use encode::{draw, svg};
 pub use error::FigureError;
 pub use format::{AnimationFormat, FigureFormat};

@@ -1,9 +1,7 @@
 //! Errors, with messages for the page.
 
 use stickslip::Unusable;
-use stickslip_cycles::CycleError;
 use stickslip_raster::RasterError;
-use stickslip_stability::StabilityError;
 use stickslip_surface::SurfaceError;
 use stickslip_tip::planar::PlanarError;
 use stickslip_tip::{ModelError, RunError, TipFunctionError};
@@ -30,10 +28,6 @@ pub(crate) enum Refusal {
     Across(#[from] PlanarError),
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    #[error(transparent)]
-    Stability(#[from] StabilityError),
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
     #[error("{}", .0.described(|parameter| parameter.replace('_', " ")))]
     Question(#[from] stickslip::Failure),
     #[error(transparent)]

@@ -1,9 +1,8 @@
 //! `stickslip sweep raster`.
 
 use super::brief::Brief;
-use super::{InUnitsArguments, Options, OutletArguments, WorkArguments};
+use super::{AnswerArguments, Options, WorkArguments};
 use clap::Args;
-use std::path::PathBuf;
 use stickslip::RasterSweep;
 
 /// Compute the pattern of a raster over a grid of pitch and α.
@@ -11,7 +10,7 @@ use stickslip::RasterSweep;
 /// Each point is a raster. Finished points are saved immediately beside the output (FILE.partial): after an interrupt
 /// the same command resumes from there.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES, brief())]
+#[command(after_help = EXAMPLES, mut_arg("plot", |plot| plot.help(PLOT)), brief())]
 pub(crate) struct RasterSweepArguments {
     #[command(flatten)]
     pub(crate) options: Options<RasterSweep>,
@@ -20,16 +19,11 @@ pub(crate) struct RasterSweepArguments {
     pub(crate) work: WorkArguments,
 
     #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that varies, to this
-    /// .svg, .png or .pdf.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
+
+const PLOT: &str = "Draw the regimes over pitch and α, or wavelength, crest angle and coherence over the one that \
+                    varies, to this .svg, .png or .pdf";
 
 const EXAMPLES: &str = "Examples:
   From no ripples to ripples, pits and lines that stay at the edge:

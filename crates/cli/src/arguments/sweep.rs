@@ -4,7 +4,7 @@ use super::brief::Brief;
 use super::named::named;
 use super::range::Range;
 use super::raster_sweep::RasterSweepArguments;
-use super::{InUnitsArguments, Options, OutletArguments, Questions, WorkArguments};
+use super::{AnswerArguments, Options, Questions, WorkArguments};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use stickslip::parameter::{Parameter, parameters};
@@ -22,6 +22,7 @@ use stickslip::{Sweep, TipName};
     override_usage = USAGE, after_help = EXAMPLES,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
+    mut_arg("plot", |plot| plot.help(PLOT)),
     brief()
 )]
 pub(crate) struct SweepArguments {
@@ -55,16 +56,11 @@ pub(crate) struct SweepArguments {
     pub(crate) work: WorkArguments,
 
     #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw the phase diagram or, if a single parameter varies, amplitude and period over it, to this .svg, .png or .pdf.
-    /// Points without these, such as steady and trapped ones, are marked at the foot.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
+
+const PLOT: &str = "Draw the phase diagram or, if a single parameter varies, amplitude and period over it, to this .svg, \
+                    .png or .pdf. Points without these, such as steady and trapped ones, are marked at the foot";
 
 /// The parameters of a sweep, which are those of no document: documents of sweeps list all values of each parameter.
 #[derive(Debug)]
@@ -88,21 +84,17 @@ pub(crate) enum SweepThen {
 
 /// Combine the parts of a sweep: the result is byte for byte that of one sweep over all points.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg")]
+#[command(
+    after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg",
+    mut_arg("plot", |plot| plot.help("Draw the result, as for `sweep`").help_heading(None))
+)]
 pub(crate) struct MergeArguments {
     /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order.
     #[arg(value_name = "PART.json", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
     #[command(flatten)]
-    pub(crate) in_units: InUnitsArguments,
-
-    #[command(flatten)]
-    pub(crate) outlet: OutletArguments,
-
-    /// Draw the result, as for `sweep`.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) plot: Option<PathBuf>,
+    pub(crate) answer: AnswerArguments,
 }
 
 const USAGE: &str =

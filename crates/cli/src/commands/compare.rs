@@ -53,7 +53,7 @@ struct Sides {
 /// Both sides of a tip that is held on its line.
 fn on_its_line(comparison: &Comparison, scenario: &Scenario) -> Result<Sides, Failure> {
     let closed = closed::run(comparison, scenario)?;
-    let x = comparison.positions(|t| closed.trajectory.x0(t))?;
+    let x = comparison.positions(|t| closed.run.trajectory.x0(t))?;
     let motion = grid::run(comparison, scenario, &x)?;
     let closed = closed.document(scenario, &motion.t, comparison.grid_until, &x)?;
     Ok(Sides { x, closed, motion })

@@ -21,12 +21,12 @@ use stickslip_tip::sorting::sort_by_number;
 
 /// A part of long work.
 pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
-    /// Name of a part in lower case, such as "point".
-    const NAME: &'static str;
-    /// Past participle of the work on a part, such as "computed".
-    const DONE: &'static str;
-    /// Name of the whole, such as "sweep".
-    const WHOLE: &'static str;
+    /// Name of a part in lower case.
+    const NAME: &'static str = "point";
+    /// Past participle of the work on a part.
+    const DONE: &'static str = "computed";
+    /// Name of the whole.
+    const WHOLE: &'static str = "sweep";
     /// A list of parts.
     type All: Parts<Self>;
 
@@ -80,9 +80,6 @@ impl Parts<SweepPoint> for SweepPoints {
 }
 
 impl Part for SweepPoint {
-    const NAME: &'static str = "point";
-    const DONE: &'static str = "computed";
-    const WHOLE: &'static str = "sweep";
     type All = SweepPoints;
 
     fn index(&self) -> usize {
@@ -115,8 +112,6 @@ struct Kept {
     file: File,
     /// Whether the file or its folder was removed.
     is_gone: bool,
-    /// Name of the parts.
-    name: &'static str,
 }
 
 /// Beginning of the first line.
@@ -131,11 +126,6 @@ struct Head<'a, Q> {
     parameters: &'a Q,
 }
 
-/// The file in which the parts for `output` are saved.
-fn partial_of(output: &Path) -> PathBuf {
-    beside::with(output, ".partial")
-}
-
 impl<P: Part> Finished<P> {
     /// The parts that an interrupted command with the same parameters saved beside `output`, if any; `has` selects
     /// the indices of its parts. Beside a stream, `None`, there is no file.
@@ -145,19 +135,10 @@ impl<P: Part> Finished<P> {
         parameters: &impl Serialize,
         has: impl Fn(usize) -> bool,
     ) -> Result<Self, Failure> {
-        match output {
-            Some(file) => Self::in_file(session, file, parameters, has),
-            None => Ok(Self { parts: P::All::default(), kept: None }),
-        }
-    }
-
-    fn in_file(
-        session: &Session,
-        output: &Path,
-        parameters: &impl Serialize,
-        has: impl Fn(usize) -> bool,
-    ) -> Result<Self, Failure> {
-        let path = partial_of(output);
+        let Some(output) = output else {
+            return Ok(Self { parts: P::All::default(), kept: None });
+        };
+        let path = beside::with(output, ".partial");
         let head = Head { software: Software::this(), arithmetic: arithmetic(), parameters };
         let opened = open::<P>(session, &path, output, &head, has);
         let (file, parts) = opened.map_err(|error| {
@@ -170,16 +151,8 @@ impl<P: Part> Finished<P> {
                 Failure::file("--output", output, message)
             })
         })?;
-        Ok(Self {
-            parts,
-            kept: Some(Kept {
-                session: session.clone(),
-                path,
-                file,
-                is_gone: false,
-                name: P::NAME,
-            }),
-        })
+        let kept = Some(Kept { session: session.clone(), path, file, is_gone: false });
+        Ok(Self { parts, kept })
     }
 
     pub(super) fn parts(&self) -> &P::All {
@@ -195,11 +168,17 @@ impl<P: Part> Finished<P> {
         Ok(())
     }
 
-    /// Saves the [`line_of`] a part in the file, without adding the part.
+    /// Saves the [`line_of`] a part in the file, without adding the part. Warns, once, if the file was removed or
+    /// renamed.
     pub(super) fn keep(&mut self, line: &[u8]) -> io::Result<()> {
-        if let Some(kept) = &mut self.kept {
-            kept.file.write_all(line)?;
-            kept.look_after();
+        let Some(Kept { session, path, file, is_gone }) = &mut self.kept else { return Ok(()) };
+        file.write_all(line)?;
+        if !*is_gone && beside::names(file).is_ok_and(|names| names == 0) {
+            *is_gone = true;
+            let (path, name) = (path.display(), P::NAME);
+            let fate = "are in memory only: an interrupt loses them; at the end they are written to --output or, if \
+            that fails, to a temporary file";
+            session.remark(format_args!("stickslip: {path} was removed; the {name}s {fate}"));
         }
         Ok(())
     }
@@ -255,20 +234,6 @@ impl<P: Part> Finished<P> {
     }
 }
 
-impl Kept {
-    /// Warns, once, if the file was removed or renamed.
-    fn look_after(&mut self) {
-        if !self.is_gone && is_removed(&self.file) {
-            self.is_gone = true;
-            let path = self.path.display();
-            let fate = "are in memory only: an interrupt loses them; at the end they are written to --output or, if \
-            that fails, to a temporary file";
-            self.session
-                .remark(format_args!("stickslip: {path} was removed; the {}s {fate}", self.name));
-        }
-    }
-}
-
 fn unfinished<P: Part>((done, count): (usize, usize), path: Option<&Path>, signal: u8) -> Failure {
     let parts = format!("{done} of {count} {}s", P::NAME);
     let message = match path.map(Path::display) {
@@ -276,17 +241,6 @@ fn unfinished<P: Part>((done, count): (usize, usize), path: Option<&Path>, signa
         None => format!("{parts} were {} and none are kept: -o FILE.json would keep them", P::DONE),
     };
     Failure::Unfinished { signal, message }
-}
-
-#[cfg(unix)]
-fn is_removed(file: &File) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    file.metadata().is_ok_and(|data| data.nlink() == 0)
-}
-
-#[cfg(not(unix))]
-fn is_removed(_: &File) -> bool {
-    false
 }
 
 /// A part as a line with the CRC-32 of its text.
@@ -326,7 +280,7 @@ fn open<P: Part>(
         }
         if text == first {
             let (length, parts) = read::<P>(session, path, lines, first.len(), has)?;
-            if !beside::has_other_names(&file)? {
+            if beside::names(&file)? <= 1 {
                 // An incomplete last line is removed.
                 file.set_len(length as u64)?;
                 (&file).seek(SeekFrom::End(0))?;

@@ -5,6 +5,7 @@
 use super::in_units::{of_document, with_origin};
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
+use crate::files::in_model_units::measured_in;
 use crate::files::input::open;
 use crate::session::{Session, TypedQuantity};
 use clap::{Arg, ArgAction, Command};
@@ -12,7 +13,6 @@ use serde_json::Value;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use stickslip::{Dimension, KnownScales};
-use stickslip_units::Unit;
 
 /// A command line whose quantities are numbers, and these numbers as they were typed.
 pub(crate) struct Translated {
@@ -44,19 +44,6 @@ pub(crate) fn units_of(command: &str, option: &str) -> Option<&'static [&'static
         (_, "load" | "load-range") => &["nN"],
         _ => return None,
     })
-}
-
-/// The quantity that a unit of the model measures, and the number of nm, s or nN in its SI unit.
-fn measured_in(unit: &str) -> (Unit, f64) {
-    const NANO: f64 = 1e9;
-    match unit {
-        "Γ/k" => (Unit::Time, 1.0),
-        "k/Γ" => (Unit::Rate, 1.0),
-        "Γ²/k" => (Unit::Mass, 1.0),
-        "kσ" | "nN" => (Unit::Force, NANO),
-        "kσ/Γ" | "k²σ²/(aΓ)" => (Unit::Velocity, NANO),
-        _ => (Unit::Length, NANO),
-    }
 }
 
 /// The scales that a number in this unit needs.

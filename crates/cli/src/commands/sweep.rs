@@ -8,8 +8,8 @@ use super::finished::{Finished, Part, Parts};
 use super::job::{Job, judge_places};
 use super::progress::Progress;
 use crate::arguments::{
-    InUnitsArguments, Length, OutletArguments, Range, RasterSweepArguments, SweepArguments,
-    SweepThen, TipArguments, WorkArguments,
+    AnswerArguments, Length, Range, RasterSweepArguments, SweepArguments, SweepThen, TipArguments,
+    WorkArguments,
 };
 use crate::commands::in_units::scales;
 use crate::commands::model::tip;
@@ -34,9 +34,6 @@ const MOST_THREADS: usize = 4096;
 const MOST_TIPS: usize = 10_000;
 
 impl Part for RasterSweepPoint {
-    const NAME: &'static str = "point";
-    const DONE: &'static str = "computed";
-    const WHOLE: &'static str = "sweep";
     type All = Vec<Self>;
 
     fn index(&self) -> usize {
@@ -50,8 +47,8 @@ pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(),
         Some(SweepThen::Raster(rasters)) => return raster(session, rasters),
         None => {}
     }
-    let SweepArguments { work, in_units, outlet, plot, tip_file, .. } = arguments;
-    let place = Place { session, work, in_units, outlet, plot: plot.as_deref() };
+    let SweepArguments { work, answer, tip_file, .. } = arguments;
+    let place = Place { session, work, answer };
     place.judge(&[("--tip-file", tip_file.as_deref())])?;
     let mut values = arguments.options.values(session)?;
     values.insert("tips".into(), tips(session, arguments)?);
@@ -61,7 +58,7 @@ pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(),
     let grid = Sweep { shard: work.shard, ..question }.grid();
     let footprint = TipArguments { tip_file: tip_file.clone(), ..TipArguments::default() };
     let grid = grid.map_err(|failure| refusal(failure, &footprint, &[]))?;
-    if plot.is_some() {
+    if answer.plot.is_some() {
         // Before hours of work.
         judge_sweep(&grid).map_err(|error| Failure::input("--plot", error))?;
     }
@@ -70,8 +67,8 @@ pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(),
 
 /// The pattern of a raster over pitch and α.
 fn raster(session: &Session, arguments: &RasterSweepArguments) -> Result<(), Failure> {
-    let RasterSweepArguments { options, work, in_units, outlet, plot } = arguments;
-    let place = Place { session, work, in_units, outlet, plot: plot.as_deref() };
+    let RasterSweepArguments { options, work, answer } = arguments;
+    let place = Place { session, work, answer };
     place.judge(&options.files())?;
     let question = parameter::question::<RasterSweep>(options.values(session)?)?;
     let question = RasterSweep { shard: work.shard, ..question };
@@ -110,15 +107,13 @@ fn tips(session: &Session, arguments: &SweepArguments) -> Result<Value, Failure>
 struct Place<'a> {
     session: &'a Session,
     work: &'a WorkArguments,
-    in_units: &'a InUnitsArguments,
-    outlet: &'a OutletArguments,
-    plot: Option<&'a Path>,
+    answer: &'a AnswerArguments,
 }
 
 impl Place<'_> {
     fn judge(&self, read: &[(&'static str, Option<&Path>)]) -> Result<(), Failure> {
         threads(self.work.threads)?;
-        judge_places(self.outlet, self.plot, read)
+        judge_places(&self.answer.outlet, self.answer.plot.as_deref(), read)
     }
 
     /// Computes the points that are not saved yet, each saved when it is complete, and writes the document.
@@ -127,8 +122,9 @@ impl Place<'_> {
         Document<Q>: Divided<Point = Q::Point, Parameters = Q>,
         Q::Point: Part,
     {
-        let scales = scales(self.session, self.in_units, tip_file, grid.support_velocity())?;
-        let job = Job::open(self.session, Q::FORMAT, self.outlet, self.plot)?;
+        let AnswerArguments { in_units, outlet, plot } = self.answer;
+        let scales = scales(self.session, in_units, tip_file, grid.support_velocity())?;
+        let job = Job::open(self.session, Q::FORMAT, outlet, plot.as_deref())?;
         let indices = grid.indices();
         let is_done = |file| merge::is_done::<Document<Q>>(self.session, file, &grid, &indices);
         if self.work.if_needed && job.file().is_some_and(is_done) {

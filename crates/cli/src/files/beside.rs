@@ -66,16 +66,16 @@ pub(crate) fn create_like(path: &Path, magic: &[u8], owner: &Path) -> io::Result
     create(path, magic, &Permissions::of(owner))
 }
 
-/// Whether the file has other names (hard links), under which it must not change.
+/// Number of names (hard links) of an open file: 0 once it was removed; where it has other names, it must not change.
 #[cfg(unix)]
-pub(crate) fn has_other_names(file: &File) -> io::Result<bool> {
+pub(crate) fn names(file: &File) -> io::Result<u64> {
     use std::os::unix::fs::MetadataExt;
-    Ok(file.metadata()?.nlink() > 1)
+    Ok(file.metadata()?.nlink())
 }
 
 #[cfg(not(unix))]
-pub(crate) fn has_other_names(_: &File) -> io::Result<bool> {
-    Ok(false)
+pub(crate) fn names(_: &File) -> io::Result<u64> {
+    Ok(1)
 }
 
 fn foreign(path: &Path) -> io::Error {
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(made(&path).unwrap_err().kind(), ErrorKind::AlreadyExists);
         fs::remove_file(&path).unwrap();
         fs::hard_link(&precious, &path).unwrap();
-        assert!(has_other_names(&ours(&path, MAGIC).unwrap().unwrap()).unwrap());
+        assert_eq!(names(&ours(&path, MAGIC).unwrap().unwrap()).unwrap(), 2);
         made(&path).unwrap();
         assert_eq!(fs::read(&precious).unwrap(), before);
     }

@@ -4,17 +4,28 @@ use super::heading::Heading;
 use stickslip::{Dimension, KnownScales};
 use stickslip_units::Unit;
 
-/// The meaning of a column by its name: its physical unit, the number of nm, s or nN in the SI unit, and the unit of
-/// the model. `None` if it has no dimension.
-fn meant(name: &str) -> Option<(Unit, f64, &'static str)> {
-    const NANO: f64 = 1e9;
+/// The unit of the model of a column by its name; `None` if it has no dimension.
+fn meant(name: &str) -> Option<&'static str> {
     Some(match name {
-        "x" | "y" | "R" | "start" | "length" => (Unit::Length, NANO, "σ"),
-        "u" => (Unit::Length, NANO, "kσ²/a"),
-        "t" => (Unit::Time, 1.0, "Γ/k"),
-        "force" => (Unit::Force, NANO, "kσ"),
+        "x" | "y" | "R" | "start" | "length" => "σ",
+        "u" => "kσ²/a",
+        "t" => "Γ/k",
+        "force" => "kσ",
         _ => return None,
     })
+}
+
+/// The quantity that a unit of the model measures, and the number of nm, s or nN in its SI unit.
+pub(crate) fn measured_in(unit: &str) -> (Unit, f64) {
+    const NANO: f64 = 1e9;
+    match unit {
+        "Γ/k" => (Unit::Time, 1.0),
+        "k/Γ" => (Unit::Rate, 1.0),
+        "Γ²/k" => (Unit::Mass, 1.0),
+        "kσ" | "nN" => (Unit::Force, NANO),
+        "kσ/Γ" | "k²σ²/(aΓ)" => (Unit::Velocity, NANO),
+        _ => (Unit::Length, NANO),
+    }
 }
 
 /// The columns called `names`; those with a unit in their heading are divided by the scales.
@@ -25,7 +36,8 @@ pub(super) fn in_model_units(
     scales: Option<&KnownScales>,
 ) -> Result<(), String> {
     for ((column, name), heading) in columns.iter_mut().zip(names.split(',')).zip(headings) {
-        let Some((unit, per_si, multiple)) = meant(name) else { continue };
+        let Some(multiple) = meant(name) else { continue };
+        let (unit, per_si) = measured_in(multiple);
         let Some((_, one)) = heading.unit(unit)? else { continue };
         let factor = Dimension::of_unit(multiple).and_then(|of| of.factor(scales?));
         let factor = factor.ok_or_else(|| {

@@ -27,7 +27,7 @@ impl Journal {
     pub(super) fn resume(path: &Path, magic: &[u8], mark: Mark) -> io::Result<Self> {
         let mut file = beside::ours(path, magic)?.ok_or(io::ErrorKind::NotFound)?;
         let hasher = verified(&file, mark)?;
-        if beside::has_other_names(&file)? {
+        if beside::names(&file)? > 1 {
             // It is locked again under the name alone.
             file.unlock()?;
             return Self::copy(&file, path, magic, mark);

@@ -7,7 +7,7 @@ mod dialect;
 pub(crate) mod distinct;
 pub(crate) mod gsf;
 pub(crate) mod heading;
-mod in_model_units;
+pub(crate) mod in_model_units;
 pub(crate) mod input;
 pub(crate) mod journal;
 pub(crate) mod lines;

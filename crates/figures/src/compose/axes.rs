@@ -60,6 +60,11 @@ pub(super) fn residual(of: &str, unit: Option<&str>) -> String {
     format!("data − {of}{unit}")
 }
 
+/// A unit as it follows a number.
+pub(super) fn after_number(unit: Option<&str>) -> String {
+    unit.map(|unit| format!(" {unit}")).unwrap_or_default()
+}
+
 /// A map of the surface; its colours cover these heights, by default all.
 pub(super) fn surface_map(
     (x, y): (&[f64], &[f64]),

@@ -1,6 +1,6 @@
 //! Figure of a fit: data, model, residuals, and the profiles of the likelihood.
 
-use super::axes::{labelled, residual};
+use super::axes::{after_number, labelled, residual};
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
@@ -20,7 +20,7 @@ impl Drawn for FitDocument {
         }
         let length = self.parameters.unit.as_deref();
         let words = self.numbers.iter().map(|n| {
-            let unit = unit_of(n, length).map(|unit| format!(" {unit}")).unwrap_or_default();
+            let unit = after_number(unit_of(n, length));
             format!("{} = {}{unit}", symbol(&n.name), with_error(&n.estimate))
         });
         let title = words.collect::<Vec<String>>().join(", ");

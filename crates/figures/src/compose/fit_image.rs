@@ -1,6 +1,6 @@
 //! Figure of a fit to an image of ripples: the image with its crests, and the mean ripple beside that of the model.
 
-use super::axes::labelled;
+use super::axes::{after_number, labelled};
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use super::raster::crest_lines;
@@ -27,7 +27,7 @@ impl Drawn for FitImageDocument {
         let heading = format!(
             "{}{} at {}°",
             with_error(&self.wavelength),
-            unit.map(|unit| format!(" {unit}")).unwrap_or_default(),
+            after_number(unit),
             with_error(&self.crest_angle)
         );
         let heading = heading.replace(" ± ", "\u{a0}±\u{a0}");

@@ -1,5 +1,6 @@
 //! Figure of a friction loop: trace and retrace, with the kinetic force and the static peaks.
 
+use super::axes::after_number;
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
@@ -14,7 +15,7 @@ impl Drawn for FrictionDocument {
             return Err(FigureError::Nothing("the loop has no rows".into()));
         };
         let said = |estimate, unit: &Option<String>| {
-            let unit = unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
+            let unit = after_number(unit.as_deref());
             format!("{}{unit}", with_error(estimate)).replace(' ', "\u{a0}")
         };
         let title = format!(

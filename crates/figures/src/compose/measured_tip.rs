@@ -1,6 +1,6 @@
 //! Figure of a measured footprint: data, fit, and residuals.
 
-use super::axes::{evenly, labelled, residual};
+use super::axes::{after_number, evenly, labelled, residual};
 use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
@@ -23,7 +23,7 @@ impl Drawn for MeasuredTipDocument {
             self.terms,
             if self.terms == 1 { "" } else { "s" },
             with_error(&self.sigma),
-            unit.map(|unit| format!(" {unit}")).unwrap_or_default(),
+            after_number(unit),
             with_error(&self.critical_alpha),
             short(self.parameters.r),
         );

@@ -33,7 +33,7 @@ mod walker;
 #[cfg(feature = "animation")]
 mod wandering;
 
-use crate::axis::is_range;
+use crate::axis::can_be_drawn;
 use crate::error::FigureError;
 #[cfg(feature = "animation")]
 use crate::scene::{Scene, Shot};
@@ -123,12 +123,6 @@ fn judge(panel: &PanelDocument) -> Result<(), FigureError> {
         return Ok(());
     }
     Err(FigureError::Damaged("a map has not as many rows and columns as its axes".into()))
-}
-
-/// Whether two numbers are the ends of a valid axis: below 1e100, and apart by at least 1e-12 of the larger and by
-/// 1e-100.
-pub fn can_be_drawn(range: [f64; 2]) -> bool {
-    is_range(range)
 }
 
 /// Figure of the oscillation along a boundary; in physical units if the view or the document contains the scales of

@@ -8,7 +8,7 @@ use super::{Comparison, Sides};
 use crate::failure::Failure;
 use stickslip::{ClosedDocument, GridDocument};
 use stickslip_grid::{
-    Path, PlaneMethod, PlaneProblem, PlaneRequest, PlaneStart, Product, Wider, solve_plane,
+    PlaneMethod, PlaneProblem, PlaneRequest, PlaneStart, Product, Wider, solve_plane,
 };
 use stickslip_surface::SurfaceAcross;
 use stickslip_tip::planar::{
@@ -102,9 +102,7 @@ fn on_cells(
     let model = (along.model.alpha(), along.model.r());
     let support = along.support();
     let position = |t: f64| support.position(t);
-    let knots = along.path.as_ref().map_or(&[][..], |path| path.knots().0);
-    let path = along.path.is_some().then_some(Path { position: &position, knots });
-    let law = wider(along, path);
+    let law = wider(along, &position);
     let texture = scenario.texture().map_err(Failure::run)?;
     let start = start(scenario, &law, products, texture);
     let problem = PlaneProblem {

@@ -5,12 +5,11 @@ use super::pace::{Unit, Watch, timed};
 use crate::failure::Failure;
 use stickslip::{ClosedDocument, ClosedWork};
 use stickslip_surface::Surface;
-use stickslip_tip::{Run, Scenario, Trajectory, Work, run_observed};
+use stickslip_tip::{Run, Scenario, Work, run_observed};
 
 /// A finished run and its time.
 pub(super) struct Closed {
-    run: Run,
-    pub(super) trajectory: Trajectory,
+    pub(super) run: Run,
     seconds: f64,
 }
 
@@ -24,7 +23,7 @@ pub(super) fn run(comparison: &Comparison, scenario: &Scenario) -> Result<Closed
         watch.ended(run.map_err(|error| question.refused(&error).into()))
     };
     let (run, seconds) = timed(once)?;
-    Ok(Closed { trajectory: run.trajectory.clone(), run, seconds })
+    Ok(Closed { run, seconds })
 }
 
 impl Closed {
@@ -36,7 +35,8 @@ impl Closed {
         end: f64,
         x: &[f64],
     ) -> Result<ClosedDocument, Failure> {
-        let Self { run, trajectory, seconds } = self;
+        let Self { run, seconds } = self;
+        let trajectory = &run.trajectory;
         let surface = Surface::new(&scenario.model, &run.initial_surface, trajectory);
         let u = surface.heights(end.min(trajectory.end()), x);
         Ok(ClosedDocument {

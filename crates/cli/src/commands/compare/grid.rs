@@ -144,9 +144,7 @@ pub(super) fn run(
     let texture = texture(scenario)?;
     let support = scenario.support();
     let position = |t: f64| support.position(t);
-    let knots = scenario.path.as_ref().map_or(&[][..], |path| path.knots().0);
-    let path = scenario.path.is_some().then_some(Path { position: &position, knots });
-    let law = wider(scenario, path);
+    let law = wider(scenario, &position);
     let start = start(scenario, &law, footprint, texture.as_ref());
     let problem = Problem::under(law, (model.alpha(), model.r()), footprint, start)
         .map_err(explain)?
@@ -192,8 +190,9 @@ fn texture(scenario: &Scenario) -> Result<Option<InitialSurface>, Failure> {
     scenario.initial_surface().map(Some).map_err(Failure::run)
 }
 
-/// The law in the types of the grid.
-pub(super) fn wider<'a>(scenario: &Scenario, path: Option<Path<'a>>) -> Wider<'a> {
+/// The law in the types of the grid, with this position of the support if it moves on a path.
+pub(super) fn wider<'a>(scenario: &'a Scenario, position: &'a dyn Fn(f64) -> f64) -> Wider<'a> {
+    let path = scenario.path.as_ref().map(|path| Path { position, knots: path.knots().0 });
     let stickslip_tip::Wider { depth_limit, healing_time, inertia, spring } =
         *scenario.model.wider();
     let velocity = scenario.velocity_at_start();

@@ -2,7 +2,9 @@
 
 use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
-use stickslip::{CompareDocument, CompareFound, SurfaceDocument, UnitsDocument};
+use stickslip::{
+    CompareDocument, CompareFound, DifferenceDocument, SurfaceDocument, UnitsDocument,
+};
 
 impl Product for SurfaceDocument {
     fn summary(&self) -> Summary {
@@ -44,10 +46,7 @@ impl Product for CompareDocument {
             1e3 * grid.work.seconds,
             times(*speedup),
         ));
-        summary
-            .row("difference in x0", format!("{:.1e} σ", max_difference.x0))
-            .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
-            .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
+        differences(summary, max_difference)
             .row(
                 "closed equation",
                 format!("{} steps, {:.2} ms", closed.work.steps, 1e3 * closed.work.seconds),
@@ -56,6 +55,14 @@ impl Product for CompareDocument {
             .row("speedup", format!("{} per unit of time simulated", times(*speedup)))
             .next(again("-o compare.json --plot compare.svg"))
     }
+}
+
+/// Adds the largest differences between closed equation and grid.
+pub(super) fn differences(summary: Summary, largest: &DifferenceDocument) -> Summary {
+    summary
+        .row("difference in x0", format!("{:.1e} σ", largest.x0))
+        .maybe("difference in y0", largest.y0.map(|y0| format!("{y0:.1e} σ")))
+        .row("difference in u", format!("{:.1e} kσ²/a", largest.u))
 }
 
 impl Product for UnitsDocument {

@@ -1,5 +1,6 @@
 //! Summaries of rasters.
 
+use super::others::differences;
 use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
 use stickslip::{
@@ -169,10 +170,7 @@ impl Product for RasterCompareDocument {
             max_difference.u,
             times(*speedup),
         ));
-        summary
-            .row("difference in x0", format!("{:.1e} σ", max_difference.x0))
-            .maybe("difference in y0", max_difference.y0.map(|y0| format!("{y0:.1e} σ")))
-            .row("difference in u", format!("{:.1e} kσ²/a", max_difference.u))
+        differences(summary, max_difference)
             .row("closed equation", format!("{} steps, {closed:.2} ms", closed_work.steps))
             .row("grid", format!("{} steps, {grid:.0} ms", grid_work.steps))
             .row("speedup", times(*speedup))

@@ -1,7 +1,7 @@
 //! `stickslip sweep merge`.
 
 use super::divided::Divided;
-use crate::arguments::MergeArguments;
+use crate::arguments::{AnswerArguments, MergeArguments};
 use crate::commands::finished::Parts;
 use crate::commands::in_units::scales;
 use crate::commands::job::{Job, judge_places};
@@ -18,7 +18,7 @@ const PART: &str = "PART.json";
 /// Combines the parts; the first one determines the kind of document.
 pub(super) fn merge(session: &Session, arguments: &MergeArguments) -> Result<(), Failure> {
     let named: Vec<Named> = arguments.parts.iter().map(|part| (PART, Some(&**part))).collect();
-    judge_places(&arguments.outlet, arguments.plot.as_deref(), &named)?;
+    judge_places(&arguments.answer.outlet, arguments.answer.plot.as_deref(), &named)?;
     let first = arguments.parts.iter().find(|part| *part != Path::new("-"));
     let format =
         first.map_or(Ok(None), |path| format_of(session, PART, path, SweepDocument::FORMAT))?;
@@ -57,11 +57,12 @@ fn merged<D: Divided>(session: &Session, arguments: &MergeArguments) -> Result<(
     whole.held().points.order();
     judge_parts(&shards)?;
     complete(&whole)?;
-    if arguments.plot.is_some() {
+    let AnswerArguments { in_units, outlet, plot } = &arguments.answer;
+    if plot.is_some() {
         whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
     }
-    let scales = scales(session, &arguments.in_units, None, whole.velocity())?;
-    let job = Job::open(session, D::FORMAT, &arguments.outlet, arguments.plot.as_deref())?;
+    let scales = scales(session, in_units, None, whole.velocity())?;
+    let job = Job::open(session, D::FORMAT, outlet, plot.as_deref())?;
     job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
 

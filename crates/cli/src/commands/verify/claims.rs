@@ -36,6 +36,11 @@ fn words(remark: &str) -> String {
     remark.chars().filter(|c| !(c.is_ascii_digit() || "+-.e".contains(*c))).collect()
 }
 
+/// Largest difference of a value between machines.
+fn digits(_: &str, value: f64) -> f64 {
+    DIGITS * (1.0 + value.abs())
+}
+
 /// A column of samples, with its recomputed values.
 struct Column {
     field: &'static str,
@@ -240,9 +245,8 @@ impl Claims {
         computed: Option<&T>,
         allowed: &dyn Fn(&str, f64) -> f64,
     ) {
-        let value = |part: Option<&T>| json!(part);
         if claimed.is_some() || computed.is_some() {
-            self.judge(field, &value(claimed), &value(computed), allowed);
+            self.judge(field, &json!(claimed), &json!(computed), allowed);
         }
     }
 
@@ -253,7 +257,6 @@ impl Claims {
         scenario: &Scenario,
         steady: Option<&SteadyState>,
     ) {
-        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let computed = SteadyState::of(&scenario.model);
         self.judge_if("steady_state", steady, computed.as_ref(), &digits);
         let (law, tip) = (*scenario.model.wider(), scenario.model.tip());
@@ -267,7 +270,6 @@ impl Claims {
 
     /// Checks the result of the run.
     fn of_end(&mut self, claimed: &RunEnd, computed: &RunEnd, tolerance: f64) {
-        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let names = (&claimed.work.memory, &computed.work.memory);
         self.judge("work.memory", &json!(names.0), &json!(names.1), &digits);
         // A run that was stopped may have had no time to judge its motion.
@@ -325,7 +327,6 @@ impl Claims {
 
     /// Checks values that follow from the history of a document, and their conversions to other units.
     fn of_document(&mut self, run: &RunDocument, motion: Option<&Motion>) {
-        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         if let Some(motion) = motion {
             let steps = motion.count();
             self.judge("work.steps", &json!(run.work.steps), &json!(steps), &|_, _| 0.0);
@@ -469,7 +470,6 @@ pub(super) fn of_lines(
     claims.0.extend(columns.worst());
     if let Some(end) = end {
         claims.of_end(end, &computed, scenario.tolerance);
-        let digits = |_: &str, value: f64| DIGITS * (1.0 + value.abs());
         let is_cut = computed.end < scenario.until && scenario.until - computed.end > DIGITS;
         claims.judge("interrupted", &json!(end.interrupted), &json!(is_cut), &digits);
         if !end.interrupted {

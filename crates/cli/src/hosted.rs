@@ -10,18 +10,18 @@ pub use stickslip_saved::Document;
 
 use crate::arguments::{Cli, Command};
 use crate::commands::carried_out;
-use crate::commands::quantities::{Translated, translated};
+use crate::commands::quantities::translated;
 use crate::commands::run::many;
 use crate::failure::Failure;
 use crate::files::input::open;
 use crate::message::harmless;
-use crate::session::Session;
+use crate::session::{Session, locked};
 use clap::{ArgAction, CommandFactory, FromArgMatches};
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::Path;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 use stickslip::{UnitsDocument, Unusable, VerifyDocument, identified};
 use stickslip_saved::{Saved, drawn};
 use stickslip_tip::stop;
@@ -46,9 +46,7 @@ pub fn call<'a>(
     words: impl IntoIterator<Item = &'a str>,
     host: &Arc<Host>,
 ) -> Result<Option<Made>, Refusal> {
-    let session = Session::of(host);
-    let (cli, line) = parse(&session, words)?;
-    let session = session.with_quantities(line.typed);
+    let (session, cli) = parse(host, words)?;
     match stop::with_flag(host.stop(), || carried_out(&session, &cli.command)) {
         Ok(()) => Ok(host.take()),
         // Work that ends early has its own message.
@@ -70,12 +68,10 @@ pub fn runs(
     host: &Arc<Host>,
 ) -> Result<Vec<Result<Made, Refusal>>, (usize, Refusal)> {
     let order = |(words, own): &(Vec<String>, Arc<Host>)| {
-        let session = Session::of(own);
-        let (cli, line) = parse(&session, words.iter().map(String::as_str))?;
+        let (session, cli) = parse(own, words.iter().map(String::as_str))?;
         let Command::Run(arguments) = &cli.command else {
             return Err(Refusal::Input("only runs can be computed together".into()));
         };
-        let session = session.with_quantities(line.typed);
         many::order_of(&session, arguments).map_err(|failure| session.restored(failure).into())
     };
     let orders = commands.iter().enumerate();
@@ -108,11 +104,12 @@ fn parser() -> &'static Mutex<clap::Command> {
     PARSER.get_or_init(|| Mutex::new(Cli::command().no_binary_name(true)))
 }
 
+/// The command of these words, and its session.
 fn parse<'a>(
-    session: &Session,
+    host: &Arc<Host>,
     words: impl IntoIterator<Item = &'a str>,
-) -> Result<(Cli, Translated), Refusal> {
-    let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+) -> Result<(Session, Cli), Refusal> {
+    let (mut parser, session) = (locked(parser()), Session::of(host));
     let refused = |error: clap::Error| {
         let said = error.render().to_string();
         // The error, without usage and advice for a shell.
@@ -121,9 +118,10 @@ fn parse<'a>(
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
     };
     let words = words.into_iter().map(OsString::from).collect();
-    let line = translated(session, words, &mut parser)?;
+    let line = translated(&session, words, &mut parser)?;
     let matches = parser.try_get_matches_from_mut(&line.words).map_err(refused)?;
-    Ok((Cli::from_arg_matches(&matches).map_err(refused)?, line))
+    let cli = Cli::from_arg_matches(&matches).map_err(refused)?;
+    Ok((session.with_quantities(line.typed), cli))
 }
 
 /// An option of a command, as described in its help.
@@ -145,7 +143,7 @@ pub struct OptionDescription {
 
 /// The options of a command or subcommand, such as `["sweep", "raster"]`; `None` if there is no such command.
 pub fn options(path: &[&str]) -> Option<Vec<OptionDescription>> {
-    let mut parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+    let mut parser = locked(parser());
     parser.build();
     let command = path.iter().try_fold(&*parser, |at, name| at.find_subcommand(name))?;
     let summary = |argument: &clap::Arg| OptionDescription {
@@ -173,7 +171,7 @@ fn value_of(argument: &clap::Arg) -> Option<String> {
 
 /// The names of all commands, with descriptions.
 pub fn commands() -> Vec<(String, String)> {
-    let parser = parser().lock().unwrap_or_else(PoisonError::into_inner);
+    let parser = locked(parser());
     let summary = |command: &clap::Command| {
         let about = command.get_about().map(ToString::to_string).unwrap_or_default();
         (command.get_name().to_owned(), about)

@@ -10,12 +10,12 @@
 use crate::failure::Failure;
 use crate::files::temporary::remove_unfinished;
 use crate::message::say;
-use crate::session::Session;
+use crate::session::{Session, locked};
 use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 use std::io;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
 
@@ -73,7 +73,7 @@ fn after_a_while(signal: u8) -> Option<Failure> {
     if state().keepers.load(Ordering::SeqCst) == 0 {
         return Some(Failure::Stopped(signal));
     }
-    let farewell = state().farewell.lock().unwrap_or_else(PoisonError::into_inner);
+    let farewell = locked(&state().farewell);
     let failure = farewell.as_ref().map(|tell| tell(signal));
     if failure.is_none() {
         say(format_args!(
@@ -113,7 +113,7 @@ impl Interrupt {
     /// signal, with this error.
     pub(crate) fn or_else(&self, tell: impl Fn(u8) -> Failure + Send + 'static) {
         if !self.session.has_host() {
-            *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(tell));
+            *locked(&state().farewell) = Some(Box::new(tell));
         }
     }
 
@@ -136,7 +136,7 @@ impl Drop for Interrupt {
         if self.session.has_host() {
             return;
         }
-        *state().farewell.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        *locked(&state().farewell) = None;
         state().keepers.fetch_sub(1, Ordering::SeqCst);
     }
 }

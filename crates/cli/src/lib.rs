@@ -71,7 +71,7 @@ fn failed(failure: &Failure) -> ExitCode {
     if !failure.is_silent() {
         say(format_args!("stickslip: {failure}"));
     }
-    failure.exit_code()
+    ExitCode::from(failure.status())
 }
 
 /// Removes a suggested option from the message unless it is at least as similar as a suggested field must be.
@@ -102,11 +102,5 @@ fn answered(error: &clap::Error) -> ExitCode {
     match error.print() {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => ExitCode::FAILURE,
         _ => ExitCode::SUCCESS,
-    }
-}
-
-impl Failure {
-    fn exit_code(&self) -> ExitCode {
-        ExitCode::from(self.status())
     }
 }

@@ -86,7 +86,7 @@ pub(crate) enum SweepThen {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  stickslip sweep merge part-*.json -o map.json --plot map.svg",
-    mut_arg("plot", |plot| plot.help("Draw the result, as for `sweep`").help_heading(None))
+    mut_arg("plot", |plot| plot.help("Draw the result, as for `sweep`"))
 )]
 pub(crate) struct MergeArguments {
     /// Documents of `stickslip sweep --shard`, or of `stickslip sweep raster --shard`, in any order.

@@ -11,11 +11,11 @@ use crate::failure::{Failure, Typed};
 use crate::files::distinct::Named;
 use crate::files::text::{LARGEST_TABLE, read_text};
 use crate::interrupt::Interrupt;
-use crate::session::Session;
+use crate::session::{Session, locked};
 use serde_json::{Map, Value};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use stickslip::parameter::{Distinct, Parameter, overridden};
 use stickslip::{
@@ -32,7 +32,7 @@ pub(crate) fn context_cancelled_by(session: &Session, flag: Arc<AtomicBool>) -> 
     let progress: Mutex<Option<Progress>> = Mutex::new(None);
     let session = session.clone();
     Context::cancelled_by(flag).timed_by(seconds).watched_by(move |part, counted| {
-        let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut progress = locked(&progress);
         let bar = progress.get_or_insert_with(|| match part {
             Some(_) => Progress::new(&session, 0.0, 1.0).at_every_call(),
             None => Progress::without_end(&session).at_every_call(),

@@ -191,27 +191,21 @@ fn document(
         let advice = "the grid's motion is no longer finite: shorten --step, or leave it out";
         return Err(Failure::Run(advice.into()));
     }
-    let (parameters, speedup) = (parameters(arguments, comparison), rates[0] / rates[1]);
-    Ok(Document::new(
-        parameters,
-        CompareFound { t, x, closed, grid, max_difference, speedup },
-        vec![],
-    ))
-}
-
-/// The largest difference; NaN if either value is NaN.
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
-}
-
-fn parameters(arguments: &CompareArguments, comparison: &Comparison) -> CompareParameters {
-    CompareParameters {
+    let parameters = CompareParameters {
         run: comparison.question.clone(),
         grid: arguments.grid,
         spacing: comparison.discretisation.spacing,
         grid_tolerance: comparison.discretisation.tolerance(),
         step: arguments.step,
         grid_until: comparison.grid_until,
-    }
+    };
+    let speedup = rates[0] / rates[1];
+    let found = CompareFound { t, x, closed, grid, max_difference, speedup };
+    Ok(Document::new(parameters, found, vec![]))
+}
+
+/// The largest difference; NaN if either value is NaN.
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |most, d| if d.is_nan() || d > most { d } else { most })
 }

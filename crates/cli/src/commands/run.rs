@@ -21,7 +21,7 @@ use crate::files::stream::Stream;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use checkpoint::Checkpoints;
-use integration::{Integrated, Integration};
+use integration::Integration;
 use motion::{Motion, Recorded};
 use record::{Record, Sink};
 use serde_json::Value;
@@ -71,7 +71,7 @@ fn integrated<R: Motion>(
     order: &Order,
     scenario: &Scenario,
     running: R,
-) -> Result<(Integrated<R>, Target), Failure> {
+) -> Result<(Integration<R>, Target), Failure> {
     let interrupt = Interrupt::listen(session)?;
     // All places are judged before the work, so that it is not in vain.
     let checkpoint = arguments.checkpoint.as_deref();

@@ -2,11 +2,12 @@
 //! that a process killed during the computation leaves none. A process killed during writing leaves one, which the
 //! next writer of the same file removes. A lock, which ends with its process, distinguishes the two cases.
 
+use crate::session::locked;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::Mutex;
 use tempfile::{Builder, NamedTempFile};
 
 /// Checks whether a folder accepts new files, and leaves none there.
@@ -18,13 +19,9 @@ pub(super) fn may_be_made_in(folder: &Path) -> io::Result<()> {
 /// Unfinished files, removed when a signal ends the program.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(vec![]);
 
-fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Removes unfinished files at the end of the program.
 pub(crate) fn remove_unfinished() {
-    for path in unfinished().drain(..) {
+    for path in locked(&UNFINISHED).drain(..) {
         fs::remove_file(path).ok();
     }
 }
@@ -35,14 +32,14 @@ pub(super) struct Unfinished(PathBuf);
 impl Unfinished {
     /// Registers an unfinished file.
     pub(super) fn at(path: &Path) -> Self {
-        unfinished().push(path.into());
+        locked(&UNFINISHED).push(path.into());
         Self(path.into())
     }
 }
 
 impl Drop for Unfinished {
     fn drop(&mut self) {
-        unfinished().retain(|path| *path != self.0);
+        locked(&UNFINISHED).retain(|path| *path != self.0);
     }
 }
 

@@ -11,22 +11,14 @@ use std::sync::Arc;
 use std::time::Instant;
 use stickslip_tip::{Scenario, stop};
 
-/// A run in progress, with its outputs.
+/// A run in progress or finished, with its outputs.
 pub(super) struct Integration<R: Motion> {
     pub(super) running: R,
     pub(super) record: Record<R::Step>,
     pub(super) checkpoints: Option<Checkpoints>,
     pub(super) interrupt: Interrupt,
-    /// Time spent before a resume, in seconds.
+    /// Time spent so far, in seconds.
     pub(super) seconds: f64,
-}
-
-/// A finished run.
-pub(super) struct Integrated<R: Motion> {
-    pub(super) running: R,
-    pub(super) record: Record<R::Step>,
-    pub(super) seconds: f64,
-    pub(super) interrupt: Interrupt,
 }
 
 impl<R: Motion> Integration<R> {
@@ -52,17 +44,16 @@ impl<R: Motion> Integration<R> {
         mut self,
         session: &Session,
         scenario: &Scenario,
-    ) -> Result<Integrated<R>, Failure> {
+    ) -> Result<Self, Failure> {
         let progress = Progress::new(session, scenario.start_time(), scenario.until);
         let (started, before) = (Instant::now(), self.seconds);
         let seconds = || before + started.elapsed().as_secs_f64();
         // Once for all steps: a step may be as short as this takes.
         let flag = Arc::clone(self.interrupt.flag());
         let is_whole = stop::with_flag(&flag, || self.advance(progress, seconds))?;
-        let seconds = seconds();
+        self.seconds = seconds();
         self.record.end(self.running.last().filter(|_| is_whole).as_ref())?;
-        let Self { running, record, interrupt, .. } = self;
-        Ok(Integrated { running, record, seconds, interrupt })
+        Ok(self)
     }
 
     /// Makes and records steps to the end or to a signal; returns whether all samples of the last one were taken.

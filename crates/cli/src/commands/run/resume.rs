@@ -1,7 +1,7 @@
 //! Resume of a run from a checkpoint.
 
 use super::checkpoint::{self, Checkpoints};
-use super::integration::{Integrated, Integration};
+use super::integration::Integration;
 use super::motion::Motion;
 use super::record::Sink;
 use super::write::{self, Target};
@@ -67,7 +67,7 @@ fn resumed<R: Motion>(
     Place { checkpoint, before, arguments }: Place<'_>,
     scenario: &Scenario,
     running: R,
-) -> Result<(Integrated<R>, Target), Failure> {
+) -> Result<(Integration<R>, Target), Failure> {
     let order = &head.order;
     judge(head, running.t(), scenario).map_err(|message| {
         let path = arguments.resume.as_deref().unwrap_or(checkpoint.path());

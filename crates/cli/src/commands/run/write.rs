@@ -1,6 +1,6 @@
 //! Output of a run.
 
-use super::integration::Integrated;
+use super::integration::Integration;
 use super::motion::Motion;
 use super::record::{Record, Sink};
 use crate::commands::fields::Fields;
@@ -64,10 +64,10 @@ fn finish_lines(
 pub(super) fn all<R: Motion>(
     session: &Session,
     order: &Order,
-    integrated: Integrated<R>,
+    integrated: Integration<R>,
     target: Target,
 ) -> Result<(), Failure> {
-    let Integrated { running, mut record, seconds, interrupt } = integrated;
+    let Integration { running, mut record, seconds, interrupt, .. } = integrated;
     let found = stop::with_flag(interrupt.flag(), || running.became(seconds));
     let end = RunEnd { interrupted: interrupt.signal().is_some(), ..found? };
     let signal = interrupt.signal().filter(|_| end.interrupted);

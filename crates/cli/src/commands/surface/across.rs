@@ -5,10 +5,7 @@ use super::write::{self, SurfaceFormat};
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::session::Session;
-use stickslip::{
-    AcrossParameters, Document, Physical, RunDocument, SurfaceCurve, SurfaceDocument, SurfaceFound,
-    SurfaceImage, SurfaceParameters,
-};
+use stickslip::{AcrossParameters, RunDocument, SurfaceDocument, SurfaceParameters};
 use stickslip_surface::SurfaceAcross;
 use stickslip_tip::Trajectory;
 
@@ -38,9 +35,10 @@ pub(super) fn surface(
     let (physical, r) = (document.physical.as_ref(), scenario.along.model.r());
     let (scales, in_metres) = format.scales(session, arguments, physical, r)?;
     let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;
-    let surface = SurfaceAcross::new(&scenario, &trajectory);
-    let surface = surface.map_err(Failure::run)?;
-    let found = found(&surface, &places)?;
+    let surface = SurfaceAcross::new(&scenario, &trajectory).map_err(Failure::run)?;
+    // Curves are those along the line y = 0.
+    let y = if places.y.is_empty() { &[0.0][..] } else { &places.y };
+    let rows = |t: f64| surface.image(t, &places.x, y).map_err(|error| error.to_string());
     let across = AcrossParameters {
         width_y: document.parameters.width_y,
         transverse_stiffness_needed: None,
@@ -50,27 +48,5 @@ pub(super) fn surface(
         far_behind: false,
         across: (!places.y.is_empty()).then_some(across),
     };
-    let result: SurfaceDocument = Document::new(parameters, found, vec![]);
-    let result = result.in_units(scales.as_ref());
-    match in_metres {
-        None => job.finish(result),
-        Some(unit) => job.finish_bytes(&write::field(&result, &places, unit), result),
-    }
-}
-
-fn found(surface: &SurfaceAcross, places: &Places) -> Result<SurfaceFound, Failure> {
-    let Places { t, x, y, .. } = places;
-    let mut found = SurfaceFound { surfaces: vec![], images: vec![] };
-    for t in t {
-        let rows = if y.is_empty() { &[0.0][..] } else { y };
-        let image = surface.image(*t, x, rows).map_err(Failure::run)?;
-        let mut u = image.rows().into_iter().map(|row| row.to_vec());
-        if y.is_empty() {
-            let u = u.next().unwrap_or_default();
-            found.surfaces.push(SurfaceCurve { t: *t, x: x.clone(), u });
-        } else {
-            found.images.push(SurfaceImage { t: *t, x: x.clone(), y: y.clone(), u: u.collect() });
-        }
-    }
-    Ok(found)
+    write::surfaces(job, parameters, &places, (scales, in_metres), rows)
 }

@@ -5,8 +5,8 @@ use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 use crate::session::Session;
 use ndarray::Array2;
+use stickslip::AcrossParameters;
 use stickslip::lines::footprint;
-use stickslip::{AcrossParameters, SurfaceImage};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Model};
 
@@ -65,20 +65,6 @@ impl Images {
             width_y: self.width_y,
             transverse_stiffness_needed: needed.is_finite().then_some(needed),
         }
-    }
-
-    pub(super) fn reconstruct(
-        &self,
-        surface: &Surface,
-        places: &Places,
-    ) -> Result<Vec<SurfaceImage>, Failure> {
-        let Places { t, x, y, .. } = places;
-        let at = |t: &f64| {
-            let image = self.heights(surface, *t, (x, y)).map_err(Failure::Run)?;
-            let u = image.rows().into_iter().map(|row| row.to_vec()).collect();
-            Ok(SurfaceImage { t: *t, x: x.clone(), y: y.clone(), u })
-        };
-        t.iter().map(at).collect()
     }
 
     /// u at every y (rows) and every x (columns).

@@ -14,11 +14,10 @@ use crate::files::distinct::distinct;
 use crate::files::input::{RunOrRaster, read_scanned};
 use crate::session::Session;
 use image::Images;
+use ndarray::{Array1, Array2, Axis};
 use places::Places;
-use stickslip::{
-    Document, Physical, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceParameters, Unusable,
-};
-use stickslip_surface::Surface;
+use stickslip::{SurfaceDocument, SurfaceParameters, Unusable};
+use stickslip_surface::{Surface, SurfaceError};
 use write::SurfaceFormat;
 
 pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result<(), Failure> {
@@ -57,38 +56,21 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
         return write::large(arguments, (&places, &places.y), &title, unit, rows);
     }
     let job = format.job(session, SurfaceDocument::FORMAT, arguments)?;
-    let found = match &images {
-        Some(images) => {
-            images.warn(session);
-            let images = images.reconstruct(&surface, &places)?;
-            SurfaceFound { surfaces: vec![], images }
-        }
-        None => SurfaceFound { surfaces: curves(arguments, &surface, &places)?, images: vec![] },
+    images.iter().for_each(|images| images.warn(session));
+    let rows = |t: f64| match &images {
+        Some(images) => images.heights(&surface, t, (&places.x, &places.y)),
+        None if arguments.far_behind => row(surface.far_behind(t, &places.x)),
+        None => row(surface.heights(t, &places.x)),
     };
     let parameters = SurfaceParameters {
         model: document.parameters.model_parameters(),
         far_behind: arguments.far_behind,
         across: images.as_ref().map(Images::parameters),
     };
-    let result: SurfaceDocument = Document::new(parameters, found, vec![]);
-    let result = result.in_units(scales.as_ref());
-    match in_metres {
-        None => job.finish(result),
-        Some(unit) => job.finish_bytes(&write::field(&result, &places, unit), result),
-    }
+    write::surfaces(job, parameters, &places, (scales, in_metres), rows)
 }
 
-fn curves(
-    arguments: &SurfaceArguments,
-    surface: &Surface,
-    places: &Places,
-) -> Result<Vec<SurfaceCurve>, Failure> {
-    let x = places.x.as_slice();
-    let at = |t: &f64| {
-        let u =
-            if arguments.far_behind { surface.far_behind(*t, x) } else { surface.heights(*t, x) };
-        let u = u.map_err(Failure::run)?.to_vec();
-        Ok(SurfaceCurve { t: *t, x: x.to_vec(), u })
-    };
-    places.t.iter().map(at).collect()
+/// Heights on a line as an image of one row.
+fn row(heights: Result<Array1<f64>, SurfaceError>) -> Result<Array2<f64>, String> {
+    heights.map(|heights| heights.insert_axis(Axis(0))).map_err(|error| error.to_string())
 }

@@ -56,8 +56,10 @@ impl Places {
         (low, high): (f64, f64),
         most_pixels: f64,
     ) -> Result<Self, Failure> {
-        let spacing = spacing("--spacing", arguments.spacing, DEFAULT_SPACING)?;
-        let spacing_y = self::spacing("--spacing-y", arguments.spacing_y, spacing)?;
+        let spacing = arguments.spacing.unwrap_or(DEFAULT_SPACING);
+        let spacing = Failure::unless_positive("--spacing", spacing)?;
+        let spacing_y = arguments.spacing_y.unwrap_or(spacing);
+        let spacing_y = Failure::unless_positive("--spacing-y", spacing_y)?;
         let across = match &arguments.y_range {
             None => None,
             Some(typed) => {
@@ -124,10 +126,6 @@ fn range(
     let points = typed.points(option, given.map(|_| other))?;
     let spacing = points.map_or(spacing, |points| (high - low) / (points - 1) as f64);
     Ok(Range { low, high, spacing })
-}
-
-fn spacing(option: &str, typed: Option<f64>, default: f64) -> Result<f64, Failure> {
-    Failure::unless_positive(option, typed.unwrap_or(default))
 }
 
 impl Range {

@@ -10,7 +10,10 @@ use crate::files::output::Output;
 use crate::session::Session;
 use ndarray::Array2;
 use std::io;
-use stickslip::{InUnits, KnownScales, SurfaceDocument};
+use stickslip::{
+    Document, InUnits, KnownScales, Physical, SurfaceCurve, SurfaceDocument, SurfaceFound,
+    SurfaceImage, SurfaceParameters,
+};
 
 /// The output: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,8 +102,36 @@ impl SurfaceFormat {
     }
 }
 
+/// Writes surfaces of a run, or an image in the units of a .gsf file. `rows` computes the heights at a time: an image, or
+/// the single row of a curve.
+pub(super) fn surfaces(
+    job: Job,
+    parameters: SurfaceParameters,
+    places: &Places,
+    (scales, in_metres): (Option<KnownScales>, Option<InMetres>),
+    rows: impl Fn(f64) -> Result<Array2<f64>, String>,
+) -> Result<(), Failure> {
+    let Places { t, x, y, .. } = places;
+    let mut found = SurfaceFound { surfaces: vec![], images: vec![] };
+    for t in t.iter().copied() {
+        let heights = rows(t).map_err(Failure::Run)?;
+        let u: Vec<Vec<f64>> = heights.rows().into_iter().map(|row| row.to_vec()).collect();
+        if y.is_empty() {
+            found.surfaces.push(SurfaceCurve { t, x: x.clone(), u: u.concat() });
+        } else {
+            found.images.push(SurfaceImage { t, x: x.clone(), y: y.clone(), u });
+        }
+    }
+    let result: SurfaceDocument = Document::new(parameters, found, vec![]);
+    let result = result.in_units(scales.as_ref());
+    match in_metres {
+        None => job.finish(result),
+        Some(unit) => job.finish_bytes(&field(&result, places, unit), result),
+    }
+}
+
 /// The image, for Gwyddion.
-pub(super) fn field(
+fn field(
     document: &SurfaceDocument,
     places: &Places,
     (length, height, unit): (f64, f64, &str),

@@ -12,7 +12,8 @@
 
 use num_complex::Complex;
 use std::f64::consts::TAU;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+use stickslip_tip::cache::Cache;
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::memory::{Fit, FitError, Term};
 use stickslip_tip::{Gaussian, TipFunction, stop};
@@ -86,24 +87,13 @@ pub(super) fn reaching_back(
 
 /// The sum of these terms with its certificate, or one from the cache.
 fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, FitError> {
-    type Known = (TipFunction, f64, Arc<Fit>);
-    static KNOWN: Mutex<Vec<Known>> = Mutex::new(vec![]);
-    const MOST_KNOWN: usize = 16;
-    // A thread that panicked did not leave half an entry behind.
-    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let count = terms.len();
-    let same = |(t, w, f): &&Known| {
-        w.to_bits() == wanted.to_bits() && f.terms().len() == count && t == tip
-    };
-    if let Some((.., fit)) = lock().iter().find(same) {
-        return Ok(Arc::clone(fit));
+    static KNOWN: Cache<(TipFunction, u64, usize), Arc<Fit>> = Cache::new(16);
+    let (bits, count) = (wanted.to_bits(), terms.len());
+    if let Some(fit) = KNOWN.get(|(t, w, n)| (*w, *n) == (bits, count) && t == tip) {
+        return Ok(fit);
     }
     let fit = Arc::new(Fit::from_terms(tip, terms)?);
-    let mut known = lock();
-    if known.len() == MOST_KNOWN {
-        drop(known.remove(0));
-    }
-    known.push((tip.clone(), wanted, Arc::clone(&fit)));
+    KNOWN.keep((tip.clone(), bits, count), Arc::clone(&fit));
     Ok(fit)
 }
 

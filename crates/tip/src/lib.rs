@@ -13,6 +13,7 @@
 //! crate integrates: [`run`]. Lengths are in units of the tip width σ, times in units of Γ/k. Equation numbers are
 //! those of the paper named in the project's README; `docs/explanation/equation.md` contains the derivations.
 
+pub mod cache;
 pub mod collocation;
 pub mod elementary;
 pub mod error_function;

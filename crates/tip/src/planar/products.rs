@@ -6,12 +6,13 @@
 //! width become further products.
 
 use super::bells::Bells;
+use crate::cache::Cache;
 use crate::elementary::{log10, pow};
 use crate::footprint::{Footprint, Layer};
 use crate::sorting::sort_by_number;
 use crate::{Gaussian, TipFunction, TipFunctionError};
 use nalgebra::{DMatrix, SVD};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// g and h, with the required accuracy.
@@ -61,23 +62,14 @@ const POINTS_PER_WIDTH: f64 = 16.0;
 impl Products {
     /// As [`of`](Self::of), or an earlier result for the same arguments.
     pub(super) fn cached(footprint: &Footprint, accuracy: f64) -> Result<Arc<Self>, ProductsError> {
-        type Known = (Footprint, u64, Result<Arc<Products>, ProductsError>);
-        static CACHE: Mutex<Vec<Known>> = Mutex::new(vec![]);
-        const KEPT: usize = 8;
-        // A thread that panicked did not leave half an entry behind.
-        let lock = || CACHE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        type Known = Cache<(Footprint, u64), Result<Arc<Products>, ProductsError>>;
+        static CACHE: Known = Cache::new(8);
         let bits = accuracy.to_bits();
-        let known = lock().iter().find(|(of, at, _)| *at == bits && of == footprint).cloned();
-        if let Some((.., products)) = known {
-            return products;
-        }
-        let products = Self::of(footprint, accuracy).map(Arc::new);
-        let mut cache = lock();
-        if cache.len() == KEPT {
-            drop(cache.remove(0));
-        }
-        cache.push((footprint.clone(), bits, products.clone()));
-        products
+        CACHE.get(|(of, at)| *at == bits && of == footprint).unwrap_or_else(|| {
+            let products = Self::of(footprint, accuracy).map(Arc::new);
+            CACHE.keep((footprint.clone(), bits), products.clone());
+            products
+        })
     }
 
     /// The products that represent f and its slopes to this accuracy.

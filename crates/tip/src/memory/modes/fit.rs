@@ -6,11 +6,12 @@ use super::standard;
 use super::term::Term;
 use super::weights::weights;
 use super::window::{Retreat, Window, samples};
+use crate::cache::Cache;
 use crate::elementary::{complex_exp, ln, norm};
 use crate::{TipFunction, stop};
 use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// f'(ξ) ≈ `Σ_j Re(w_j e^{s_j ξ})` for ξ ≥ -(allowed retreat), with its certified error.
@@ -148,29 +149,18 @@ impl Fit {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn cached(tip: &TipFunction, wanted: f64, back: Retreat) -> Result<Arc<Self>, FitError> {
-        type Known = (TipFunction, f64, Retreat, Result<Arc<Fit>, FitError>);
-        type Cache = Mutex<Vec<Known>>;
-        static CACHE: Cache = Mutex::new(vec![]);
-        const MOST: usize = 64;
-        let same =
-            |(t, w, b, _): &&Known| w.to_bits() == wanted.to_bits() && *b == back && t == tip;
-        // A thread that panicked did not leave half an entry behind.
-        let lock = || CACHE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let known = lock().iter().find(same).cloned();
-        if let Some((.., fit)) = known {
+        type Known = Cache<(TipFunction, u64, Retreat), Result<Arc<Fit>, FitError>>;
+        static CACHE: Known = Cache::new(64);
+        let bits = wanted.to_bits();
+        if let Some(fit) = CACHE.get(|(t, w, b)| *w == bits && *b == back && t == tip) {
             return fit;
         }
         let fit = Self::standard(tip, wanted, back)
             .map_or_else(|| Self::reaching_back(tip, wanted, back), Ok)
             .map(Arc::new);
-        if fit == Err(FitError::Stopped) {
-            return fit;
+        if fit != Err(FitError::Stopped) {
+            CACHE.keep((tip.clone(), bits, back), fit.clone());
         }
-        let mut cache = lock();
-        if cache.len() == MOST {
-            drop(cache.remove(0));
-        }
-        cache.push((tip.clone(), wanted, back, fit.clone()));
         fit
     }
 

@@ -3,11 +3,12 @@
 //! References: Hua & Sarkar, IEEE Trans. ASSP 38, 814 (1990); Roy & Kailath, IEEE Trans. ASSP 37,
 //! 984 (1989).
 
+use crate::cache::Cache;
 use crate::elementary::complex_ln;
 use crate::sorting::ascending;
 use nalgebra::{DMatrix, Schur, SymmetricEigen};
 use num_complex::Complex;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// The signal space of an odd number of evenly spaced samples `y_n`: the singular vectors of the Hankel matrix `H_ij =
 /// y_{i+j}`. The matrix is symmetric, so that its eigenvectors serve, for half the work.
@@ -28,24 +29,11 @@ const MOST_KEPT: usize = 4;
 impl Pencil {
     /// As [`new`](Self::new), or an earlier pencil of the same samples.
     pub(super) fn cached(samples: &[f64], spacing: f64) -> Option<Arc<Self>> {
-        type Known = (Vec<f64>, f64, Option<Arc<Pencil>>);
-        static CACHE: Mutex<Vec<Known>> = Mutex::new(vec![]);
-        let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-        let is_same = |(known, at, _): &&Known| {
-            same(*at, spacing)
-                && known.len() == samples.len()
-                && known.iter().zip(samples).all(|(a, b)| same(*a, *b))
-        };
-        // A thread that panicked did not leave half an entry behind.
-        let lock = || CACHE.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = lock().iter().find(is_same).map(|(.., pencil)| pencil.clone());
-        known.unwrap_or_else(|| {
+        static CACHE: Cache<Vec<u64>, Option<Arc<Pencil>>> = Cache::new(MOST_KEPT);
+        let bits: Vec<u64> = samples.iter().chain([&spacing]).map(|v| v.to_bits()).collect();
+        CACHE.get(|known| *known == bits).unwrap_or_else(|| {
             let pencil = Self::new(samples, spacing).map(Arc::new);
-            let mut cache = lock();
-            if cache.len() == MOST_KEPT {
-                drop(cache.remove(0));
-            }
-            cache.push((samples.to_vec(), spacing, pencil.clone()));
+            CACHE.keep(bits, pencil.clone());
             pencil
         })
     }

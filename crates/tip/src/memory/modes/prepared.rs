@@ -3,7 +3,8 @@
 use super::bank::Tables;
 use super::fit::Fit;
 use super::powers::Powers;
-use std::sync::{Arc, Mutex, PoisonError};
+use crate::cache::Cache;
+use std::sync::Arc;
 
 /// Tables for the states of the exponentials.
 #[derive(Debug)]
@@ -18,18 +19,12 @@ const MOST: usize = 32;
 impl Prepared {
     /// The tables for this fit, made at its first use.
     pub(crate) fn cached(fit: &Arc<Fit>) -> Arc<Self> {
-        static CACHE: Mutex<Vec<(Arc<Fit>, Arc<Prepared>)>> = Mutex::new(vec![]);
-        // A thread that panicked did not leave half an entry behind.
-        let mut cache = CACHE.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, known)) = cache.iter().find(|(known, _)| Arc::ptr_eq(known, fit)) {
-            return Arc::clone(known);
-        }
-        let powers = Powers::new(fit.terms());
-        let prepared = Arc::new(Self { bank: Arc::new(Tables::new(fit)), powers });
-        if cache.len() == MOST {
-            cache.remove(0);
-        }
-        cache.push((Arc::clone(fit), Arc::clone(&prepared)));
-        prepared
+        static CACHE: Cache<Arc<Fit>, Arc<Prepared>> = Cache::new(MOST);
+        CACHE.get(|known| Arc::ptr_eq(known, fit)).unwrap_or_else(|| {
+            let powers = Powers::new(fit.terms());
+            let prepared = Arc::new(Self { bank: Arc::new(Tables::new(fit)), powers });
+            CACHE.keep(Arc::clone(fit), Arc::clone(&prepared));
+            prepared
+        })
     }
 }

@@ -47,33 +47,11 @@ pub(super) fn tail(x: f64) -> f64 {
     if x < 0.0 {
         2.0 - tail(-x)
     } else if x < SERIES_FROM {
-        1.0 - integral_from_zero(x)
+        // ∫_0^x J0 = 2 Σ `J_{2k+1}`(x), Abramowitz & Stegun 11.1.2.
+        1.0 - 2.0 * bessel_orders(x).iter().skip(1).step_by(2).sum::<f64>()
     } else {
         tail_by_parts(x)
     }
-}
-
-/// ∫_0^x J0 = 2 Σ J_{2k+1}(x) (Abramowitz & Stegun 11.1.2), by Miller's downward recurrence
-/// normalised with J0 + 2 Σ J_{2k} = 1.
-fn integral_from_zero(x: f64) -> f64 {
-    if x < 1e-8 {
-        return x;
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ x < 40")]
-    let start = 2 * ((x + 40.0) as usize / 2);
-    let (mut above, mut here) = (0.0, 1e-300);
-    let (mut odd, mut even) = (0.0, 0.0);
-    for n in (1..=start).rev() {
-        if n % 2 == 0 {
-            even += here;
-        } else {
-            odd += here;
-        }
-        #[expect(clippy::cast_precision_loss, reason = "n < 100")]
-        let below = 2.0 * n as f64 / x * here - above;
-        (above, here) = (here, below);
-    }
-    2.0 * odd / (here + 2.0 * even)
 }
 
 /// Integration by parts, alternately with J1 = -J0' and x J0 = (x J1)':

@@ -297,7 +297,7 @@ fn the_cycle_of_a_tip_with_two_sides_is_that_of_runs_and_of_the_leading_order() 
         let (run, outcome) = run_and_judge(&scenario).unwrap();
         let oscillation = outcome.oscillation.unwrap();
         let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-        let ripple = ripple_behind(&surface, &run.trajectory, oscillation.wavelength).unwrap();
+        let ripple = ripple_behind(&surface, oscillation.wavelength).unwrap();
         let period = (oscillation.period - cycle.period()).abs();
         let amplitude = (ripple.amplitude - cycle.amplitude_u()).abs();
         println!("period {period:.1e}, ripple {amplitude:.1e} of {}", ripple.amplitude);
@@ -313,9 +313,7 @@ fn the_ripple_is_that_of_a_run() {
             Scenario { kick: 0.1, tolerance: 1e-11, ..Scenario::new(cycle.model().clone(), 800.0) };
         let (run, outcome) = run_and_judge(&scenario).unwrap();
         let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-        let ripple =
-            ripple_behind(&surface, &run.trajectory, outcome.oscillation.unwrap().wavelength)
-                .unwrap();
+        let ripple = ripple_behind(&surface, outcome.oscillation.unwrap().wavelength).unwrap();
         let difference = (ripple.amplitude - cycle.amplitude_u()).abs();
         Acceptance { floor: 1e-8, slack: 0.0 }.judge(&format!("{case:?}"), difference, 0.0);
     }
@@ -338,7 +336,7 @@ fn the_ripple_of_a_surface_that_heals_is_that_of_a_run() {
             let (run, outcome) = run_and_judge(&scenario).unwrap();
             let found = outcome.oscillation.unwrap();
             let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-            let ripple = ripple_behind(&surface, &run.trajectory, found.wavelength).unwrap();
+            let ripple = ripple_behind(&surface, found.wavelength).unwrap();
             let error = found.amplitude_u_error(ripple.amplitude);
             let off = (ripple.amplitude - cycle.amplitude_u()).abs();
             assert!(

@@ -134,7 +134,7 @@ fn ripple_and_tip_amplitudes_are_tied_at_onset() {
             let surface = Surface::new(&scenario.model, &initial, &run.trajectory);
             let outcome = judge_trajectory(&scenario, &run.initial_surface, &run.trajectory);
             let oscillation = outcome.oscillation.unwrap();
-            let ripple = ripple_behind(&surface, &run.trajectory, oscillation.wavelength).unwrap();
+            let ripple = ripple_behind(&surface, oscillation.wavelength).unwrap();
             ripple.amplitude / oscillation.amplitude_x0
         };
         let found = ratio(3e-4, 30_000.0);

@@ -42,16 +42,11 @@ impl<'a> SurfaceAcross<'a> {
     /// # Errors
     /// `t` is outside of the run; x or y is not finite.
     pub fn image(&self, t: f64, x: &[f64], y: &[f64]) -> Result<Array2<f64>, SurfaceError> {
-        let (start, end) = (self.trajectory.start(), self.trajectory.end());
-        if !(start..=end).contains(&t) {
-            return Err(SurfaceError::OutsideRun { t, start, end });
-        }
-        if let Some(place) = x.iter().chain(y).find(|place| !place.is_finite()) {
-            return Err(SurfaceError::Position(*place));
-        }
+        SurfaceError::check_time(self.trajectory, t)?;
+        SurfaceError::check_positions(x.iter().chain(y))?;
         let mut visits = self.trajectory.residence(t);
         sort_by_number(&mut visits, |item| item.x);
-        let left = self.scenario.along.model.wider().left_after(t - start);
+        let left = self.scenario.along.model.wider().left_after(t - self.trajectory.start());
         let reach = self.layers.iter().map(reach).fold(0.0, f64::max);
         let near: Vec<&[f64]> = x
             .chunk_by(|a, b| (b - a).abs() < CLOSE * reach)

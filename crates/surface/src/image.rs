@@ -51,27 +51,6 @@ impl Surface<'_> {
         Ok(self.layered(footprint, t, x, y, |_| Array1::zeros(x.len())))
     }
 
-    /// The result of [`Self::image_far_behind`] by its definition: one evaluation of f(x,y) for each position of the
-    /// tip and each pixel. A slow reference.
-    ///
-    /// # Errors
-    /// As [`Self::image`].
-    pub fn image_by_definition(
-        &self,
-        footprint: &Footprint,
-        t: f64,
-        x: &[f64],
-        y: &[f64],
-    ) -> Result<Array2<f64>, SurfaceError> {
-        self.check(t, x, y)?;
-        let (positions, weights) = self.trajectory.residence(t);
-        let along = || positions.iter().zip(&weights);
-        let pixel = |(j, i): (usize, usize)| -> f64 {
-            along().map(|(p, w)| w * footprint.value(x[i] - p, y[j])).sum()
-        };
-        Ok(Array2::from_shape_fn((y.len(), x.len()), pixel) * -self.model.alpha())
-    }
-
     /// Σ_k h_k(y) (-α Σ_j w_j g_k(x - x_j) + `before`(k)) over the layers g_k(x) h_k(y) of the footprint.
     fn layered(
         &self,
@@ -113,13 +92,7 @@ impl Surface<'_> {
     }
 
     fn check(&self, t: f64, x: &[f64], y: &[f64]) -> Result<(), SurfaceError> {
-        let (start, end) = (self.trajectory.start(), self.trajectory.end());
-        if !(start..=end).contains(&t) {
-            return Err(SurfaceError::OutsideRun { t, start, end });
-        }
-        match x.iter().chain(y).find(|v| !v.is_finite()) {
-            Some(v) => Err(SurfaceError::Position(*v)),
-            None => Ok(()),
-        }
+        SurfaceError::check_time(self.trajectory, t)?;
+        SurfaceError::check_positions(x.iter().chain(y))
     }
 }

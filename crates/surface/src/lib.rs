@@ -36,7 +36,7 @@ pub use ripple::{Ripple, ripple_behind};
 
 use ndarray::Array1;
 use rayon::prelude::*;
-use stickslip_tip::{InitialSurface, Model, Trajectory};
+use stickslip_tip::{InitialSurface, Model, Step, Trajectory};
 use thiserror::Error;
 
 /// The reason why a surface cannot be computed.
@@ -55,6 +55,20 @@ pub enum SurfaceError {
     /// A position that is not finite.
     #[error("the position {0} is not a finite number")]
     Position(f64),
+}
+
+impl SurfaceError {
+    fn check_time<S: AsRef<Step>>(trajectory: &Trajectory<S>, t: f64) -> Result<(), Self> {
+        let (start, end) = (trajectory.start(), trajectory.end());
+        if (start..=end).contains(&t) { Ok(()) } else { Err(Self::OutsideRun { t, start, end }) }
+    }
+
+    fn check_positions<'a>(positions: impl IntoIterator<Item = &'a f64>) -> Result<(), Self> {
+        match positions.into_iter().find(|place| !place.is_finite()) {
+            Some(place) => Err(Self::Position(*place)),
+            None => Ok(()),
+        }
+    }
 }
 
 /// u(x,t) for one run.
@@ -77,12 +91,9 @@ impl<'a> Surface<'a> {
     /// # Errors
     /// `t` is outside of the run; x is not finite.
     pub fn heights(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
-        let (start, end) = (self.trajectory.start(), self.trajectory.end());
-        if !(start..=end).contains(&t) {
-            return Err(SurfaceError::OutsideRun { t, start, end });
-        }
+        SurfaceError::check_time(self.trajectory, t)?;
         let mut u = self.far_behind(t, x)?;
-        let left = self.trajectory.wider().left_after(t - start);
+        let left = self.trajectory.wider().left_after(t - self.trajectory.start());
         let before = |(u, x): (&mut f64, &f64)| *u += left * self.initial.height(*x);
         u.as_slice_mut().unwrap_or_default().par_iter_mut().zip(x).for_each(before);
         Ok(u)
@@ -94,15 +105,9 @@ impl<'a> Surface<'a> {
     /// # Errors
     /// x is not finite.
     pub fn far_behind(&self, t: f64, x: &[f64]) -> Result<Array1<f64>, SurfaceError> {
-        if let Some(x) = x.iter().find(|x| !x.is_finite()) {
-            return Err(SurfaceError::Position(*x));
-        }
-        Ok(self.carved_along(&self.trajectory.residence(t), x))
-    }
-
-    /// The groove at every x of a tip with this residence (positions, and times spent there).
-    fn carved_along(&self, (positions, weights): &(Vec<f64>, Vec<f64>), x: &[f64]) -> Array1<f64> {
-        let sums = carved(self.model.tip(), positions, weights, x);
-        sums.mapv_into(|sum| -self.model.alpha() * sum)
+        SurfaceError::check_positions(x)?;
+        let (positions, weights) = self.trajectory.residence(t);
+        let sums = carved(self.model.tip(), &positions, &weights, x);
+        Ok(sums.mapv_into(|sum| -self.model.alpha() * sum))
     }
 }

@@ -3,7 +3,6 @@
 use crate::Surface;
 use crate::carved::{MOST_CELLS, cells};
 use stickslip_convolution::{Kernel, Sum, direct_sum};
-use stickslip_tip::Trajectory;
 use stickslip_tip::elementary::exp;
 
 /// One wavelength of the surface far behind the tip. On a surface that heals with the time T, u = U(x) e^{-D/(rT)}
@@ -27,12 +26,9 @@ const REFINEMENTS: usize = 4;
 /// The ripple over the last whole wavelength out of reach of the tip, in the carved groove without the initial surface.
 /// `None` for a footprint without reach, if the groove out of reach is shorter than a wavelength, or if a height is not
 /// finite.
-pub fn ripple_behind(
-    surface: &Surface,
-    trajectory: &Trajectory,
-    wavelength: f64,
-) -> Option<Ripple> {
-    let reach = surface.model.tip().reach()?;
+pub fn ripple_behind(surface: &Surface, wavelength: f64) -> Option<Ripple> {
+    let Surface { model, trajectory, .. } = surface;
+    let reach = model.tip().reach()?;
     let end = trajectory.end();
     let high = trajectory.x0(end) - reach;
     let low = high - wavelength;
@@ -40,21 +36,20 @@ pub fn ripple_behind(
         return None;
     }
     // Several points per width of the footprint, so that no pit falls between them.
-    let per_width = wavelength * surface.model.tip().band();
+    let per_width = wavelength * model.tip().band();
     let points = POINTS.max(per_width.min(1e6) as usize);
-    let (crest, trough) = extrema_of_lasting(surface, trajectory, (low, high), points)?;
+    let (crest, trough) = extrema_of_lasting(surface, (low, high), points)?;
     let ripple = Ripple { amplitude: 0.5 * (crest - trough), crest, trough };
     ripple.amplitude.is_finite().then_some(ripple)
 }
 
 /// Largest and smallest height in a range: of u∞, or of U on a healing surface.
 fn extrema_of_lasting(
-    surface: &Surface,
-    trajectory: &Trajectory,
+    Surface { model, trajectory, .. }: &Surface,
     range: (f64, f64),
     points: usize,
 ) -> Option<(f64, f64)> {
-    let tip = surface.model.tip();
+    let tip = model.tip();
     // Positions, weights, and the exponent of a factor of the weights.
     let ((positions, weights, exponent), fading) = match trajectory.wider().healing_time {
         Some(time) => (trajectory.residence_unfaded(), 1.0 / (trajectory.r() * time)),
@@ -65,7 +60,7 @@ fn extrema_of_lasting(
     };
     let value = |y: f64| if fading > 0.0 { tip.value(y) * exp(-fading * y) } else { tip.value(y) };
     let kernel = Kernel { value: &value, band: tip.band(), reach: tip.reach() };
-    let factor = -surface.model.alpha() * exp(exponent);
+    let factor = -model.alpha() * exp(exponent);
     let extrema = |sum: &dyn Fn(f64) -> f64| {
         let height = |x: f64| factor * sum(x);
         Some((extremum(&height, range, points, 1.0)?, -extremum(&height, range, points, -1.0)?))

@@ -112,7 +112,7 @@ pub(super) fn observed(
     let outcome = judge(scenario, initial, observer);
     let oscillation = outcome.oscillation.as_ref().map(|found| {
         let surface = Surface::new(&scenario.model, initial, &tail);
-        OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
+        OscillationDocument::of(found, ripple_behind(&surface, found.wavelength))
     });
     Ok(RunEnd::of(t, outcome, oscillation, work))
 }

@@ -170,7 +170,7 @@ fn ended(point: SweepPoint, scenario: &Scenario, run: stickslip_tip::Run<Followe
     let point = SweepPoint { mean_l, deviation_l, slip_distance, slip_distance_error, ..point };
     let ripple = outcome.oscillation.as_ref().zip(observer.tail()).map(|(found, tail)| {
         let surface = Surface::new(&scenario.model, &initial_surface, &tail);
-        OscillationDocument::of(found, ripple_behind(&surface, &tail, found.wavelength))
+        OscillationDocument::of(found, ripple_behind(&surface, found.wavelength))
     });
     let point = point.settled(Motion::Run(Box::new(outcome)));
     match ripple {

@@ -279,6 +279,11 @@ impl<S: AsRef<Step>> Trajectory<S> {
         self.step_at(t).as_ref().position(&self.support, t)
     }
 
+    /// As [`Step::followed`].
+    pub fn followed(&self, t: f64) -> f64 {
+        self.step_at(t).as_ref().followed(&self.support, t)
+    }
+
     /// The height of the surface under the tip; `None` without a depth limit.
     pub fn height(&self, t: f64) -> Option<f64> {
         self.step_at(t).as_ref().height(t)
@@ -308,11 +313,6 @@ impl Trajectory {
     /// l(t) = rt - r - x0(t). Outside of the run, the first or last step is extrapolated.
     pub fn l(&self, t: f64) -> f64 {
         self.step_at(t).l(self.r(), t)
-    }
-
-    /// As [`Step::followed`].
-    pub fn followed(&self, t: f64) -> f64 {
-        self.step_at(t).followed(&self.support, t)
     }
 
     /// x0'(t), the derivative of the stage polynomial: one order less accurate than x0.

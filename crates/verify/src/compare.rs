@@ -1,11 +1,8 @@
 //! Comparison of two runs: largest differences, and their limits.
 
-use super::repeat::Witness;
 use std::iter::Peekable;
 use stickslip_surface::{Surface, SurfaceError};
-use stickslip_tip::{
-    InitialSurface, Model, RunError, Step, Support, TipFunction, Trajectory, planar,
-};
+use stickslip_tip::{InitialSurface, Model, Step, Support, TipFunction, Trajectory};
 
 /// Absolute error of l, and of heights of order one, that is allowed at any tolerance.
 const ROUND_OFF: f64 = 1e-12;
@@ -69,7 +66,7 @@ pub struct ComparedSamples {
     pub first_wrong: Option<u64>,
 }
 
-/// Accumulated differences of l.
+/// Accumulated differences of l or y0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judgement {
     pub(super) worst: Difference,
@@ -96,113 +93,73 @@ impl Judgement {
     }
 }
 
-/// Difference of a claimed l at t from that of the second run.
-fn difference_in_l(t: f64, claimed: f64, other: f64, allowed: f64) -> Difference {
+/// Difference of a claimed l or y0 at t from that of the second run.
+fn difference_at(t: f64, claimed: f64, other: f64, allowed: f64) -> Difference {
     let allowed = allowed + ROUND_OFF + DIGITS * other.abs();
     Difference { largest: (claimed - other).abs(), at: t, allowed }
 }
 
-/// Comparison of l over the whole of two runs.
-pub(super) fn compare_l(
-    trajectory: &Trajectory,
-    reference: &Trajectory,
+/// Comparison of a variable over the whole of two runs, the second of which is the reference.
+pub(super) fn compare<S: AsRef<Step>>(
+    claimed: &Trajectory<S>,
+    other: &Trajectory<S>,
+    value: impl Fn(&Trajectory<S>, f64) -> f64,
     allowed: f64,
 ) -> Judgement {
-    let end = trajectory.end().min(reference.end());
-    let steps = trajectory.steps().iter().chain(reference.steps());
-    let values = |t: f64| [trajectory.followed(t), reference.followed(t)];
-    compare_all(steps, (reference.start(), end), values, allowed)
-}
-
-/// Comparison of two runs with these steps; `values` returns the claimed value and that of the second run.
-pub(super) fn compare_all<'a>(
-    steps: impl Iterator<Item = &'a Step>,
-    (start, end): (f64, f64),
-    values: impl Fn(f64) -> [f64; 2],
-    allowed: f64,
-) -> Judgement {
+    let (start, end) = (other.start(), claimed.end().min(other.end()));
     let mut judgement = Judgement::new(start, allowed);
-    let mut compare = |t: f64| {
-        let [claimed, other] = values(t);
-        judgement.take(difference_in_l(t, claimed, other, allowed));
+    let mut take = |t: f64| {
+        judgement.take(difference_at(t, value(claimed, t), value(other, t), allowed));
     };
-    for step in steps {
+    for step in claimed.steps().iter().chain(other.steps()).map(AsRef::as_ref) {
         for part in [0.0, 0.25, 0.5, 0.75] {
             let t = step.t + part * step.h;
             if t <= end {
-                compare(t);
+                take(t);
             }
         }
     }
-    compare(end);
+    take(end);
     judgement
 }
 
 /// Comparison of samples with the second run as it proceeds; neither is stored.
-pub(super) struct AgainstSamples<F, I: Iterator> {
+pub(super) struct AgainstSamples<I: Iterator> {
     support: Support,
-    samples: F,
-    start: f64,
-    until: f64,
+    samples: Peekable<I>,
     allowed: f64,
-    ahead: Option<Peekable<I>>,
-    judgement: Judgement,
-    /// Judgement of y0.
-    across: Judgement,
-    found: ComparedSamples,
+    /// Judgements of l with x0, and of y0.
+    pub(super) judgements: [Judgement; 2],
+    pub(super) found: ComparedSamples,
 }
 
-impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
-    pub(super) fn new(
-        support: Support,
-        samples: F,
-        (start, until): (f64, f64),
-        allowed: f64,
-    ) -> Self {
-        let judgement = Judgement::new(start, allowed);
+impl<I: Iterator<Item = Sample>> AgainstSamples<I> {
+    pub(super) fn new(support: Support, samples: I, start: f64, allowed: f64) -> Self {
+        let judgements = [Judgement::new(start, allowed); 2];
         let found = ComparedSamples::default();
-        let across = judgement;
-        Self { support, samples, start, until, allowed, ahead: None, judgement, across, found }
+        Self { support, samples: samples.peekable(), allowed, judgements, found }
     }
 
-    pub(super) fn finish(self) -> (Judgement, ComparedSamples) {
-        (self.judgement, self.found)
-    }
-
-    /// The judgements of l with x0, and of y0, and the statistics of the samples.
-    pub(super) fn finish_across(self) -> ([Judgement; 2], ComparedSamples) {
-        ([self.judgement, self.across], self.found)
-    }
-
-    /// Compares the samples before a time with a step in two coordinates.
-    pub(super) fn see_across(&mut self, step: &planar::Step, before: f64) {
-        self.compare(&step.along, |t| Some(step.y0(t)), |t| t < before);
-    }
-
-    fn compare(
-        &mut self,
-        step: &Step,
-        y0: impl Fn(f64) -> Option<f64>,
-        is_due: impl Fn(f64) -> bool,
-    ) {
-        while let Some(sample) = self.ahead.as_mut().and_then(|a| a.next_if(|s| is_due(s.t))) {
+    /// Compares the samples before a time with a step. y0 is `None` in one coordinate.
+    pub(super) fn see(&mut self, step: &Step, y0: impl Fn(f64) -> Option<f64>, before: f64) {
+        while let Some(sample) = self.samples.next_if(|sample| sample.t < before) {
             let (in_l, in_x0) = self.differences(&sample, step);
             let x0_is_wrong = !in_x0.is_allowed() && in_x0.is_worse(&in_l);
             let difference = if x0_is_wrong { in_x0 } else { in_l };
             // A missing y0 is as wrong as a NaN.
             let in_y = y0(sample.t).map(|y0| {
                 let claimed = sample.y0.unwrap_or(f64::NAN);
-                difference_in_l(sample.t, claimed, y0, self.allowed)
+                difference_at(sample.t, claimed, y0, self.allowed)
             });
             if !(difference.is_allowed() && in_y.is_none_or(|in_y| in_y.is_allowed())) {
                 self.found.wrong += 1;
                 self.found.first_wrong.get_or_insert(self.found.number);
             }
-            let is_worst = self.judgement.take(difference);
-            let is_worst_across = in_y.is_some_and(|in_y| self.across.take(in_y));
+            let [along, across] = &mut self.judgements;
+            let is_worst = along.take(difference);
+            let is_worst_across = in_y.is_some_and(|in_y| across.take(in_y));
             // Of two coordinates the line is that of the worse.
-            let across_is_worse =
-                in_y.is_some() && self.across.worst.is_worse(&self.judgement.worst);
+            let across_is_worse = in_y.is_some() && across.worst.is_worse(&along.worst);
             let is_reported = if across_is_worse { is_worst_across } else { is_worst };
             if is_reported {
                 self.found.worst = self.found.number;
@@ -214,29 +171,10 @@ impl<I: Iterator<Item = Sample>, F: Fn() -> I> AgainstSamples<F, I> {
     /// Differences in l, and in x0 = rt - r - l, whose round-off grows with the distance of the tip.
     fn differences(&self, sample: &Sample, step: &Step) -> (Difference, Difference) {
         let Sample { t, l, x0, .. } = *sample;
-        let in_l = difference_in_l(t, l, step.followed(&self.support, t), self.allowed);
+        let in_l = difference_at(t, l, step.followed(&self.support, t), self.allowed);
         let rounding = DIGITS * self.support.position(t).abs();
         let largest = (x0 - step.position(&self.support, t)).abs();
         (in_l, Difference { largest, at: t, allowed: in_l.allowed + rounding })
-    }
-}
-
-impl<I: Iterator<Item = Sample>, F: Fn() -> I> Witness for AgainstSamples<F, I> {
-    fn begin(&mut self) {
-        self.ahead = Some((self.samples)().peekable());
-        self.judgement = Judgement::new(self.start, self.allowed);
-        self.across = self.judgement;
-        self.found = ComparedSamples::default();
-    }
-
-    fn see(&mut self, step: &Step) -> Result<(), RunError> {
-        self.compare(step, |_| None, |t| t < step.end());
-        Ok(())
-    }
-
-    fn end(&mut self, last: &Step) {
-        let until = self.until;
-        self.compare(last, |_| None, |t| t <= until);
     }
 }
 
@@ -271,9 +209,9 @@ pub(super) fn compare_u(
 }
 
 /// At each x: ∫|f(x - x0(t'))|dt' and ∫|f'(x - x0(t'))|dt' over a run.
-pub(super) struct Spread {
-    pub(super) height: Vec<f64>,
-    pub(super) slope: Vec<f64>,
+struct Spread {
+    height: Vec<f64>,
+    slope: Vec<f64>,
 }
 
 /// Number of positions over the tip's whole path, and over its end.
@@ -283,7 +221,7 @@ const REACHES: f64 = 10.0;
 const WIDTHS: f64 = 100.0;
 
 /// Positions at which two surfaces are compared, in order.
-pub(super) fn places(model: &Model, trajectory: &Trajectory) -> Vec<f64> {
+fn places(model: &Model, trajectory: &Trajectory) -> Vec<f64> {
     let margin = model.tip().reach().unwrap_or(WIDTHS);
     let ends = [trajectory.x0(trajectory.start()), trajectory.x0(trajectory.end())];
     let (low, high) = (ends[0].min(ends[1]) - margin, ends[0].max(ends[1]) + margin);
@@ -298,7 +236,7 @@ pub(super) fn places(model: &Model, trajectory: &Trajectory) -> Vec<f64> {
 
 impl Spread {
     /// The integrals of a run, at positions in order.
-    pub(super) fn of(tip: &TipFunction, trajectory: &Trajectory, x: &[f64]) -> Self {
+    fn of(tip: &TipFunction, trajectory: &Trajectory, x: &[f64]) -> Self {
         let reach = tip.reach().unwrap_or(f64::INFINITY);
         let mut spread = Self { height: vec![0.0; x.len()], slope: vec![0.0; x.len()] };
         let (positions, weights) = trajectory.residence(trajectory.end());

@@ -1,7 +1,6 @@
 //! Growth of small errors: the distance of two runs with slightly different initial conditions.
 
-use super::repeat::Witness;
-use stickslip_tip::{RunError, Scenario, Step, Support};
+use std::ops::Range;
 
 /// Growth of a small initial disturbance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,18 +24,16 @@ const SMALL: f64 = 0.05;
 /// Multiple of the tolerance of the runs below which differences are errors.
 const ERRORS: f64 = 30.0;
 
-/// l of a run at the times of all windows.
+/// l and y0 of a run at the times of all windows; y0 is 0 in one coordinate.
 pub(super) struct Probes {
-    support: Support,
     start: f64,
     end: f64,
-    l: Vec<f64>,
+    values: Vec<[f64; 2]>,
 }
 
 impl Probes {
-    pub(super) fn of(scenario: &Scenario) -> Self {
-        let l = Vec::with_capacity(WINDOWS * (TIMES_PER_WINDOW + 1));
-        Self { support: scenario.support(), start: scenario.start_time(), end: scenario.until, l }
+    pub(super) fn over((start, end): (f64, f64)) -> Self {
+        Self { start, end, values: Vec::with_capacity(WINDOWS * (TIMES_PER_WINDOW + 1)) }
     }
 
     fn width(&self) -> f64 {
@@ -49,82 +46,59 @@ impl Probes {
 
     /// Time of the next value. The last time of a window is the first of the next.
     fn due(&self) -> Option<f64> {
-        let (window, i) =
-            (self.l.len() / (TIMES_PER_WINDOW + 1), self.l.len() % (TIMES_PER_WINDOW + 1));
+        let known = self.values.len();
+        let (window, i) = (known / (TIMES_PER_WINDOW + 1), known % (TIMES_PER_WINDOW + 1));
         let part = i as f64 / TIMES_PER_WINDOW as f64;
         let t = self.start + self.width() * (window as f64 + part);
         (window < WINDOWS).then_some(t.min(self.end))
     }
 
-    fn probe(&mut self, step: &Step, is_due: impl Fn(f64) -> bool) {
-        while let Some(t) = self.due().filter(|t| is_due(*t)) {
-            self.l.push(step.followed(&self.support, t));
-        }
-    }
-
     /// Adds the values at all remaining times before this one.
-    pub(super) fn probe_before(&mut self, before: f64, value: impl Fn(f64) -> f64) {
+    pub(super) fn probe(&mut self, before: f64, values: impl Fn(f64) -> [f64; 2]) {
         while let Some(t) = self.due().filter(|t| *t < before) {
-            self.l.push(value(t));
+            self.values.push(values(t));
         }
     }
 
-    /// The size of the motion: the range of l.
-    pub(super) fn range(&self) -> f64 {
-        let ends = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = self.l.iter().fold(ends, |(low, high), l| (low.min(*l), high.max(*l)));
-        high - low
+    /// The size of the motion: the larger of the ranges of l and y0.
+    fn size(&self) -> f64 {
+        let range = |axis: usize| {
+            let ends = (f64::INFINITY, f64::NEG_INFINITY);
+            let values = self.values.iter().map(|values| values[axis]);
+            let (low, high) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
+            high - low
+        };
+        range(0).max(range(1))
     }
 
-    fn windows(&self) -> std::slice::Chunks<'_, f64> {
-        self.l.chunks(TIMES_PER_WINDOW + 1)
-    }
-}
-
-impl Witness for Probes {
-    fn begin(&mut self) {
-        self.l.clear();
+    /// The growth, in the coordinate in which errors grow most, from two runs to the same tolerance. The other one is
+    /// shifted by `shift`, at the start or later.
+    pub(super) fn growth(&self, twin: &Self, shift: f64, tolerance: f64) -> Growth {
+        let meaningful = ERRORS * tolerance..SMALL * self.size().max(shift / SMALL);
+        let [along, across] = [0, 1].map(|axis| self.growth_of(axis, twin, shift, &meaningful));
+        if across.amplification > along.amplification { across } else { along }
     }
 
-    fn see(&mut self, step: &Step) -> Result<(), RunError> {
-        self.probe(step, |t| t < step.end());
-        Ok(())
+    fn growth_of(&self, axis: usize, twin: &Self, shift: f64, meaningful: &Range<f64>) -> Growth {
+        let differences: Vec<f64> =
+            self.values.iter().zip(&twin.values).map(|(a, b)| (a[axis] - b[axis]).abs()).collect();
+        let windows = differences.chunks(TIMES_PER_WINDOW + 1);
+        let envelope: Vec<f64> =
+            windows.map(|window| window.iter().copied().fold(0.0, f64::max)).collect();
+        let amplification = envelope.iter().copied().fold(0.0, f64::max) / shift;
+        let points: Vec<(f64, f64)> = envelope
+            .iter()
+            .enumerate()
+            // A push comes some time after the start.
+            .skip_while(|(_, difference)| **difference < meaningful.start)
+            .take_while(|(_, difference)| meaningful.contains(difference))
+            .map(|(window, difference)| (self.middle(window), difference.ln()))
+            .collect();
+        // The first half still shows the disturbance itself, not only what grows fastest of it.
+        let settled = &points[points.len() / 2..];
+        let exponent = (settled.len() >= LEAST_WINDOWS).then(|| slope(settled));
+        Growth { amplification, exponent: exponent.filter(|exponent| exponent.is_finite()) }
     }
-
-    fn end(&mut self, last: &Step) {
-        self.probe(last, |_| true);
-    }
-}
-
-/// The growth from two runs to the same tolerance. One of them is shifted by `shift` in l, at the start or later.
-pub(super) fn growth(one: &Probes, twin: &Probes, shift: f64, tolerance: f64) -> Growth {
-    growth_within(one, twin, shift, (tolerance, one.range()))
-}
-
-/// The [`growth`] for a motion of the given size, in σ.
-pub(super) fn growth_within(
-    one: &Probes,
-    twin: &Probes,
-    shift: f64,
-    (tolerance, size): (f64, f64),
-) -> Growth {
-    let largest =
-        |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let envelope: Vec<f64> = one.windows().zip(twin.windows()).map(largest).collect();
-    let amplification = envelope.iter().copied().fold(0.0, f64::max) / shift;
-    let meaningful = ERRORS * tolerance..SMALL * size.max(shift / SMALL);
-    let points: Vec<(f64, f64)> = envelope
-        .iter()
-        .enumerate()
-        // A push comes some time after the start.
-        .skip_while(|(_, difference)| **difference < meaningful.start)
-        .take_while(|(_, difference)| meaningful.contains(difference))
-        .map(|(window, difference)| (one.middle(window), difference.ln()))
-        .collect();
-    // The first half still shows the disturbance itself, not only what grows fastest of it.
-    let settled = &points[points.len() / 2..];
-    let exponent = (settled.len() >= LEAST_WINDOWS).then(|| slope(settled));
-    Growth { amplification, exponent: exponent.filter(|exponent| exponent.is_finite()) }
 }
 
 /// Slope of the line of best fit.

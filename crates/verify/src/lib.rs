@@ -10,16 +10,14 @@ pub use across::{verify_across, verify_samples_across};
 pub use compare::{ComparedSamples, Difference, Sample};
 pub use growth::Growth;
 
-use compare::{AgainstSamples, Judgement, compare_l, compare_u};
-use growth::{Probes, growth};
-use repeat::{Kept, Repetition, Witness, another};
+use compare::{AgainstSamples, Judgement, compare, compare_u};
+use growth::Probes;
+use repeat::{another, keep, repeat};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use stickslip_surface::SurfaceError;
 use stickslip_tip::planar::PlanarError;
-use stickslip_tip::{
-    InitialSurface, MemoryChoice, Pulse, RunError, Scenario, TOLERANCES, Trajectory,
-};
+use stickslip_tip::{MemoryChoice, Pulse, RunError, Scenario, Step, TOLERANCES, Trajectory};
 use thiserror::Error;
 
 /// Allowed error of l, in tolerances: step errors add up, and slips amplify them. The test suite uses the same limit
@@ -94,17 +92,15 @@ pub fn verify(
     trajectory: &Trajectory,
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Verification, VerificationError> {
-    let surface = scenario.initial_surface()?;
-    let mut second = Second::of(scenario, &surface, trajectory.end(), observe);
-    let steps = trajectory.steps().len() as u64;
-    let mut kept = Kept::default();
-    let (by, growth) = second.run(another(memory, steps), &mut kept)?;
+    let memories = another(memory, trajectory.steps().len() as u64);
+    let see = |steps: &mut Vec<Step>, step: &Step, _| keep(steps, step);
+    let (repeated, steps) = repeated(scenario, trajectory.end(), memories, Vec::new, see, observe)?;
     let (wider, support) = (*scenario.model.wider(), scenario.support());
-    let reference = Trajectory::under(wider, support, kept.steps);
+    let reference = Trajectory::under(wider, support, steps);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
-    let judgement = compare_l(trajectory, &reference, allowed);
+    let judgement = compare(trajectory, &reference, Trajectory::followed, allowed);
     let u = compare_u(&scenario.model, trajectory, &reference, allowed)?;
-    Ok(second.verification(by, &judgement, Some(u), None, growth))
+    Ok(repeated.verification(&[judgement], Some(u), None))
 }
 
 /// Verifies a run as [`verify`] does, from samples in the order of time.
@@ -121,63 +117,87 @@ pub fn verify_samples<I: Iterator<Item = Sample>>(
     until: f64,
     observe: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Verification, VerificationError> {
-    let surface = scenario.initial_surface()?;
-    let mut second = Second::of(scenario, &surface, until, observe);
     let allowed = TOLERANCES_ALLOWED * scenario.tolerance;
-    let mut compared =
-        AgainstSamples::new(scenario.support(), samples, (scenario.start_time(), until), allowed);
-    let (by, growth) = second.run(another(memory, u64::MAX), &mut compared)?;
-    let (judgement, found) = compared.finish();
-    Ok(second.verification(by, &judgement, None, Some(found), growth))
+    let begin =
+        || AgainstSamples::new(scenario.support(), samples(), scenario.start_time(), allowed);
+    let see = |compared: &mut AgainstSamples<I>, step: &Step, before| {
+        compared.see(step, |_| None, before);
+        Ok(())
+    };
+    let memories = another(memory, u64::MAX);
+    let (repeated, compared) = repeated(scenario, until, memories, begin, see, observe)?;
+    Ok(repeated.verification(&compared.judgements[..1], None, Some(compared.found)))
 }
 
-/// The second run and its perturbed copy.
-struct Second<'a, O> {
-    /// The scenario with a tighter tolerance, up to the end of the run.
-    scenario: Scenario,
-    /// The initial surface of the original request, which may end later: noise and its spline extend to that end.
-    surface: &'a InitialSurface,
-    observe: O,
+/// The second run, and the growth of errors from its perturbed copy.
+struct Repeated {
+    memory: &'static str,
+    tolerance: f64,
+    growth: Growth,
 }
 
-impl<'a, O: FnMut(f64) -> ControlFlow<()>> Second<'a, O> {
-    fn of(run: &Scenario, surface: &'a InitialSurface, until: f64, observe: O) -> Self {
-        let scenario = Scenario { tolerance: tighter(run), until, ..run.clone() };
-        Self { scenario, surface, observe }
-    }
-
-    /// Repeats the run with the first applicable memory, observed by the witness, and measures the growth of errors by
-    /// the perturbed run.
-    fn run(
-        &mut self,
-        memories: Vec<MemoryChoice>,
-        witness: &mut impl Witness,
-    ) -> Result<(&'static str, Growth), VerificationError> {
-        let Self { scenario, surface, observe } = self;
-        let tolerance = scenario.tolerance;
-        let mut here = Probes::of(scenario);
-        let repetition = Repetition { scenario, surface, from: 0.0, to: 0.5 };
-        let by = repetition.run(memories, &mut (witness, &mut here), observe)?;
-        let shift = (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance);
-        let twin = twin(scenario, shift);
-        let mut there = Probes::of(&twin);
-        let repetition = Repetition { scenario: &twin, surface, from: 0.5, to: 1.0 };
-        repetition.run(vec![MemoryChoice::Fft, MemoryChoice::Direct], &mut there, observe)?;
-        Ok((by, growth(&here, &there, shift, tolerance)))
-    }
-
+impl Repeated {
+    /// The verification from the judgements of l and, in two coordinates, of y0.
     fn verification(
         self,
-        memory: &'static str,
-        judgement: &Judgement,
+        judgements: &[Judgement],
         u: Option<Difference>,
         samples: Option<ComparedSamples>,
-        growth: Growth,
     ) -> Verification {
-        let Judgement { worst: l, trusted_until } = *judgement;
-        let tolerance = self.scenario.tolerance;
-        Verification { memory, tolerance, l, y: None, u, trusted_until, samples, growth }
+        let Self { memory, tolerance, growth } = self;
+        let (l, y) = (judgements[0].worst, judgements.get(1).map(|judgement| judgement.worst));
+        let wrong = judgements.iter().filter_map(|judgement| judgement.trusted_until);
+        let trusted_until = wrong.reduce(f64::min);
+        Verification { memory, tolerance, l, y, u, trusted_until, samples, growth }
     }
+}
+
+/// Repeats a run up to a time with the first applicable memory and a tighter tolerance, and measures the growth of errors
+/// by a perturbed run. `begin` makes an empty record of the repetition, and `see` adds a step to it, with the time before
+/// which the step is valid.
+fn repeated<T>(
+    run: &Scenario,
+    until: f64,
+    memories: Vec<MemoryChoice>,
+    begin: impl Fn() -> T,
+    mut see: impl FnMut(&mut T, &Step, f64) -> Result<(), RunError>,
+    mut observe: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Repeated, T), VerificationError> {
+    // That of the original request, which may end later: noise and its spline extend to that end.
+    let surface = run.initial_surface()?;
+    let scenario = Scenario { tolerance: tighter(run), until, ..run.clone() };
+    let (tolerance, support) = (scenario.tolerance, scenario.support());
+    let probes = || Probes::over((scenario.start_time(), until));
+    let probe = |probes: &mut Probes, step: &Step, before: f64| {
+        probes.probe(before, |t| [step.followed(&support, t), 0.0]);
+    };
+    let see_and_probe = |(seen, here): &mut (T, Probes), step: &Step, before: f64| {
+        probe(here, step, before);
+        see(seen, step, before)
+    };
+    let both = || (begin(), probes());
+    let (memory, (seen, here)) =
+        repeat((&scenario, &surface), memories, (0.0, 0.5), both, see_and_probe, &mut observe)?;
+    let shift = shift(tolerance);
+    let only_probe = |there: &mut Probes, step: &Step, before: f64| {
+        probe(there, step, before);
+        Ok(())
+    };
+    let (_, there) = repeat(
+        (&twin(&scenario, shift), &surface),
+        vec![MemoryChoice::Fft, MemoryChoice::Direct],
+        (0.5, 1.0),
+        probes,
+        only_probe,
+        &mut observe,
+    )?;
+    let growth = here.growth(&there, shift, tolerance);
+    Ok((Repeated { memory, tolerance, growth }, seen))
+}
+
+/// Shift of the perturbed run, in σ, for runs with this tolerance.
+fn shift(tolerance: f64) -> f64 {
+    (SHIFT * tolerance).min(LARGEST_SHIFT).max(TIGHTER * tolerance)
 }
 
 /// Fraction of the run after which a tip without a spring is pushed.

@@ -45,7 +45,7 @@ impl Reference {
         let f = |x: f64| tip.value(x);
         let footprint = Footprint::new(&f, 10.8).unwrap();
         let start = Start::steady(ALPHA, 1.0, footprint, POSITION, KICK);
-        let end = [start.time() + SPAN];
+        let end = [start.time + SPAN];
         let problem = Problem::new(ALPHA, 1.0, footprint, start).unwrap();
         let points: Vec<f64> = (0..60).map(|k| 10.0 + 0.7 * f64::from(k)).collect();
         let request = Request { times: &end, points: &points };

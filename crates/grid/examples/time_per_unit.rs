@@ -23,7 +23,7 @@ fn timed(
 ) -> Result<(Run, f64), GridError> {
     let footprint = Footprint::new(&triple_gaussian, 10.8)?;
     let start = Start::steady(1.2, 1.0, footprint, 14.0, 0.05);
-    let end = [start.time() + span];
+    let end = [start.time + span];
     let problem = Problem::new(1.2, 1.0, footprint, start)?;
     let request = Request { times: &end, points: &[] };
     let once = || {

@@ -30,7 +30,7 @@
 //! let footprint = Footprint::new(&f, 8.8)?;
 //! let (alpha, r) = (1.0, 1.0);
 //! let start = Start::steady(alpha, r, footprint, 14.0, 0.0);
-//! let end = start.time() + 10.0;
+//! let end = start.time + 10.0;
 //! let problem = Problem::new(alpha, r, footprint, start)?;
 //! let request = Request { times: &[end], points: &[14.0] };
 //! let gaussians = vec![Gaussian { amplitude: 1.0, center: 0.0, width: 1.0 }];
@@ -52,7 +52,6 @@ mod patch;
 mod plane;
 mod problem;
 mod raster;
-mod row_scheme;
 mod run;
 mod scheme;
 mod sinc;
@@ -71,8 +70,7 @@ pub use plane::{
     PlaneStart, Product, scan_plane, solve_plane,
 };
 pub use problem::Problem;
-pub use raster::{Layer, LineObserver, Scan, ScanLine, Scanned, scan};
-pub use row_scheme::RowMethod;
+pub use raster::{Layer, LineObserver, RowMethod, Scan, ScanLine, Scanned, scan};
 pub use run::{Observer, Request, Run, Work};
 pub use start::Start;
 pub use stepping::Stepping;

@@ -92,12 +92,8 @@ impl<'a> Marcher<'a> {
         Self { visited: Some(visited), ..self }
     }
 
-    pub(crate) fn run(self, request: &Request, observe: &mut Observer) -> Result<Run, GridError> {
-        self.run_to_velocity(request, observe).map(|(run, _)| run)
-    }
-
-    /// As [`run`](Self::run), and returns the final x0' with inertia.
-    pub(crate) fn run_to_velocity(
+    /// Runs to the last requested time; also returns x0' there, with inertia.
+    pub(crate) fn run(
         mut self,
         request: &Request,
         observe: &mut Observer,

@@ -72,30 +72,41 @@ pub fn solve_observed(
 ) -> Result<Run, GridError> {
     stepping.check()?;
     request.check(problem.start.time)?;
-    match method {
-        &Method::Uniform { spacing, from, to } => {
-            let grid = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
-            let scheme = WholeGrid::new(grid, from, to)?;
-            let inside = scheme.inside();
-            run_within(
-                |x0| inside.contains(&x0),
-                observe,
-                |observe| second_order(problem, Box::new(scheme), stepping, request, observe),
-            )
+    let footprint = problem.footprint;
+    let three_point =
+        |spacing| Ok::<_, GridError>(ThreePoint { footprint, spacing: positive(spacing)? });
+    let everywhere = f64::NEG_INFINITY..f64::INFINITY;
+    let (scheme, inside): (Box<dyn Scheme>, _) = match *method {
+        Method::Uniform { spacing, from, to } => {
+            let whole = WholeGrid::new(three_point(spacing)?, from, to)?;
+            let inside = whole.inside();
+            (Box::new(whole), inside)
         }
-        &Method::Windowed { spacing } => {
-            let scheme = ThreePoint { footprint: problem.footprint, spacing: positive(spacing)? };
-            second_order(problem, Box::new(scheme), stepping, request, observe)
+        Method::Windowed { spacing } => (Box::new(three_point(spacing)?), everywhere),
+        Method::Spectral { ref gaussians, spacing } => {
+            let scheme = Theta::new(gaussians, positive(spacing)?)?;
+            (sound(Box::new(scheme), &footprint)?, everywhere)
         }
-        Method::Spectral { gaussians, spacing } => {
-            let scheme = Theta::new(gaussians, positive(*spacing)?)?;
-            spectral(problem, Box::new(scheme), stepping, request, observe)
+        Method::Sinc { spacing, half_width } => {
+            let scheme = Sinc::checked(footprint, spacing, half_width)?;
+            (sound(Box::new(scheme), &footprint)?, everywhere)
         }
-        &Method::Sinc { spacing, half_width } => {
-            let scheme = Sinc::checked(problem.footprint, spacing, half_width)?;
-            spectral(problem, Box::new(scheme), stepping, request, observe)
+    };
+    let spacing = scheme.spacing();
+    let height = |cell: i64| problem.start.height(cell as f64 * spacing);
+    let nothing = |_: i64| 0.0;
+    let (cells, tableau, background) = match method {
+        // Cells contain the heights themselves,
+        Method::Uniform { .. } | Method::Windowed { .. } => (Cells::new(&height), &DOPRI5, None),
+        // or only u - u0; u0 and its slope are evaluated on request.
+        Method::Spectral { .. } | Method::Sinc { .. } => {
+            (Cells::new(&nothing), &DOP853, Some(&problem.start))
         }
-    }
+    };
+    let marcher = Marcher::new(problem, scheme, tableau, *stepping, cells, background);
+    let (run, _) =
+        run_within(|x0| inside.contains(&x0), observe, |observe| marcher.run(request, observe))?;
+    Ok(run)
 }
 
 /// A run that ends with [`GridError::LeftGrid`] if the tip is outside the grid at the end of a step.
@@ -113,32 +124,4 @@ pub(crate) fn run_within<T>(
         ControlFlow::Break(())
     });
     ran.map_err(|error| left.unwrap_or(error))
-}
-
-/// A run on cells that contain the heights themselves.
-fn second_order(
-    problem: &Problem,
-    scheme: Box<dyn Scheme + '_>,
-    stepping: &Stepping,
-    request: &Request,
-    observe: &mut Observer,
-) -> Result<Run, GridError> {
-    let spacing = scheme.spacing();
-    let start = |cell: i64| problem.start.height(cell as f64 * spacing);
-    Marcher::new(problem, scheme, &DOPRI5, *stepping, Cells::new(&start), None)
-        .run(request, observe)
-}
-
-/// A run on a lattice that contains only u - u0; u0 and its slope are evaluated on request.
-fn spectral(
-    problem: &Problem,
-    scheme: Box<dyn Scheme + '_>,
-    stepping: &Stepping,
-    request: &Request,
-    observe: &mut Observer,
-) -> Result<Run, GridError> {
-    let scheme = sound(scheme, &problem.footprint)?;
-    let nothing = |_: i64| 0.0;
-    let (cells, start) = (Cells::new(&nothing), &problem.start);
-    Marcher::new(problem, scheme, &DOP853, *stepping, cells, Some(start)).run(request, observe)
 }

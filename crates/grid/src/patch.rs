@@ -1,5 +1,7 @@
 //! Patches of consecutive cells.
 
+use std::ops::Range;
+
 /// Values at the cells `first`, `first` + 1, …; 0 elsewhere.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Patch {
@@ -20,29 +22,26 @@ impl Patch {
         self.first + self.values.len() as i64
     }
 
+    /// The places in `values` of the cells `first` to `end`; empty unless `first` is below `end`.
+    fn places(&self, first: i64, end: i64) -> Range<usize> {
+        if first < end { (first - self.first) as usize..(end - self.first) as usize } else { 0..0 }
+    }
+
     /// Adds `factor` times `other` where the two overlap.
     pub(crate) fn add(&mut self, factor: f64, other: &Patch) {
-        let first = self.first.max(other.first);
-        let end = self.end().min(other.end());
-        if first >= end {
-            return;
-        }
-        let own = &mut self.values[(first - self.first) as usize..(end - self.first) as usize];
-        let its = &other.values[(first - other.first) as usize..(end - other.first) as usize];
-        for (own, its) in own.iter_mut().zip(its) {
+        let (first, end) = (self.first.max(other.first), self.end().min(other.end()));
+        let own = self.places(first, end);
+        let its = &other.values[other.places(first, end)];
+        for (own, its) in self.values[own].iter_mut().zip(its) {
             *own += factor * its;
         }
     }
 
     /// Σ own · other over the cells of both.
     pub(crate) fn overlap(&self, other: &Patch) -> f64 {
-        let first = self.first.max(other.first);
-        let end = self.end().min(other.end());
-        if first >= end {
-            return 0.0;
-        }
-        let own = &self.values[(first - self.first) as usize..(end - self.first) as usize];
-        let its = &other.values[(first - other.first) as usize..(end - other.first) as usize];
+        let (first, end) = (self.first.max(other.first), self.end().min(other.end()));
+        let own = &self.values[self.places(first, end)];
+        let its = &other.values[other.places(first, end)];
         own.iter().zip(its).map(|(own, its)| own * its).sum()
     }
 

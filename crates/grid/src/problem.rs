@@ -38,13 +38,7 @@ impl<'a> Problem<'a> {
         footprint: Footprint<'a>,
         start: Start<'a>,
     ) -> Result<Self, GridError> {
-        wider.check()?;
-        if !(alpha.is_finite() && (alpha >= 0.0 || !wider.spring)) {
-            return Err(GridError::Alpha(alpha));
-        }
-        if wider.spring && !(r.is_finite() && r > 0.0) {
-            return Err(GridError::R(r));
-        }
+        wider.check((alpha, r))?;
         if !(start.time.is_finite() && start.x0.is_finite()) {
             return Err(GridError::Start { time: start.time, x0: start.x0 });
         }
@@ -55,11 +49,6 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn with_force(self, force: &'a dyn Fn(f64) -> f64) -> Self {
         Self { force: Some(force), ..self }
-    }
-
-    /// The initial condition.
-    pub fn start(&self) -> &Start<'a> {
-        &self.start
     }
 
     /// Right-hand side of (10), the force on the tip, for a given slope under the tip.

@@ -12,10 +12,41 @@ use crate::cells::Cells;
 use crate::marcher::Marcher;
 use crate::method::run_within;
 use crate::patch::Patch;
-use crate::row_scheme::{HALF_WIDTH, RowMethod};
 use crate::scheme::{Scheme, positive, sample};
+use crate::sinc::Sinc;
+use crate::tableau::{DOP853, DOPRI5, Tableau};
+use crate::three_point::ThreePoint;
 use crate::{Footprint, GridError, Path, Problem, Request, Start, Stepping, Wider, Work};
 use std::ops::ControlFlow;
+
+/// Discretisation of rows along x and in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowMethod {
+    /// Samples interpolated by a regularised sinc, exact to round-off for a spacing of at most π over the largest
+    /// wave number in f; order 8 in time.
+    Sinc,
+    /// The paper's grid: slopes by central differences, interpolated linearly, order 2; order 5 in time.
+    ThreePoint,
+}
+
+/// Cells on either side in the support of the sinc.
+const HALF_WIDTH: usize = 80;
+
+impl RowMethod {
+    fn scheme(self, footprint: Footprint<'_>, spacing: f64) -> Box<dyn Scheme + '_> {
+        match self {
+            Self::Sinc => Box::new(Sinc::new(footprint, spacing, HALF_WIDTH)),
+            Self::ThreePoint => Box::new(ThreePoint { footprint, spacing }),
+        }
+    }
+
+    fn tableau(self) -> &'static Tableau {
+        match self {
+            Self::Sinc => &DOP853,
+            Self::ThreePoint => &DOPRI5,
+        }
+    }
+}
 
 /// One product g(x) h(y) of the sum f(x,y).
 #[derive(Clone, Copy)]
@@ -113,9 +144,7 @@ pub fn scan(
 /// Heights on all rows.
 struct Plane {
     y: Vec<f64>,
-    /// Index of the first cell.
-    first: i64,
-    rows: Vec<Vec<f64>>,
+    rows: Vec<Patch>,
     spacing: f64,
     /// Range of possible positions of the tip.
     ends: (f64, f64),
@@ -152,8 +181,8 @@ impl Plane {
         if y.iter().any(|y| !y.is_finite()) || !(4.0..=1e8).contains(&cells) {
             return Err(GridError::Cells(cells));
         }
-        let rows = vec![vec![0.0; count as usize]; y.len()];
-        Ok(Self { y, first: from as i64, rows, spacing, ends })
+        let row = Patch { first: from as i64, values: vec![0.0; count as usize] };
+        Ok(Self { rows: vec![row; y.len()], y, spacing, ends })
     }
 
     /// Scans one line from an initial state; returns x0 at the times within its duration, and the final state.
@@ -175,8 +204,7 @@ impl Plane {
         let section = |x: f64| scan.layers.iter().map(|l| (l.along)(x) * (l.across)(0.0)).sum();
         let footprint = Footprint::new(&section, scan.reach.0)?;
         let scheme = || method.scheme(footprint, self.spacing);
-        let reader =
-            Reader { scheme: scheme(), first: self.first, cells: self.own_row(line.y).to_vec() };
+        let reader = Reader { scheme: scheme(), row: self.own_row(line.y).clone() };
         let surface = Start::new(0.0, start, |x| reader.height(x), |x| reader.slope(x));
         let problem = Problem::under(wider, scan.model, footprint, surface)?;
         let problem = if n == 0 { problem.with_force(scan.force) } else { problem };
@@ -187,7 +215,7 @@ impl Plane {
         let request = Request { times: &all, points: &[] };
         request.check(0.0)?;
         let (scheme, ends) = (scheme(), self.ends);
-        self.rows.iter_mut().flatten().for_each(|u| *u *= left(duration));
+        self.rows.iter_mut().flat_map(|row| &mut row.values).for_each(|u| *u *= left(duration));
         let mut carver = Carver { plane: self, scan, line, imprint: Patch::default(), cells: 0 };
         let mut carve = |visits: &[(f64, f64, f64)]| {
             carver.carve(visits, -alpha, &|t| left(duration - t));
@@ -201,7 +229,7 @@ impl Plane {
             let (cells, tableau) = (Cells::new(&nothing), method.tableau());
             Marcher::new(&problem, scheme, tableau, *stepping, cells, Some(&problem.start))
                 .with_visited(&mut carve)
-                .run_to_velocity(&request, observe)
+                .run(&request, observe)
         })?;
         let mut work = run.work;
         work.cells_updated += carver.cells;
@@ -211,16 +239,16 @@ impl Plane {
         Ok((x0, (end, velocity), work))
     }
 
-    fn own_row(&self, y: f64) -> &[f64] {
+    fn own_row(&self, y: f64) -> &Patch {
         let own = self.y.partition_point(|other| *other < y);
         &self.rows[own]
     }
 
-    fn read(&self, row: &[f64], method: RowMethod, points: &[f64]) -> Vec<f64> {
+    fn read(&self, row: &Patch, method: RowMethod, points: &[f64]) -> Vec<f64> {
         let nothing = |_: f64| 0.0;
         let Ok(footprint) = Footprint::new(&nothing, 1.0) else { return vec![] };
         let scheme = method.scheme(footprint, self.spacing);
-        let reader = Reader { scheme, first: self.first, cells: row.to_vec() };
+        let reader = Reader { scheme, row: row.clone() };
         points.iter().map(|x| reader.height(*x)).collect()
     }
 }
@@ -228,27 +256,20 @@ impl Plane {
 /// Interpolation of the heights of a row before the line is scanned.
 struct Reader<'a> {
     scheme: Box<dyn Scheme + 'a>,
-    first: i64,
-    cells: Vec<f64>,
+    row: Patch,
 }
 
 impl Reader<'_> {
     fn height(&self, x: f64) -> f64 {
-        self.dot(|scheme, out| scheme.height_stencil(x, out))
+        let mut stencil = Patch::default();
+        self.scheme.height_stencil(x, &mut stencil);
+        stencil.overlap(&self.row)
     }
 
     fn slope(&self, x: f64) -> f64 {
-        self.dot(|scheme, out| scheme.slope_stencil(x, out))
-    }
-
-    fn dot(&self, stencil: impl Fn(&dyn Scheme, &mut Patch)) -> f64 {
-        let mut patch = Patch::default();
-        stencil(&*self.scheme, &mut patch);
-        let cell = |k: usize| {
-            let index = patch.first - self.first + k as i64;
-            usize::try_from(index).ok().and_then(|k| self.cells.get(k)).copied().unwrap_or(0.0)
-        };
-        patch.values.iter().enumerate().map(|(k, weight)| weight * cell(k)).sum()
+        let mut stencil = Patch::default();
+        self.scheme.slope_stencil(x, &mut stencil);
+        stencil.overlap(&self.row)
     }
 }
 
@@ -284,11 +305,7 @@ impl Carver<'_> {
                 if (y - line.y).abs() > scan.reach.1 {
                     continue;
                 }
-                let height = (layer.across)(y - line.y);
-                let offset = usize::try_from(first - plane.first).unwrap_or(0);
-                for (u, g) in row[offset..].iter_mut().zip(&sum.values) {
-                    *u += height * g;
-                }
+                row.add((layer.across)(y - line.y), &sum);
                 *cells += sum.values.len() as u64;
             }
         }

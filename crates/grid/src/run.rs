@@ -6,16 +6,16 @@ use std::ops::ControlFlow;
 /// Callback after each accepted step, with its time t and x0(t); may stop the run.
 pub type Observer<'a> = dyn FnMut(f64, f64) -> ControlFlow<()> + 'a;
 
-/// Times at which x0 is requested, and points at which u is requested at the last of them.
+/// Times at which the position of the tip is requested, and points at which u is requested at the last of them.
 #[derive(Debug, Clone, Copy)]
-pub struct Request<'a> {
+pub struct Request<'a, P = f64> {
     /// Times, ascending, none before the start; the last one ends the run. A step ends at each of them.
     pub times: &'a [f64],
     /// Points in any order.
-    pub points: &'a [f64],
+    pub points: &'a [P],
 }
 
-impl Request<'_> {
+impl<P> Request<'_, P> {
     pub(crate) fn check(&self, start: f64) -> Result<(), GridError> {
         let mut before = start;
         for &t in self.times {

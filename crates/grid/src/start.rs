@@ -5,8 +5,10 @@ use crate::footprint::Footprint;
 
 /// t1, x0(t1) and the surface u0 with its slope.
 pub struct Start<'a> {
-    pub(crate) time: f64,
-    pub(crate) x0: f64,
+    /// Start time t1.
+    pub time: f64,
+    /// Start position x0(t1).
+    pub x0: f64,
     height: Box<dyn Fn(f64) -> f64 + 'a>,
     slope: Box<dyn Fn(f64) -> f64 + 'a>,
 }
@@ -77,16 +79,6 @@ impl<'a> Start<'a> {
     ) -> Self {
         let Self { time, x0, height: height0, slope: slope0 } = self;
         Self::new(time, x0, move |x| height0(x) + height(x), move |x| slope0(x) + slope(x))
-    }
-
-    /// Start time t1.
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Start position x0(t1).
-    pub fn x0(&self) -> f64 {
-        self.x0
     }
 
     /// Initial height u0(x).

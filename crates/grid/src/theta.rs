@@ -16,6 +16,16 @@ pub struct Gaussian {
     pub width: f64,
 }
 
+impl Gaussian {
+    /// Checks that there are Gaussians, of finite numbers and widths above 0.
+    pub(crate) fn check(all: &[Self]) -> Result<(), GridError> {
+        let usable = |g: &Self| {
+            g.amplitude.is_finite() && g.center.is_finite() && g.width.is_finite() && g.width > 0.0
+        };
+        if all.is_empty() || !all.iter().all(usable) { Err(GridError::Gaussians) } else { Ok(()) }
+    }
+}
+
 /// Every term of f is the convolution of a Gaussian of variance W²/2 (reading; W the smallest width)
 /// with one of variance w² - W²/2 (writing), and the convolution may be replaced by a sum over the
 /// cells. For W = w = 1:
@@ -38,12 +48,7 @@ pub(crate) struct Theta {
 impl Theta {
     /// The scheme with `spacing` in units of the smallest width.
     pub(crate) fn new(gaussians: &[Gaussian], spacing: f64) -> Result<Self, GridError> {
-        let usable = |g: &Gaussian| {
-            g.amplitude.is_finite() && g.center.is_finite() && g.width.is_finite() && g.width > 0.0
-        };
-        if gaussians.is_empty() || !gaussians.iter().all(usable) {
-            return Err(GridError::Gaussians);
-        }
+        Gaussian::check(gaussians)?;
         let width = gaussians.iter().fold(f64::INFINITY, |w, g| w.min(g.width));
         Ok(Self::read_by(width, gaussians, spacing))
     }

@@ -39,12 +39,20 @@ impl Default for Wider<'_> {
 }
 
 impl Wider<'_> {
-    pub(crate) fn check(&self) -> Result<(), GridError> {
+    /// # Errors
+    /// A number out of range. Without a spring α may be below 0, and r is ignored.
+    pub(crate) fn check(&self, (alpha, r): (f64, f64)) -> Result<(), GridError> {
         let numbers = [self.depth_limit, self.healing_time, self.inertia.map(|(mass, _)| mass)];
-        match numbers.iter().flatten().find(|value| !(value.is_finite() && **value > 0.0)) {
-            Some(value) => Err(GridError::Wider(*value)),
-            None => Ok(()),
+        if let Some(value) = numbers.iter().flatten().find(|v| !(v.is_finite() && **v > 0.0)) {
+            return Err(GridError::Wider(*value));
         }
+        if !(alpha.is_finite() && (alpha >= 0.0 || !self.spring)) {
+            return Err(GridError::Alpha(alpha));
+        }
+        if self.spring && !(r.is_finite() && r > 0.0) {
+            return Err(GridError::R(r));
+        }
+        Ok(())
     }
 
     /// w at this height of the surface.

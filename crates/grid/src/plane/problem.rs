@@ -32,15 +32,8 @@ impl PlaneProblem<'_> {
     /// # Errors
     /// The first number that is not finite or out of its range.
     pub(super) fn check(&self) -> Result<(), GridError> {
-        let (alpha, r) = self.model;
-        self.wider.check()?;
+        self.wider.check(self.model)?;
         product::check(self.products)?;
-        if !(alpha.is_finite() && (alpha >= 0.0 || !self.wider.spring)) {
-            return Err(GridError::Alpha(alpha));
-        }
-        if self.wider.spring && !(r.is_finite() && r > 0.0) {
-            return Err(GridError::R(r));
-        }
         if !(self.stiffness_across.is_finite() && self.stiffness_across >= 0.0) {
             return Err(GridError::StiffnessAcross(self.stiffness_across));
         }

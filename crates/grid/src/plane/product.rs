@@ -61,10 +61,8 @@ pub(super) fn smallest_widths(products: &[Product]) -> [f64; 2] {
 /// # Errors
 /// No product, or one without terms, with a number that is not finite, or with a width that is not above 0.
 pub(super) fn check(products: &[Product]) -> Result<(), GridError> {
-    let usable = |g: &Gaussian| {
-        g.amplitude.is_finite() && g.center.is_finite() && g.width.is_finite() && g.width > 0.0
-    };
-    let is_usable = |terms: &[Gaussian]| !terms.is_empty() && terms.iter().all(usable);
-    let all = products.iter().flat_map(Product::factors).all(is_usable);
-    if products.is_empty() || !all { Err(GridError::Gaussians) } else { Ok(()) }
+    if products.is_empty() {
+        return Err(GridError::Gaussians);
+    }
+    products.iter().flat_map(Product::factors).try_for_each(Gaussian::check)
 }

@@ -6,7 +6,7 @@ use super::product::{self, Product};
 use super::sheet::Sheet;
 use super::start::PlaneStart;
 use super::tensor::{Factors, PlaneMethod, Tensor};
-use crate::{GridError, LineObserver, Path, Request, ScanLine, Stepping, Wider, Work};
+use crate::{GridError, LineObserver, Path, PlaneRequest, ScanLine, Stepping, Wider, Work};
 
 /// Definition of a scan.
 pub struct PlaneScan<'a> {
@@ -59,7 +59,7 @@ pub fn scan_plane(
 ) -> Result<PlaneScanned, GridError> {
     stepping.check()?;
     product::check(scan.products)?;
-    Request { times, points: &[] }.check(0.0)?;
+    PlaneRequest { times, points }.check(0.0)?;
     let factors = Factors::new(scan.products);
     let discretisation = (method, &Tensor::new(method, &factors)?);
     let mut sheet = Sheet::default();

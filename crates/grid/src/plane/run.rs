@@ -7,13 +7,7 @@ use super::tensor::{Factors, PlaneMethod, Tensor};
 use crate::{GridError, Request, Stepping, Work};
 
 /// Times at which (x0, y0) is requested, and points (x, y) at which u is requested at the last of them.
-#[derive(Debug, Clone, Copy)]
-pub struct PlaneRequest<'a> {
-    /// Times, ascending, none before the start; the last one ends the run. A step ends at each of them.
-    pub times: &'a [f64],
-    /// Points in any order.
-    pub points: &'a [[f64; 2]],
-}
+pub type PlaneRequest<'a> = Request<'a, [f64; 2]>;
 
 /// Result of a line: trajectory, surface and cost.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +33,7 @@ pub fn solve_plane(
 ) -> Result<PlaneRun, GridError> {
     stepping.check()?;
     problem.check()?;
-    Request { times: request.times, points: &[] }.check(problem.start.time)?;
+    request.check(problem.start.time)?;
     let factors = Factors::new(problem.products);
     let tensor = Tensor::new(method, &factors)?;
     let mut sheet = Sheet::default();

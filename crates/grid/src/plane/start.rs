@@ -4,14 +4,13 @@ use super::product::{self, Product};
 use crate::Wider;
 use crate::footprint::Tail;
 
-/// u, `u_x` and `u_y` at a point.
-pub(super) type Jet = [f64; 3];
-
 /// t1, (x0, y0) at t1 and the surface u0(x,y) with its gradient.
 pub struct PlaneStart<'a> {
-    pub(super) time: f64,
-    pub(super) position: [f64; 2],
-    surface: Box<dyn Fn([f64; 2]) -> Jet + 'a>,
+    /// Start time t1.
+    pub time: f64,
+    /// x0 and y0 at t1.
+    pub position: [f64; 2],
+    surface: Box<dyn Fn([f64; 2]) -> [f64; 3] + 'a>,
 }
 
 impl<'a> PlaneStart<'a> {
@@ -68,16 +67,6 @@ impl<'a> PlaneStart<'a> {
     pub fn displaced(self, by: [f64; 2]) -> Self {
         let [x, y] = self.position;
         Self { position: [x + by[0], y + by[1]], ..self }
-    }
-
-    /// Start time t1.
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// x0 and y0 at t1.
-    pub fn position(&self) -> [f64; 2] {
-        self.position
     }
 
     /// u0 and its derivatives in x and y.

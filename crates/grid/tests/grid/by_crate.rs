@@ -54,8 +54,8 @@ pub(crate) fn run(
     let grid = FullGrid { alpha: case.alpha, spacing, from };
     let cells = ((to - from) / spacing).round() as usize + 1;
     let heights = (0..cells).map(|k| start.height(grid.x(k)));
-    let unknowns = Unknowns(std::iter::once(start.x0()).chain(heights).collect());
-    let (times, points) = case.request(start.time());
+    let unknowns = Unknowns(std::iter::once(start.x0).chain(heights).collect());
+    let (times, points) = case.request(start.time);
     let first = stepping.first_step.min(stepping.max_step);
     let mut solver: Dopri5 = Dopri5::dopri5()
         .rtol(stepping.rtol)
@@ -63,7 +63,7 @@ pub(crate) fn run(
         .h0(first)
         .h_max(stepping.max_step)
         .max_steps(usize::MAX);
-    solver.init(&grid, start.time(), times[times.len() - 1], &unknowns).expect("a first step");
+    solver.init(&grid, start.time, times[times.len() - 1], &unknowns).expect("a first step");
     let (mut x0, mut steps) = (vec![], 0);
     for time in times {
         while time - solver.t() > 4.0 * f64::EPSILON * time {

@@ -49,7 +49,7 @@ impl Kicked {
     pub(crate) fn run(&self, method: &Method, stepping: &Stepping) -> Result<Run, GridError> {
         let footprint = Footprint::new(&triple_gaussian, REACH)?;
         let start = Start::steady(self.alpha, 1.0, footprint, 14.0, self.kick);
-        let (times, points) = self.request(start.time());
+        let (times, points) = self.request(start.time);
         let problem = Problem::new(self.alpha, 1.0, footprint, start)?;
         solve(&problem, method, stepping, &Request { times: &times, points: &points })
     }

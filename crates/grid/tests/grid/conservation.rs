@@ -16,7 +16,7 @@ fn footprint(x: f64) -> f64 {
 fn carved(method: &Method, spacing: f64) -> Result<f64, GridError> {
     let footprint = Footprint::new(&footprint, REACH)?;
     let start = Start::flat(1.0, 0.0);
-    let end = start.time() + 7.0;
+    let end = start.time + 7.0;
     let points: Vec<f64> =
         (0..).map(|j| -20.0 + f64::from(j) * spacing).take_while(|x| *x < 25.0).collect();
     let problem = Problem::new(ALPHA, 1.0, footprint, start)?;

@@ -9,7 +9,7 @@ use stickslip_grid::{Footprint, GridError, Method, Problem, Request, Start, Step
 fn ripple(method: &Method, after: &[f64]) -> Result<Vec<f64>, GridError> {
     let footprint = Footprint::new(&triple_gaussian, REACH)?;
     let start = Start::steady(CRITICAL_ALPHA, 1.0, footprint, 14.0, 1e-4);
-    let t1 = start.time();
+    let t1 = start.time;
     let times: Vec<f64> = after.iter().map(|t| t1 + t).collect();
     let problem = Problem::new(CRITICAL_ALPHA, 1.0, footprint, start)?;
     let request = Request { times: &times, points: &[] };

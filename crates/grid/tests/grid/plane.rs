@@ -57,7 +57,7 @@ impl Line {
         let wider = (self.law)();
         let start =
             PlaneStart::steady(&wider, (self.alpha, 1.0), products, 14.0).displaced(self.displaced);
-        let times = self.times(start.time());
+        let times = self.times(start.time);
         let points: Vec<[f64; 2]> =
             (0..40).map(|k| [10.0 + 0.6 * f64::from(k), 0.1 * f64::from(k) - 2.0]).collect();
         let problem = PlaneProblem {
@@ -91,7 +91,7 @@ fn a_tip_on_its_line_moves_as_in_one_coordinate() -> Result<(), GridError> {
         let plane = line.run(&SPECTRAL, &Stepping::absolute(1e-12))?;
         let along = Footprint::new(&triple_gaussian, REACH)?;
         let start = Start::steady_under(&law(), (line.alpha, 1.0), along, 14.0, 0.05);
-        let times = line.times(start.time());
+        let times = line.times(start.time);
         let problem = Problem::under(law(), (line.alpha, 1.0), along, start)?;
         let gaussians = footprint(1.0)[0].along.clone();
         let method = Method::Spectral { gaussians, spacing: FINE };

@@ -61,7 +61,7 @@ fn gaussians_of_different_widths_share_a_lattice() -> Result<(), GridError> {
     let footprint = Footprint::new(&f, 13.0)?;
     let run = |method: Method| -> Result<Run, GridError> {
         let start = Start::flat(1.0, 5.0);
-        let times: Vec<f64> = (1..=15).map(|k| start.time() + f64::from(k)).collect();
+        let times: Vec<f64> = (1..=15).map(|k| start.time + f64::from(k)).collect();
         let problem = Problem::new(1.4, 1.0, footprint, start)?;
         let request = Request { times: &times, points: &[4.0, 8.0, 18.0] };
         solve(&problem, &method, &Stepping::absolute(1e-12), &request)

@@ -11,7 +11,7 @@ fn run(method: &Method) -> Result<(Run, f64, Vec<f64>), GridError> {
     let (alpha, r) = (0.9, 1.3);
     let footprint = Footprint::new(&triple_gaussian, REACH)?;
     let start = Start::steady(alpha, r, footprint, 14.0, 0.0);
-    let end = start.time() + SPAN;
+    let end = start.time + SPAN;
     let x0 = 14.0 + r * SPAN;
     let surface = POINTS.map(|x| start.height(x - r * SPAN)).to_vec();
     let problem = Problem::new(alpha, r, footprint, start)?;

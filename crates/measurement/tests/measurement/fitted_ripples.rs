@@ -36,7 +36,7 @@ impl Truth {
         let f = move |x: f64| bell(x) - 0.5 * (bell(x - 2.0) + bell(x + 2.0));
         let footprint = grid::Footprint::new(&f, 11.0).unwrap();
         let start = grid::Start::steady(self.alpha, self.r, footprint, 0.0, 0.5);
-        let end = start.time() + (400.0 + length) / self.r;
+        let end = start.time + (400.0 + length) / self.r;
         let wider = grid::Wider { depth_limit: self.depth_limit, ..grid::Wider::default() };
         let problem = grid::Problem::under(wider, (self.alpha, self.r), footprint, start).unwrap();
         let g = |amplitude, center| grid::Gaussian { amplitude, center, width: 1.0 };

@@ -150,7 +150,7 @@ fn start<'a>(
     if texture.is_flat() {
         return start;
     }
-    let (time, position) = (start.time(), start.position());
+    let (time, position) = (start.time, start.position);
     PlaneStart::new(time, position, move |at| {
         let (carved, texture) = (start.surface(at), texture.height_and_slopes(at[0], at[1]));
         [0, 1, 2].map(|i| carved[i] + texture[i])

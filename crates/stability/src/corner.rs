@@ -105,26 +105,42 @@ fn heights(law: &Law, pushed: &[Complex64], at: Crossing) -> Vec<Complex64> {
 
 /// The harmonics of |h|: h times its sign, whose harmonics follow from the zeros of h.
 fn magnitude(heights: &[Complex64]) -> Vec<Complex64> {
-    let value = |angle: f64| {
-        let turn = Complex64::from_polar(1.0, angle);
-        let sum = heights.iter().skip(1).rev().fold(Complex64::ZERO, |sum, h| (sum + h) * turn);
-        heights[0].re + 2.0 * sum.re
-    };
     let grid: Vec<f64> = (0..=POINTS).map(|i| TAU * f64::from(i) / f64::from(POINTS)).collect();
-    let values: Vec<f64> = grid.iter().map(|angle| value(*angle)).collect();
+    let values = series(heights, &grid);
+    let value = |angle: f64| series(heights, &[angle])[0];
     let changes: Vec<f64> = (1..grid.len())
         .filter(|i| values[i - 1] * values[*i] < 0.0)
         .map(|i| zero_between(value, grid[i - 1], grid[i]))
         .collect();
     let signs = harmonics_of_sign(values[0].signum(), &changes, 2 * heights.len());
-    let both = |f: &[Complex64], n: isize| {
-        let value = f[n.unsigned_abs()];
-        if n < 0 { value.conj() } else { value }
-    };
-    let most = heights.len().cast_signed() - 1;
+    // Of the product: the sum over m of h_m s_{n - m}, for m from the most negative on.
+    let (heights, signs) = (both_sides(heights), both_sides(&signs));
+    let middle = signs.len() / 2;
+    let most = heights.len() / 2;
     (0..=most)
-        .map(|n| (-most..=most).map(|m| both(heights, m) * both(&signs, n - m)).sum())
+        .map(|n| {
+            let signs = &signs[..=middle + n + most];
+            heights.iter().zip(signs.iter().rev()).map(|(h, s)| h * s).sum()
+        })
         .collect()
+}
+
+/// The real function with harmonics f_n, n ≥ 0, at these angles.
+fn series(harmonics: &[Complex64], angles: &[f64]) -> Vec<f64> {
+    let turns: Vec<Complex64> = angles.iter().map(|a| Complex64::from_polar(1.0, *a)).collect();
+    let mut sums = vec![Complex64::ZERO; angles.len()];
+    for f in harmonics.iter().skip(1).rev() {
+        for (sum, turn) in sums.iter_mut().zip(&turns) {
+            *sum = (*sum + f) * turn;
+        }
+    }
+    sums.iter().map(|sum| harmonics[0].re + 2.0 * sum.re).collect()
+}
+
+/// Harmonics f_n of a real function for all n, ascending, from those for n ≥ 0.
+fn both_sides(harmonics: &[Complex64]) -> Vec<Complex64> {
+    let negative = harmonics.iter().skip(1).rev().map(Complex64::conj);
+    negative.chain(harmonics.iter().copied()).collect()
 }
 
 /// Harmonics of a function that is `first` = ±1 at 0 and changes its sign at `changes`.

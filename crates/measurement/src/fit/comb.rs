@@ -41,10 +41,10 @@ impl Rows {
         last - first
     }
 
-    /// Relative position, from -1 to 1.
-    fn part(&self, x: f64) -> f64 {
+    /// The function of the position that is -1 at the first and 1 at the last row.
+    fn part(&self) -> impl Fn(f64) -> f64 {
         let (first, last) = ends(&self.x);
-        (2.0 * x - first - last) / (last - first)
+        move |x| (2.0 * x - first - last) / (last - first)
     }
 
     /// A column for each line, 0 on the other lines.
@@ -59,17 +59,18 @@ impl Rows {
 
     /// Offset and slope of every line.
     pub(super) fn ground(&self) -> Vec<Vec<f64>> {
-        [self.columns(|_| 1.0), self.columns(|x| self.part(x))].concat()
+        [self.columns(|_| 1.0), self.columns(self.part())].concat()
     }
 
     /// cos and sin of a number of turns per length, times a power of the position.
     fn wave(&self, turns: f64, power: i32) -> Vec<Vec<f64>> {
         let (first, last) = ends(&self.x);
         let middle = 0.5 * (first + last);
-        let angle = move |x: f64| TAU * turns * (x - middle);
+        let angle = |x: f64| TAU * turns * (x - middle);
+        let part = self.part();
         [
-            self.columns(|x| angle(x).cos() * self.part(x).powi(power)),
-            self.columns(|x| angle(x).sin() * self.part(x).powi(power)),
+            self.columns(|x| angle(x).cos() * part(x).powi(power)),
+            self.columns(|x| angle(x).sin() * part(x).powi(power)),
         ]
         .concat()
     }

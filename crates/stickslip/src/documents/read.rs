@@ -3,7 +3,6 @@
 use crate::FORMAT_VERSION;
 use serde::de::{DeserializeOwned, Error as _, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
-use serde_json::error::Category;
 use std::fmt::{self, Display};
 use std::io::{self, BufReader, Cursor, Read};
 use thiserror::Error;
@@ -69,12 +68,15 @@ pub fn read_from<D: DeserializeOwned>(mut source: impl Read, wanted: &str) -> Re
 
 /// Reads a document from a stream of any type: the long code that reads documents is compiled once for all types.
 fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Result<D, Unusable> {
-    let (kind, whole) = identified(source, wanted)?;
+    let (kind, mut whole) = identified(source, wanted)?;
     kind.judge(wanted)?;
-    serde_json::from_reader(whole).map_err(|error| match error.classify() {
-        Category::Io => unreadable(&error),
-        Category::Data => Unusable(format!("damaged: {error}")),
-        Category::Syntax | Category::Eof => {
+    // From memory JSON is read in two thirds of the time that it takes byte by byte from a stream.
+    let mut text = vec![];
+    whole.read_to_end(&mut text).map_err(unreadable)?;
+    serde_json::from_slice(&text).map_err(|error| {
+        if error.is_data() {
+            Unusable(format!("damaged: {error}"))
+        } else {
             Unusable(format!("damaged, or {}", no_document(&error, wanted)))
         }
     })
@@ -100,7 +102,7 @@ const BLOCK: usize = 1 << 16;
 /// column of the largest table.
 const LARGEST_BEGINNING: u64 = 64 << 20;
 
-fn unreadable(error: &serde_json::Error) -> Unusable {
+fn unreadable(error: impl Display) -> Unusable {
     Unusable(format!("cannot be read: {error}"))
 }
 
@@ -122,7 +124,7 @@ pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
     match read {
         // Stopped because all is known.
         Err(_) if kind.format.is_some() && kind.format_version.is_some() => Ok(kind),
-        Err(error) if error.is_io() => Err(unreadable(&error)),
+        Err(error) if error.is_io() => Err(unreadable(error)),
         Err(error) => Err(no_document(&error, wanted)),
         Ok(()) => Ok(kind),
     }

@@ -1,11 +1,10 @@
 //! Convolution: transform, multiply, transform back.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
+use crate::transforms::Transforms;
 use crate::window::Window;
 use crate::{Density, Field, Kernel, Plan};
 
@@ -23,10 +22,7 @@ pub struct Convolver {
     plan: Plan,
     /// `K̂/(length φ̂²)` up to half the Nyquist wavenumber; zero beyond.
     multiplier: Vec<Complex<f64>>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    backward: Arc<dyn ComplexToReal<f64>>,
-    spectrum: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
+    transforms: Transforms,
 }
 
 impl Convolver {
@@ -40,21 +36,10 @@ impl Convolver {
 
     /// Prepares the kernel with a given plan, which determines the accuracy.
     pub fn with_plan(kernel: &Kernel, plan: Plan) -> Self {
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(plan.length);
-        let backward = planner.plan_fft_inverse(plan.length);
-        let needed = forward.get_scratch_len().max(backward.get_scratch_len());
-        let mut convolver = Self {
-            plan,
-            multiplier: Vec::new(),
-            spectrum: forward.make_output_vec(),
-            scratch: vec![Complex::default(); needed],
-            forward,
-            backward,
-        };
-        convolver.transform(&mut periodic_samples(kernel, &plan));
-        convolver.multiplier = deconvolved(&convolver.spectrum, plan.length);
-        convolver
+        let mut transforms = Transforms::new(plan.length);
+        transforms.forward(&mut periodic_samples(kernel, &plan));
+        let multiplier = deconvolved(&transforms.modes, plan.length);
+        Self { plan, multiplier, transforms }
     }
 
     /// The plan for this kernel.
@@ -88,24 +73,11 @@ impl Convolver {
         assert!(same, "density of spacing {}, plan of {}", density.spacing(), self.plan.spacing);
         let cells = field.reset(&self.plan, first_cell);
         density.copy_window(first_cell, cells);
-        self.transform(cells);
-        let (kept, cut) = self.spectrum.split_at_mut(self.multiplier.len());
-        for (mode, factor) in kept.iter_mut().zip(&self.multiplier) {
+        self.transforms.forward(cells);
+        for (mode, factor) in self.transforms.modes.iter_mut().zip(&self.multiplier) {
             *mode *= factor;
         }
-        cut.fill(Complex::default());
-        // A sum of reals; said so because the transform back refuses NaN here.
-        self.spectrum[0].im = 0.0;
-        self.backward
-            .process_with_scratch(&mut self.spectrum, cells, &mut self.scratch)
-            .expect("buffers have the lengths of the plan");
-    }
-
-    /// Transforms `cells` into `self.spectrum`, and overwrites them.
-    fn transform(&mut self, cells: &mut [f64]) {
-        self.forward
-            .process_with_scratch(cells, &mut self.spectrum, &mut self.scratch)
-            .expect("buffers have the lengths of the plan");
+        self.transforms.backward(self.multiplier.len(), cells);
     }
 }
 

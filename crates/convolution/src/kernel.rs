@@ -1,7 +1,5 @@
 //! The kernel: a formula, its bandwidth and its reach.
 
-use std::fmt;
-
 /// A real kernel `K(ξ)` of the separation `ξ = x − y`, target minus source.
 ///
 /// The caller guarantees bandwidth and reach; the accuracy of every sum depends on them. For the Gaussian
@@ -16,13 +14,4 @@ pub struct Kernel<'a> {
     /// The distance beyond which `|K|` is below round-off, or `None` if there is none, as for the Bessel functions
     /// `J0` and `J1`; such a kernel is tapered beyond the separations in use, and must only be bounded.
     pub reach: Option<f64>,
-}
-
-impl fmt::Debug for Kernel<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Kernel")
-            .field("band", &self.band)
-            .field("reach", &self.reach)
-            .finish_non_exhaustive()
-    }
 }

@@ -49,6 +49,7 @@ mod plan;
 mod rows;
 mod spectra;
 mod sum;
+mod transforms;
 mod window;
 
 pub use convolver::Convolver;

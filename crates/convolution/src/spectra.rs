@@ -1,13 +1,12 @@
 //! Densities as Fourier sums over one range of the lattice, and fields from such sums.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::lattice::dyadic_at_most;
 use crate::plan::{UPSAMPLING, fast_length};
+use crate::transforms::Transforms;
 use crate::window::{WIDTH, Window};
 use crate::{Density, Field, Rows};
 
@@ -30,11 +29,8 @@ pub struct Spectra {
     length: usize,
     /// 1/φ̂ at the wave numbers.
     window: Vec<f64>,
-    forward: Arc<dyn RealToComplex<f64>>,
-    backward: Arc<dyn ComplexToReal<f64>>,
     cells: Vec<f64>,
-    modes: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
+    transforms: Transforms,
 }
 
 impl Spectra {
@@ -49,10 +45,6 @@ impl Spectra {
         let first = (from / spacing).floor() as i64 - WIDTH as i64;
         let last = (to / spacing).ceil() as i64 + WIDTH as i64;
         let length = fast_length((last - first) as usize + 1);
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(length);
-        let backward = planner.plan_fft_inverse(length);
-        let needed = forward.get_scratch_len().max(backward.get_scratch_len());
         let of_mode =
             |mode: usize| 1.0 / Window::shared().transform(TAU * mode as f64 / length as f64);
         Self {
@@ -61,10 +53,7 @@ impl Spectra {
             length,
             window: (0..=length / 4).map(of_mode).collect(),
             cells: vec![0.0; length],
-            modes: forward.make_output_vec(),
-            scratch: vec![Complex::default(); needed],
-            forward,
-            backward,
+            transforms: Transforms::new(length),
         }
     }
 
@@ -116,10 +105,8 @@ impl Spectra {
     }
 
     fn transformed(&mut self) -> Vec<Complex<f64>> {
-        self.forward
-            .process_with_scratch(&mut self.cells, &mut self.modes, &mut self.scratch)
-            .expect("buffers have the lengths of the plan");
-        self.modes.iter().zip(&self.window).map(|(mode, window)| mode * window).collect()
+        self.transforms.forward(&mut self.cells);
+        self.transforms.modes.iter().zip(&self.window).map(|(mode, window)| mode * window).collect()
     }
 
     /// S(x) from these Ŝ.
@@ -146,15 +133,10 @@ impl Spectra {
     fn invert(&mut self, spectrum: &[Complex<f64>], cells: &mut [f64]) {
         assert_eq!(spectrum.len(), self.window.len(), "one number for each wave number");
         let scale = 1.0 / (self.spacing * self.length as f64);
-        let (kept, cut) = self.modes.split_at_mut(spectrum.len());
-        for ((mode, given), window) in kept.iter_mut().zip(spectrum).zip(&self.window) {
+        let modes = self.transforms.modes.iter_mut();
+        for ((mode, given), window) in modes.zip(spectrum).zip(&self.window) {
             *mode = given * (window * scale);
         }
-        cut.fill(Complex::default());
-        // A sum of reals; said so because the transform back refuses anything else here.
-        self.modes[0].im = 0.0;
-        self.backward
-            .process_with_scratch(&mut self.modes, cells, &mut self.scratch)
-            .expect("buffers have the lengths of the plan");
+        self.transforms.backward(spectrum.len(), cells);
     }
 }

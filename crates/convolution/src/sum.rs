@@ -1,6 +1,6 @@
 //! Sums with all sources and all targets known in advance.
 
-use crate::{Convolver, Density, Field, Kernel, Plan};
+use crate::{Convolver, Density, Field, Kernel};
 
 /// `S(x) = Σ_j w_j K(x − y_j)` at each target, by its definition.
 ///
@@ -67,7 +67,7 @@ impl Sum {
         if of_sources.is_empty() {
             return Self { field, near_sources };
         }
-        let mut convolver = Convolver::with_plan(kernel, Plan::new(kernel, all.high - all.low));
+        let mut convolver = Convolver::new(kernel, all.high - all.low);
         let mut density = Density::new(convolver.spacing());
         held().for_each(|(&y, &w)| density.add(y, w));
         let middle = all.low + (all.high - all.low) / 2.0;

@@ -40,10 +40,10 @@ fn branches(tip: &Tip) -> Result<(Branch, Option<Branch>), Failed> {
     let settings = Continuation { to: LAST, longest_step: 0.02, ..Continuation::default() };
     let go_on = |_: &Cycle| ControlFlow::Continue(());
     let main = settings.from_onset(&tip.function, 1.0, go_on);
-    let main = main.map_err(|error| failed("the branch of cycles", &error))?;
+    let main = main.map_err(failed("the branch of cycles"))?;
     let doubling = main.special.iter().find(|s| s.kind == SpecialKind::PeriodDoubling);
     let doubled = doubling.map(|special| settings.switched(special, go_on)).transpose();
-    let doubled = doubled.map_err(|error| failed("the doubled branch", &error))?;
+    let doubled = doubled.map_err(failed("the doubled branch"))?;
     Ok((main, doubled))
 }
 

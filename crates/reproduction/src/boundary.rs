@@ -1,7 +1,7 @@
 //! Figures along the stability boundary: Fig. 6, and the criticality of the onset.
 
-use super::parts::{Failed, curve, figure as empty, panel, spaced};
-use super::tips::{BETA_0, beta_0, beta_1};
+use super::parts::{Failed, curve, panel, spaced};
+use super::tips::figure_of_both;
 use stickslip::{FigureDocument, ScaleName, StyleName};
 use stickslip_stability::{Boundary, onset_at};
 use stickslip_tip::Wider;
@@ -12,11 +12,8 @@ const LAST: f64 = 2.0;
 
 /// Fig. 6: the stability boundary in the plane of r and α.
 pub(super) fn fig6() -> Result<FigureDocument, Failed> {
-    let tips = [beta_1()?, beta_0()?];
-    let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];
     let title = "Fig. 6: α_c(r); steady motion is unstable where shaded";
-    let mut document = empty("fig6", title, &models);
-    document.remarks.push(BETA_0.into());
+    let (tips, mut document) = figure_of_both(("fig6", title), |_| Ok(0.0))?;
     document.remarks.push(
         "dashed: the approximate criterion of Gnecco et al. for the triple Gaussian, α = 0.7112 r"
             .into(),
@@ -46,11 +43,8 @@ const RANGE: (f64, f64) = (-1.5, 1.0);
 
 /// Criticality along the boundary: small oscillations are stable above it, or unstable below it.
 pub(super) fn criticality() -> Result<FigureDocument, Failed> {
-    let tips = [beta_1()?, beta_0()?];
-    let models = [tips[0].model(0.0, 1.0)?, tips[1].model(0.0, 1.0)?];
     let title = "Criticality along the boundary: supercritical above 0, subcritical below";
-    let mut document = empty("criticality", title, &models);
-    document.remarks.push(BETA_0.into());
+    let (tips, mut document) = figure_of_both(("criticality", title), |_| Ok(0.0))?;
     document.remarks.push(
         "d ln α/d(a²), a half the peak-to-peak of x0: the excess over αc, in parts of it, for an amplitude \
          of 1, to leading order"

@@ -1,7 +1,7 @@
 //! Figures of oscillations slightly beyond onset, which are limit cycles here; the paper simulates until transients decay.
 
 use super::parts::{Failed, curve, failed, figure as empty, line_of_best_fit, panel, spaced};
-use super::tips::{BETA_0, Tip, beta_0, beta_1};
+use super::tips::{Tip, beta_1, figure_of_both};
 use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
 use stickslip_stability::onset;
@@ -53,7 +53,7 @@ impl Onset {
 
 /// The limit cycle.
 pub(super) fn solved(model: &Model) -> Result<Cycle, Failed> {
-    cycle(model, DEFAULT_TOLERANCE).map_err(|error| failed("the limit cycle", &error))
+    cycle(model, DEFAULT_TOLERANCE).map_err(failed("the limit cycle"))
 }
 
 /// α - αc of the cycles, and of steady motion below.
@@ -62,23 +62,24 @@ pub(super) fn distances() -> Vec<f64> {
 }
 const BELOW: [f64; 2] = [-0.02, -0.01];
 
+fn critical_alpha(tip: &Tip) -> Result<f64, Failed> {
+    Ok(tip.critical(1.0)?.alpha)
+}
+
 /// Fig. 2: squares of the amplitudes of u and x0 against α - αc.
 pub(super) fn fig2() -> Result<FigureDocument, Failed> {
-    let tips = [beta_1()?, beta_0()?];
-    let critical = [tips[0].critical(1.0)?, tips[1].critical(1.0)?];
-    let models = [tips[0].model(critical[0].alpha, 1.0)?, tips[1].model(critical[1].alpha, 1.0)?];
     let title = "Fig. 2: squared amplitudes of the surface and of the tip, r = 1";
-    let mut document = empty("fig2", title, &models);
-    document.remarks.push(BETA_0.into());
+    let (tips, mut document) = figure_of_both(("fig2", title), critical_alpha)?;
     document.remarks.push(
         "amplitudes are half peak-to-peak, of the limit cycles themselves instead of long runs"
             .into(),
     );
-    for (tip, at) in tips.iter().zip(critical) {
+    for tip in &tips {
+        let at = tip.critical(1.0)?;
         let found = Onset::above(tip, &distances())?;
         let heading = format!("{}, α_c = {:.3}", tip.name, at.alpha);
         document.panels.push(amplitudes(&heading, "α − α_c", &found, &BELOW));
-        let leading = onset(&tip.function, 1.0).map_err(|error| failed("the onset", &error))?;
+        let leading = onset(&tip.function, 1.0).map_err(failed("the onset"))?;
         document.remarks.push(format!(
             "{}: the line of x0 has slope {:.4}, the theory of the bifurcation at α → αc {:.4}",
             tip.name,
@@ -119,12 +120,10 @@ pub(super) fn amplitudes(
 
 /// Fig. 3: the wavelength against α - αc.
 pub(super) fn fig3() -> Result<FigureDocument, Failed> {
-    let tips = [beta_1()?, beta_0()?];
-    let critical = [tips[0].critical(1.0)?, tips[1].critical(1.0)?];
-    let models = [tips[0].model(critical[0].alpha, 1.0)?, tips[1].model(critical[1].alpha, 1.0)?];
-    let mut document = empty("fig3", "Fig. 3: wavelength of the surface, r = 1", &models);
-    document.remarks.push(BETA_0.into());
-    for (tip, at) in tips.iter().zip(critical) {
+    let title = "Fig. 3: wavelength of the surface, r = 1";
+    let (tips, mut document) = figure_of_both(("fig3", title), critical_alpha)?;
+    for tip in &tips {
+        let at = tip.critical(1.0)?;
         let found = Onset::above(tip, &distances())?;
         let (intercept, slope) = found.fit(&found.wavelength);
         let ends = [0.0, found.distance[found.distance.len() - 1]];

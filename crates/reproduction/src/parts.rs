@@ -22,13 +22,13 @@ pub(super) fn curve(style: StyleName, name: &str, x: &[f64], y: &[f64]) -> Curve
     CurveDocument::new(style, name, x, y)
 }
 
-/// An error of a library, with the name of the computation.
-pub(super) fn failed(what: &str, error: &impl Display) -> Failed {
-    Failed::new(format!("{what}: {error}"))
+/// Puts the name of the computation before an error of a library.
+pub(super) fn failed<E: Display>(what: &str) -> impl Fn(E) -> Failed {
+    move |error| Failed::new(format!("{what}: {error}"))
 }
 
 pub(super) fn finished(scenario: &Scenario) -> Result<Run, Failed> {
-    run(scenario).map_err(|error| failed("the run", &error))
+    run(scenario).map_err(failed("the run"))
 }
 
 /// u(x,t) of a run.
@@ -39,7 +39,7 @@ pub(super) fn heights(
     x: &[f64],
 ) -> Result<Vec<f64>, Failed> {
     let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-    let u = surface.heights(t, x).map_err(|error| failed("the surface", &error))?;
+    let u = surface.heights(t, x).map_err(failed("the surface"))?;
     Ok(u.to_vec())
 }
 

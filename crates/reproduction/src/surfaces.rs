@@ -14,7 +14,7 @@ const NOISE: Noise = Noise { amplitude: 1e-4, spacing: 0.001, seed: 1 };
 /// The run of Figs. 4 and 7, computed once.
 pub(super) fn settled() -> Result<&'static (Scenario, Run), Failed> {
     static SETTLED: LazyLock<Result<(Scenario, Run), Failed>> = LazyLock::new(compute);
-    SETTLED.as_ref().map_err(|failure| failed("Fig. 4", failure))
+    SETTLED.as_ref().map_err(failed("Fig. 4"))
 }
 
 fn compute() -> Result<(Scenario, Run), Failed> {
@@ -54,11 +54,10 @@ pub(super) fn fig7() -> Result<FigureDocument, Failed> {
     let (scenario, run) = settled()?;
     let (x, y) = (spaced(400.0, 450.0, 0.1), spaced(-2.0, 2.0, 0.05));
     // h of (60), whatever the width of f.
-    let footprint = Footprint::separable(scenario.model.tip().clone(), 1.0)
-        .map_err(|error| failed("the tip", &error))?;
+    let footprint =
+        Footprint::separable(scenario.model.tip().clone(), 1.0).map_err(failed("the tip"))?;
     let surface = Surface::new(&scenario.model, &run.initial_surface, &run.trajectory);
-    let image =
-        surface.image(&footprint, END, &x, &y).map_err(|error| failed("the surface", &error))?;
+    let image = surface.image(&footprint, END, &x, &y).map_err(failed("the surface"))?;
     let z = image.rows().into_iter().map(|row| row.to_vec()).collect();
     let title = "Fig. 7: u(x, y, t = 460), f = exp(−x²), r = 1, α = α_c + 0.03";
     let mut document = empty("fig7", title, std::slice::from_ref(&scenario.model));

@@ -47,7 +47,7 @@ const METHODS: [(&str, StyleName, &str); 3] = [
 
 pub(super) fn figure() -> Result<FigureDocument, Failed> {
     let measured: Measured =
-        serde_json::from_str(MEASURED).map_err(|error| failed("work_precision.json", &error))?;
+        serde_json::from_str(MEASURED).map_err(failed("work_precision.json"))?;
     let models: Result<Vec<Model>, Failed> = measured.cases.iter().map(Case::model).collect();
     let mut document = empty("work-precision", "Time of a run against its error", &models?);
     document.remarks.push(format!(
@@ -78,7 +78,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
 impl Case {
     fn model(&self) -> Result<Model, Failed> {
         let tip = TipFunction::triple_gaussian(self.beta, 1.0);
-        let tip = tip.map_err(|error| failed("the tip", &error))?;
-        Model::new(tip, self.alpha, self.r).map_err(|error| failed("the model", &error))
+        let tip = tip.map_err(failed("the tip"))?;
+        Model::new(tip, self.alpha, self.r).map_err(failed("the model"))
     }
 }

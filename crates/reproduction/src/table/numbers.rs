@@ -60,9 +60,8 @@ fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
             "stable for α < αc is meant",
         ),
     ];
-    let wide = TipFunction::triple_gaussian(0.0, 1.0).map_err(|error| failed("the tip", &error))?;
-    let at = critical(&Wider::default(), &wide, 1.0)
-        .map_err(|error| failed("the critical point", &error))?;
+    let wide = TipFunction::triple_gaussian(0.0, 1.0).map_err(failed("the tip"))?;
+    let at = critical(&Wider::default(), &wide, 1.0).map_err(failed("the critical point"))?;
     let case = "(48) with β = 0, r = 1";
     all.extend([
         number("αc", case, "V, Fig. 2", "1.608").corrected(at.alpha, 3, OTHER_TIP),
@@ -79,7 +78,7 @@ fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
     while unstable - stable > 1e-6 {
         let middle = 0.5 * (stable + unstable);
         let count = unstable_count(&tip.model(middle, 1.0)?);
-        let count = count.map_err(|error| failed("the roots", &error))?;
+        let count = count.map_err(failed("the roots"))?;
         if count == 0 { stable = middle } else { unstable = middle }
     }
     Ok(0.5 * (stable + unstable))
@@ -89,7 +88,7 @@ fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
 pub(super) fn formulas() -> Result<Vec<NumberDocument>, Failed> {
     let tip = beta_1()?;
     let number = |quantity, case, place, text| Printed { quantity, case, place, text };
-    let volume_rate = TipFunction::gaussian(1.0).map_err(|error| failed("the tip", &error))?;
+    let volume_rate = TipFunction::gaussian(1.0).map_err(failed("the tip"))?;
     let model = tip.model(1.0, 1.0)?;
     let mut all = vec![
         number("αc/r of Gnecco et al.", "k = 1.406 N/(σ v0)", "VII", "0.7112").beside(1.0 / 1.406),
@@ -131,7 +130,7 @@ fn bessel() -> Result<Vec<NumberDocument>, Failed> {
     let mut all = vec![];
     for (r, alpha, omega) in [(1.0, "1", "0.786151"), (2.0, "4", "0.624811")] {
         let at = critical(&Wider::default(), &TipFunction::Bessel, r)
-            .map_err(|error| failed("the critical point", &error))?;
+            .map_err(failed("the critical point"))?;
         let case = format!("f = J0, r = {r}");
         let number = |quantity, place, text| Printed { quantity, case: &case, place, text };
         all.push(number("αc = r²", "IV.C", alpha).beside(at.alpha));

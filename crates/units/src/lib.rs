@@ -49,24 +49,23 @@ pub struct Scales {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum UnitsError {
     /// Not a number with a unit.
-    #[error("`{text}` is not a quantity in {unit}: write a number and a unit, such as {example}")]
+    #[error(
+        "`{text}` is not a quantity in {unit}: write a number and a unit, such as {}",
+        unit.example()
+    )]
     Syntax {
         /// The text as given.
         text: String,
         /// The expected unit.
         unit: Unit,
-        /// A valid example.
-        example: &'static str,
     },
     /// A number without a unit.
-    #[error("`{text}` has no unit: write a number and a unit, such as {example}")]
+    #[error("`{text}` has no unit: write a number and a unit, such as {}", unit.example())]
     Bare {
         /// The text as given.
         text: String,
         /// The expected unit.
         unit: Unit,
-        /// A valid example.
-        example: &'static str,
     },
     /// A quantity that must be positive.
     #[error("{name} is {value} in SI units: it must be a finite number > 0")]

@@ -27,37 +27,28 @@ pub enum Unit {
 
 impl std::fmt::Display for Unit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.spellings()[0])
+        f.write_str(self.notation().0[0])
     }
 }
 
 impl Unit {
-    fn spellings(self) -> &'static [&'static str] {
+    /// Spellings, the first of them for messages, and an example.
+    fn notation(self) -> (&'static [&'static str], &'static str) {
         match self {
-            Self::Damping => &["kg/s", "Ns/m", "N s/m", "N*s/m", "N·s/m"],
-            Self::Stiffness => &["N/m"],
-            Self::Length => &["m"],
-            Self::Velocity => &["m/s"],
-            Self::Force => &["N"],
-            Self::Time => &["s"],
-            Self::Mass => &["kg"],
-            Self::Rate => &["1/s", "/s", "rad/s"],
-            Self::Voltage => &["V"],
+            Self::Damping => (&["kg/s", "Ns/m", "N s/m", "N*s/m", "N·s/m"], "20ug/s or 1e-8kg/s"),
+            Self::Stiffness => (&["N/m"], "0.5N/m"),
+            Self::Length => (&["m"], "30nm"),
+            Self::Velocity => (&["m/s"], "1um/s"),
+            Self::Force => (&["N"], "10nN"),
+            Self::Time => (&["s"], "5ms"),
+            Self::Mass => (&["kg"], "20pg"),
+            Self::Rate => (&["1/s", "/s", "rad/s"], "50/s"),
+            Self::Voltage => (&["V"], "50mV"),
         }
     }
 
-    fn example(self) -> &'static str {
-        match self {
-            Self::Damping => "20ug/s or 1e-8kg/s",
-            Self::Stiffness => "0.5N/m",
-            Self::Length => "30nm",
-            Self::Velocity => "1um/s",
-            Self::Force => "10nN",
-            Self::Time => "5ms",
-            Self::Mass => "20pg",
-            Self::Rate => "50/s",
-            Self::Voltage => "50mV",
-        }
+    pub(crate) fn example(self) -> &'static str {
+        self.notation().1
     }
 
     /// The value in SI units of a number with this unit and prefixes, such as `50nm`, `0.5 N/m`,
@@ -66,13 +57,11 @@ impl Unit {
     /// # Errors
     /// [`UnitsError::Bare`] for a number without a unit; [`UnitsError::Syntax`].
     pub fn parse(self, text: &str) -> Result<f64, UnitsError> {
-        let error =
-            || UnitsError::Syntax { text: text.to_owned(), unit: self, example: self.example() };
+        let error = || UnitsError::Syntax { text: text.to_owned(), unit: self };
         let trimmed = text.trim();
         let (number, suffix) = number_and_suffix(trimmed).ok_or_else(error)?;
         if suffix.is_empty() {
-            let (text, unit) = (text.to_owned(), self);
-            return Err(UnitsError::Bare { text, unit, example: self.example() });
+            return Err(UnitsError::Bare { text: text.to_owned(), unit: self });
         }
         self.one(suffix).map(|one| number * one).filter(|v| v.is_finite()).ok_or_else(error)
     }
@@ -82,7 +71,7 @@ impl Unit {
     #[must_use]
     pub fn one(self, unit: &str) -> Option<f64> {
         let unit = unit.trim();
-        let spelt = self.spellings().iter().find_map(|spelling| scale_of(unit, spelling));
+        let spelt = self.notation().0.iter().find_map(|spelling| scale_of(unit, spelling));
         spelt.or_else(|| self.in_words(&unit.to_lowercase()))
     }
 

@@ -14,7 +14,7 @@ use stickslip_stability::{
     Raster, RasterCritical, RasterKind, RasterPath, Snaking, creep, critical, critical_r, onset,
     trapping_alpha,
 };
-use stickslip_tip::memory::Fit;
+use stickslip_tip::memory::{Fit, Retreat};
 use stickslip_tip::{Footprint, Model, TipFunction, Wider};
 
 /// Text of a file of the project.
@@ -382,7 +382,7 @@ fn constants_of_the_memories() {
     let cells = constant("crates/tip/src/memory/fft.rs", "CELLS_KEPT");
     // Pairs, and the largest weight, of a fit to this accuracy.
     let fit = |wanted: f64| {
-        let fit = Fit::new(&triple(1.0), wanted).unwrap();
+        let fit = Fit::new(&triple(1.0), wanted, Retreat::Small).unwrap();
         assert!(fit.certificate().slope <= wanted, "{wanted}");
         let weights = fit.terms().iter().map(|term| term.weight.re.hypot(term.weight.im));
         (fit.terms().len(), weights.fold(0.0, f64::max))

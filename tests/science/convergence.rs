@@ -5,9 +5,9 @@
 use crate::acceptance::{largest_difference, observed_order};
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
-use stickslip_tip::memory::Policy;
+use stickslip_tip::memory::{Policy, Retreat};
 use stickslip_tip::{
-    Force, InitialSurface, Integrator, Model, STAGES, Step, TipFunction, Trajectory,
+    Force, InitialSurface, Integrator, MemoryChoice, Model, STAGES, Step, TipFunction, Trajectory,
     nodes_and_weights,
 };
 
@@ -84,11 +84,8 @@ fn errors_after(
     (at_ends.fold(0.0, f64::max), anywhere)
 }
 
-fn memory(name: &str, model: &Model) -> Policy {
-    match name {
-        "direct" => Policy::direct(model.tip().clone()),
-        _ => Policy::fft(model.tip().clone()),
-    }
+fn memory(choice: MemoryChoice, model: &Model) -> Policy {
+    Policy::new(choice, model.tip().clone(), 0.0, Retreat::Small).unwrap()
 }
 
 /// Errors at step ends fall to round-off before those within a step become asymptotic, so each order has
@@ -97,24 +94,25 @@ fn memory(name: &str, model: &Model) -> Policy {
 fn order_11_at_step_ends_and_7_within_for_both_memories() {
     let model = model();
     let force = manufactured_force(&model);
-    for name in ["direct", "fft"] {
+    for choice in [MemoryChoice::Direct, MemoryChoice::Fft] {
         let ladder = |counts: [u32; 6]| {
-            counts
-                .map(|n| (DURATION / f64::from(n), errors(&model, &force, memory(name, &model), n)))
+            counts.map(|n| {
+                (DURATION / f64::from(n), errors(&model, &force, memory(choice, &model), n))
+            })
         };
         let ends = ladder([12, 15, 18, 21, 25, 30]).map(|(h, (at_ends, _))| (h, at_ends));
         let within = ladder([61, 70, 80, 92, 106, 120]).map(|(h, (_, anywhere))| (h, anywhere));
         let (p, q) = (observed_order(&ends), observed_order(&within));
-        println!("{name}: order {p:.2} at step ends {ends:?}, {q:.2} anywhere {within:?}");
+        println!("{choice:?}: order {p:.2} at step ends {ends:?}, {q:.2} anywhere {within:?}");
         let s = STAGES as f64;
-        assert!((p - (2.0 * s - 1.0)).abs() < 1.0, "{name}: order {p} at step ends");
-        assert!((q - (s + 1.0)).abs() < 0.5, "{name}: order {q} anywhere");
+        assert!((p - (2.0 * s - 1.0)).abs() < 1.0, "{choice:?}: order {p} at step ends");
+        assert!((q - (s + 1.0)).abs() < 0.5, "{choice:?}: order {q} anywhere");
     }
 }
 
 /// The memory of the last steps, of at most this duration together.
 fn cut(model: &Model, steps: &[Step], oldest: f64) -> Policy {
-    let mut memory = Policy::direct(model.tip().clone());
+    let mut memory = memory(MemoryChoice::Direct, model);
     let (_, b) = nodes_and_weights();
     let mut age = 0.0;
     let recent = steps.iter().rev().take_while(|step| {
@@ -133,7 +131,7 @@ fn cut(model: &Model, steps: &[Step], oldest: f64) -> Policy {
 fn a_memory_cut_by_time_does_not_converge() {
     let model = model();
     let force = manufactured_force(&model);
-    let forgetful = (Policy::direct(model.tip().clone()), 4.0);
+    let forgetful = (memory(MemoryChoice::Direct, &model), 4.0);
     let (at_ends, _) = errors_after(&model, &force, forgetful, 30);
     println!("cut by time: {at_ends:.2e}");
     assert!(at_ends > 1e-3);

@@ -4,7 +4,7 @@
 use crate::acceptance::{Acceptance, largest_difference, observed_order};
 use std::ops::ControlFlow;
 use stickslip_outcome::{Drift, Regime, Remark, run_and_judge};
-use stickslip_tip::memory::Policy;
+use stickslip_tip::memory::{Policy, Retreat};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Run, Scenario, Start, Step, SupportPath, TipFunction,
     Trajectory, Wider, run, run_observed,
@@ -95,7 +95,8 @@ fn errors(scenario: &Scenario, lengths: impl Iterator<Item = f64>) -> Vec<(f64, 
     let error = |h: f64| {
         let extension = scenario.support().position(from) - scenario.start_position;
         let start = (from, extension + scenario.kick);
-        let memory = Policy::direct(model.tip().clone());
+        let memory =
+            Policy::new(MemoryChoice::Direct, model.tip().clone(), 0.0, Retreat::Small).unwrap();
         let mut integrator =
             Integrator::new(model, &surface, &scenario.force, memory, start, 1e-13)
                 .with_fixed_step(h);

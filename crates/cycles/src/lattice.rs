@@ -82,7 +82,7 @@ pub(super) fn reaching_back(
         times *= 2.0;
     }
     let terms = terms(tip, (wanted, times * FAR_PERIOD), most)?;
-    Fit::from_terms_within(tip, terms, times * FAR * reach).map(Arc::new)
+    Fit::from_terms(tip, terms, Some(times * FAR * reach)).map(Arc::new)
 }
 
 /// The sum of these terms with its certificate, or one from the cache.
@@ -92,7 +92,7 @@ fn known(tip: &TipFunction, wanted: f64, terms: Vec<Term>) -> Result<Arc<Fit>, F
     if let Some(fit) = KNOWN.get(|(t, w, n)| (*w, *n) == (bits, count) && t == tip) {
         return Ok(fit);
     }
-    let fit = Arc::new(Fit::from_terms(tip, terms)?);
+    let fit = Arc::new(Fit::from_terms(tip, terms, None)?);
     KNOWN.keep((tip.clone(), bits, count), Arc::clone(&fit));
     Ok(fit)
 }

@@ -11,7 +11,7 @@ use acceptance::largest_difference;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use stickslip_stability::{critical, leading_roots};
-use stickslip_tip::memory::{Fit, Policy, Term, accuracy_needed};
+use stickslip_tip::memory::{Fit, Policy, Retreat, Term, accuracy_needed};
 use stickslip_tip::{
     Force, Integrator, MemoryChoice, Model, Noise, Pulse, RunError, Scenario, Start, TipFunction,
     Trajectory, Wider, run,
@@ -205,8 +205,9 @@ fn terms(fit: &Fit) -> Vec<Term> {
 fn a_memory_with_the_weight_of_one_mode_flipped_is_caught() {
     let scenario = Scenario { kick: 0.05, ..Scenario::new(triple(1.0, 1.2, 1.0), 60.0) };
     let tip = scenario.model.tip();
-    let whole = Fit::new(tip, accuracy_needed(&scenario.model, scenario.tolerance)).unwrap();
-    let again = Fit::from_terms(tip, terms(&whole)).unwrap();
+    let whole = Fit::new(tip, accuracy_needed(&scenario.model, scenario.tolerance), Retreat::Small)
+        .unwrap();
+    let again = Fit::from_terms(tip, terms(&whole), None).unwrap();
     assert_eq!((again.terms(), again.certificate()), (whole.terms(), whole.certificate()));
     let found = verified(&scenario, "modes", &with_fit(&scenario, again));
     assert!(found.is_kept(), "{found:?}");
@@ -217,7 +218,7 @@ fn a_memory_with_the_weight_of_one_mode_flipped_is_caught() {
     for i in 0..whole.terms().len() {
         let mut damaged = terms(&whole);
         damaged[i].weight = -damaged[i].weight;
-        let damaged = Fit::from_terms(tip, damaged).unwrap();
+        let damaged = Fit::from_terms(tip, damaged, None).unwrap();
         let off = damaged.certificate().slope;
         let trajectory = with_fit(&scenario, damaged);
         let range = (trajectory.start(), trajectory.end());
@@ -236,12 +237,15 @@ fn a_memory_with_the_weight_of_one_mode_flipped_is_caught() {
 fn a_damage_in_the_ninth_digit_of_one_weight_is_caught() {
     let scenario = Scenario { kick: 0.05, ..Scenario::new(triple(1.0, 1.2, 1.0), 60.0) };
     let tip = scenario.model.tip();
-    let mut damaged = terms(&Fit::new(tip, 1e-12).unwrap());
+    let mut damaged = terms(&Fit::new(tip, 1e-12, Retreat::Small).unwrap());
     let largest = damaged.iter_mut().max_by(|a, b| a.weight.norm().total_cmp(&b.weight.norm()));
     let largest = largest.unwrap();
     largest.weight *= 1.0 + 1e-7 / largest.weight.norm();
-    let found =
-        verified(&scenario, "modes", &with_fit(&scenario, Fit::from_terms(tip, damaged).unwrap()));
+    let found = verified(
+        &scenario,
+        "modes",
+        &with_fit(&scenario, Fit::from_terms(tip, damaged, None).unwrap()),
+    );
     println!("{found:?}");
     assert!(!found.is_kept());
 }

@@ -61,19 +61,7 @@ impl Policy {
             MemoryChoice::Fft => with_fft(&tip, nothing(), None),
             MemoryChoice::Modes => with_modes(&tip, Fit::cached(&tip, accuracy, back)?, nothing()),
         };
-        Ok(Self { accuracy, back, ..Self::of(choice, tip, (record, now)) })
-    }
-
-    /// The definition, `direct`.
-    pub fn direct(tip: TipFunction) -> Self {
-        let record = Some(Record::whole(&tip));
-        Self::of(MemoryChoice::Direct, tip, (record, Now::Direct))
-    }
-
-    /// The convolution, `fft`.
-    pub fn fft(tip: TipFunction) -> Self {
-        let sum = with_fft(&tip, std::iter::empty(), None);
-        Self::of(MemoryChoice::Fft, tip, sum)
+        Ok(Self::of((choice, accuracy), tip, back, (record, now)))
     }
 
     /// The sum of these exponentials, whatever its accuracy.
@@ -82,14 +70,19 @@ impl Policy {
     /// A footprint that does not decay.
     pub fn with_fit(tip: TipFunction, fit: Arc<Fit>) -> Result<Self, FitError> {
         tip.reach().ok_or(FitError::NeverFades)?;
-        let accuracy = fit.wanted();
+        let requested = (MemoryChoice::Modes, fit.wanted());
         let sum = with_modes(&tip, fit, std::iter::empty());
-        Ok(Self { accuracy, ..Self::of(MemoryChoice::Modes, tip, sum) })
+        Ok(Self::of(requested, tip, Retreat::Small, sum))
     }
 
-    fn of(choice: MemoryChoice, tip: TipFunction, (record, now): (Option<Record>, Now)) -> Self {
+    fn of(
+        (choice, accuracy): (MemoryChoice, f64),
+        tip: TipFunction,
+        back: Retreat,
+        (record, now): (Option<Record>, Now),
+    ) -> Self {
         let (fading, measured) = (Fading::default(), vec![]);
-        Self { tip, choice, accuracy: 0.0, back: Retreat::Small, record, now, fading, measured }
+        Self { tip, choice, accuracy, back, record, now, fading, measured }
     }
 
     /// The memory in use, and the reason for it.

@@ -84,14 +84,8 @@ impl Record {
 
     /// Adds the nodes of another buffer: displacements from the tip, and times spent there.
     pub(super) fn with(mut self, visits: impl Iterator<Item = (f64, f64)>) -> Self {
-        visits.for_each(|(position, weight)| self.add(position, weight));
+        visits.for_each(|(position, weight)| self.push(&[position], &[weight]));
         self
-    }
-
-    /// Adds a time spent at a displacement from the tip.
-    fn add(&mut self, position: f64, weight: f64) {
-        self.make_room(1);
-        self.nodes.push((self.position + position, weight));
     }
 
     /// As [`Policy::remember`](crate::memory::Policy::remember).

@@ -47,20 +47,19 @@ impl MemoryReport {
 
     /// Reason for the memory, and its errors.
     pub fn reason(&self) -> String {
-        let why = if self.choice == MemoryChoice::Auto {
-            self.crossover()
-        } else {
-            Some("requested".to_string())
+        let why = match self.choice {
+            MemoryChoice::Auto => self.crossover(),
+            _ => "requested".to_string(),
         };
-        why.into_iter().chain(self.errors_in_words()).collect::<Vec<_>>().join("; ")
+        std::iter::once(why).chain(self.errors_in_words()).collect::<Vec<_>>().join("; ")
     }
 
     /// Reason for the choice of `auto`.
-    fn crossover(&self) -> Option<String> {
+    fn crossover(&self) -> String {
         let many = format!(
             "more than {CROSSOVER_NODES} nodes lay within reach, or {CROSSOVER_STEPS} steps had to be searched"
         );
-        Some(match &self.sum {
+        match &self.sum {
             Sum::Direct => {
                 format!("at most {CROSSOVER_NODES} nodes lay within reach: a direct sum costs less")
             }
@@ -71,7 +70,7 @@ impl MemoryReport {
             Sum::Fft { instead_of_modes: Some(_) } => {
                 format!("{many}, and modes do not fit f' to {:.1e}", self.accuracy)
             }
-        })
+        }
     }
 
     pub(crate) fn errors_in_words(&self) -> Option<String> {

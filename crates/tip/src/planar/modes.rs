@@ -278,11 +278,11 @@ fn derivatives<const ROOM: usize>(
 mod tests {
     use super::*;
     use crate::TipFunction;
+    use crate::memory::Retreat;
 
     fn modes() -> (TipFunction, Modes) {
         let tip = TipFunction::default();
-        let mut modes =
-            Modes::new(Fit::cached(&tip, 1e-11, crate::memory::Retreat::Small).unwrap());
+        let mut modes = Modes::new(Fit::cached(&tip, 1e-11, Retreat::Small).unwrap());
         modes.resize(4);
         (tip, modes)
     }
@@ -344,7 +344,7 @@ mod tests {
     fn heights_are_as_near_as_the_area_of_the_error_of_slopes() {
         for wanted in [1e-5, 1e-8, 1e-11] {
             let tip = TipFunction::default();
-            let fit = Fit::new(&tip, wanted).unwrap();
+            let fit = Fit::new(&tip, wanted, Retreat::Small).unwrap();
             for i in 0..3000 {
                 let xi = 0.005 * f64::from(i) - fit.retreat();
                 let term = |term: &crate::memory::Term| {

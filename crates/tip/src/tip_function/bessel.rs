@@ -72,17 +72,6 @@ fn tail_by_parts(x: f64) -> f64 {
     sum
 }
 
-/// J0(x) = Σ (-x²/4)^k / k!²
-pub(super) fn taylor(degree: usize) -> Vec<f64> {
-    let mut sum = vec![0.0; degree + 1];
-    let mut here = 1.0;
-    for (k, coefficient) in sum.iter_mut().step_by(2).enumerate() {
-        *coefficient = here;
-        here *= -0.25 / ((k + 1) * (k + 1)) as f64;
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -180,8 +180,10 @@ impl TipFunction {
     fn taylor(&self, degree: usize) -> Vec<f64> {
         match self {
             Self::Gaussians(sum) => sum.taylor(degree),
-            Self::Bessel => bessel::taylor(degree),
-            Self::Cosine => cosine::taylor(degree),
+            // Σ (-x²/4)^k / k!²
+            Self::Bessel => even_series(degree, |k| -0.25 / (k * k)),
+            // Σ (-x²)^k / (2k)!
+            Self::Cosine => even_series(degree, |k| -1.0 / ((2.0 * k - 1.0) * (2.0 * k))),
         }
     }
 
@@ -264,6 +266,17 @@ impl TipFunction {
             Self::Bessel | Self::Cosine => 1.0,
         }
     }
+}
+
+/// Coefficients of an even power series that begins with 1: that of x^{2k} is `ratio`(k) times that of x^{2k-2}.
+fn even_series(degree: usize, ratio: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut sum = vec![0.0; degree + 1];
+    let mut here = 1.0;
+    for (k, coefficient) in (1..).zip(sum.iter_mut().step_by(2)) {
+        *coefficient = here;
+        here *= ratio(f64::from(k));
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -3,12 +3,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use stickslip_tip::memory::{Groove, Policy};
+use stickslip_tip::memory::{Groove, Policy, Retreat};
 use stickslip_tip::state::{Saved, State};
-use stickslip_tip::{STAGES, Stages, TipFunction, nodes_and_weights};
+use stickslip_tip::{MemoryChoice, STAGES, Stages, TipFunction, nodes_and_weights};
 
 fn tip() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
+}
+
+fn fft() -> Policy {
+    Policy::new(MemoryChoice::Fft, tip(), 0.0, Retreat::Small).unwrap()
 }
 
 fn stride(memory: &mut Policy, length: f64) {
@@ -31,7 +35,7 @@ fn groove(memory: &mut Policy) -> (Stages, Stages) {
 
 #[test]
 fn room_is_bounded_and_the_groove_is_that_of_what_is_within_reach() {
-    let (mut far, mut near) = (Policy::fft(tip()), Policy::fft(tip()));
+    let (mut far, mut near) = (fft(), fft());
     let mut largest = 0;
     for i in 0..40_000 {
         stride(&mut far, 1.0);
@@ -54,7 +58,7 @@ fn room_is_bounded_and_the_groove_is_that_of_what_is_within_reach() {
 
 #[test]
 fn a_tip_that_comes_back_to_what_was_dropped_is_told() {
-    let mut memory = Policy::fft(tip());
+    let mut memory = fft();
     (0..30_000).for_each(|_| stride(&mut memory, 1.0));
     let way_back = (0..30_000).find(|_| {
         stride(&mut memory, -1.0);

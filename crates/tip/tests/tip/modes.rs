@@ -18,6 +18,10 @@ fn triple() -> TipFunction {
     TipFunction::triple_gaussian(1.0, 1.0).unwrap()
 }
 
+fn direct(tip: TipFunction) -> Policy {
+    Policy::new(MemoryChoice::Direct, tip, 0.0, Retreat::Small).unwrap()
+}
+
 fn table() -> TipFunction {
     let x: Vec<f64> = (0..40).map(|i| 0.2 * f64::from(i)).collect();
     let f: Vec<f64> = x.iter().map(|x| (1.0 - 0.2 * x * x) * (-x * x / 2.0).exp()).collect();
@@ -58,7 +62,8 @@ fn the_certified_error_is_met_is_honest_and_not_far_off() {
             if wanted < 0.99 * finest {
                 continue;
             }
-            let fit = Fit::new(&tip, wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let fit =
+                Fit::new(&tip, wanted, Retreat::Small).unwrap_or_else(|e| panic!("{name}: {e}"));
             let (slope, curvature) = true_errors(&tip, &fit);
             let found = fit.certificate();
             println!("{name} {wanted:e}: {} terms, {slope:.2e}, {found:?}", fit.terms().len());
@@ -75,7 +80,8 @@ fn the_certified_error_is_met_is_honest_and_not_far_off() {
 
 #[test]
 fn the_default_tips_need_few_terms() {
-    let terms = |tip: &TipFunction, wanted| Fit::new(tip, wanted).unwrap().terms().len();
+    let terms =
+        |tip: &TipFunction, wanted| Fit::new(tip, wanted, Retreat::Small).unwrap().terms().len();
     let gaussian = TipFunction::gaussian(1.0).unwrap();
     let wanted = [1e-4, 1e-7, 1e-10, 3e-12, 1e-13];
     assert_eq!(wanted.map(|wanted| terms(&triple(), wanted)), [5, 7, 9, 11, 24]);
@@ -85,7 +91,7 @@ fn the_default_tips_need_few_terms() {
 /// Negative control: each term carries weight.
 #[test]
 fn without_one_term_the_sum_is_far_off() {
-    let fit = Fit::new(&triple(), 1e-9).unwrap();
+    let fit = Fit::new(&triple(), 1e-9, Retreat::Small).unwrap();
     for term in fit.terms() {
         let largest = |xi: f64| (term.weight * (term.exponent * xi).exp()).re.abs();
         let miss = (0..200).map(|i| largest(0.01 * f64::from(i) - 0.5)).fold(0.0, f64::max);
@@ -158,7 +164,7 @@ fn the_state_is_the_direct_sum_on_random_paths() {
     for (name, tip, _) in footprints() {
         for wanted in [1e-5, 1e-7, 1e-10] {
             let mut modes = modes_of(tip.clone(), wanted).unwrap();
-            let mut direct = Policy::direct(tip.clone());
+            let mut direct = direct(tip.clone());
             let path = random_path(1, 0.02, 400);
             let total = 40.0;
             let error = difference(&mut modes, &mut direct, &path);
@@ -178,7 +184,7 @@ fn the_state_is_the_direct_sum_on_random_paths() {
 fn a_retreat_goes_over_to_fft_and_comes_back_without_a_trace() {
     for back in [0.3, 0.8, 2.0] {
         let mut modes = modes_of(triple(), 1e-10).unwrap();
-        let mut direct = Policy::direct(triple());
+        let mut direct = direct(triple());
         let error = difference(&mut modes, &mut direct, &random_path(2, back, 600));
         let note = modes.report().reason();
         println!("{back}: {error:?}, {note}");
@@ -196,7 +202,7 @@ fn modes_for_a_tip_that_swings_back_need_no_fft() {
     let path = random_path(2, 0.3, 600);
     for (back, stays) in [(Retreat::Small, false), (Retreat::Swing, true)] {
         let mut modes = Policy::new(MemoryChoice::Modes, triple(), 1e-10, back).unwrap();
-        let error = difference(&mut modes, &mut Policy::direct(triple()), &path);
+        let error = difference(&mut modes, &mut direct(triple()), &path);
         let note = modes.report().reason();
         assert_eq!(stays, !note.contains("fft took over"), "{note}");
         assert!(error.slope < 5e-9, "{back:?}: {error:?}");
@@ -209,7 +215,7 @@ fn modes_for_a_tip_that_swings_back_need_no_fft() {
 fn a_long_past_is_there_when_the_tip_comes_back() {
     let (c, b) = nodes_and_weights();
     let mut modes = modes_of(triple(), 1e-10).unwrap();
-    let mut direct = Policy::direct(triple());
+    let mut direct = direct(triple());
     let forward = random_path(3, 0.02, 6000).into_iter().map(|(x, w)| (x.map(|x| 0.1 * x), w));
     for (position, weight) in forward {
         modes.remember(&position, &weight);
@@ -337,7 +343,7 @@ fn a_tip_of_any_width_is_fitted_or_refused() {
         let tip = TipFunction::triple_gaussian(1.0, width).unwrap();
         for relative in [1e-3, 1e-8, 1e-11, 1e-20] {
             let wanted = relative / width;
-            match Fit::new(&tip, wanted) {
+            match Fit::new(&tip, wanted, Retreat::Small) {
                 Ok(fit) => assert!(fit.certificate().slope <= wanted, "{width} {relative}"),
                 Err(FitError::NotMet { reached, .. }) => {
                     assert!(reached > wanted || relative < 1e-8)

@@ -82,19 +82,11 @@ const MOST_TERMS: usize = 40;
 
 impl Fit {
     /// The fit with the fewest terms whose certified error of f' is at most `wanted`, and whose area is at most
-    /// `wanted` times two widths of a Gaussian.
+    /// `wanted` times two widths of a Gaussian. It is valid for a tip that moves backward as far as `back` allows.
     ///
     /// # Errors
     /// A footprint that does not decay, or an accuracy that no fit reaches.
-    pub fn new(tip: &TipFunction, wanted: f64) -> Result<Self, FitError> {
-        Self::reaching_back(tip, wanted, Retreat::Small)
-    }
-
-    /// The fit as [`new`](Self::new) makes it, but valid for a tip that moves backward as far as `back` allows.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn reaching_back(tip: &TipFunction, wanted: f64, back: Retreat) -> Result<Self, FitError> {
+    pub fn new(tip: &TipFunction, wanted: f64, back: Retreat) -> Result<Self, FitError> {
         if *tip == TipFunction::Cosine {
             return Ok(Self::of_cosine(wanted));
         }
@@ -143,7 +135,7 @@ impl Fit {
         Self { terms, retreat: everywhere, between_steps: everywhere, wanted, certificate }
     }
 
-    /// As [`reaching_back`](Self::reaching_back), or an equal fit made earlier. The latest fits are kept for all
+    /// As [`new`](Self::new), or an equal fit made earlier. The latest fits are kept for all
     /// threads, and those of the default footprints are part of the program. The result is the same bit for bit.
     ///
     /// # Errors
@@ -156,7 +148,7 @@ impl Fit {
             return fit;
         }
         let fit = Self::standard(tip, wanted, back)
-            .map_or_else(|| Self::reaching_back(tip, wanted, back), Ok)
+            .map_or_else(|| Self::new(tip, wanted, back), Ok)
             .map(Arc::new);
         if fit != Err(FitError::Stopped) {
             CACHE.keep((tip.clone(), bits, back), fit.clone());
@@ -174,37 +166,26 @@ impl Fit {
         Some(Self { terms, retreat, between_steps, wanted, certificate })
     }
 
-    /// The sum of given terms, with its certified error: for exponentials from other sources.
+    /// The sum of given terms with its certified error, for exponentials from other sources. It is certified for a
+    /// retreat of the given length, in σ, or for a small one.
     ///
     /// # Errors
     /// A footprint that does not decay, no terms, or terms that do not decay.
-    pub fn from_terms(tip: &TipFunction, terms: Vec<Term>) -> Result<Self, FitError> {
-        let reach = tip.reach().ok_or(FitError::NeverFades)?;
-        Self::of_terms(tip, terms, &Window::of(tip, reach, Retreat::Small))
-    }
-
-    /// The sum of given terms, certified for a retreat of this length.
-    ///
-    /// # Errors
-    /// As [`from_terms`](Self::from_terms).
-    pub fn from_terms_within(
+    pub fn from_terms(
         tip: &TipFunction,
         terms: Vec<Term>,
-        retreat: f64,
+        retreat: Option<f64>,
     ) -> Result<Self, FitError> {
         let reach = tip.reach().ok_or(FitError::NeverFades)?;
-        let window = Window::of(tip, reach, Retreat::Small);
-        Self::of_terms(tip, terms, &window.reaching_back(retreat))
-    }
-
-    fn of_terms(tip: &TipFunction, terms: Vec<Term>, window: &Window) -> Result<Self, FitError> {
+        let small = Window::of(tip, reach, Retreat::Small);
+        let window = retreat.map_or(small, |retreat| small.reaching_back(retreat));
         let fades = |term: &Term| {
             term.exponent.re < 0.0 && term.exponent.is_finite() && term.weight.is_finite()
         };
         if terms.is_empty() || !terms.iter().all(fades) {
             return Err(FitError::Terms);
         }
-        let fit = Self::certified(tip, window, terms);
+        let fit = Self::certified(tip, &window, terms);
         if stop::is_requested() {
             return Err(FitError::Stopped);
         }

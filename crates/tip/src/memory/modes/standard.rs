@@ -1,6 +1,6 @@
 //! Exponentials for the default footprints of the commands, stored because fitting them takes longer than most runs.
 //!
-//! They equal the results of [`Fit::reaching_back`](super::Fit::reaching_back) to the last bit.
+//! They equal the results of [`Fit::new`](super::Fit::new) to the last bit.
 
 use super::certificate::FitCertificate;
 use super::term::Term;
@@ -92,7 +92,8 @@ mod tests {
     }
 
     fn tabulated(name: &str, tip: &TipFunction) -> String {
-        let found = |quarters| Some((quarters, Fit::new(tip, accuracy(quarters)).ok()?));
+        let found =
+            |quarters| Some((quarters, Fit::new(tip, accuracy(quarters), Retreat::Small).ok()?));
         let fits: Vec<(u32, Fit)> = QUARTERS.filter_map(found).collect();
         let mut text = String::new();
         for alike in fits.chunk_by(|a, b| a.1.terms() == b.1.terms()) {
@@ -112,7 +113,7 @@ mod tests {
         for (_, tip) in tips() {
             for quarters in [24, 40, 44, 48] {
                 let (wanted, back) = (accuracy(quarters), Retreat::Small);
-                let found = Fit::reaching_back(&tip, wanted, back).unwrap();
+                let found = Fit::new(&tip, wanted, back).unwrap();
                 assert_eq!(*Fit::cached(&tip, wanted, back).unwrap(), found);
                 assert!(known(&tip, wanted).is_some() && known(&tip, 1.001 * wanted).is_none());
             }

@@ -319,13 +319,14 @@ fn product(a: [Lanes; 2], b: [Lanes; 2]) -> [Lanes; 2] {
 mod tests {
     use super::*;
     use crate::TipFunction;
+    use crate::memory::Retreat;
 
     /// Judged by the definition: ∫ f⁽ⁿ⁾ over all that was visited, each e^{s x} by itself. Steps of several lengths, of which
     /// some lead farther than any expansion, side by side.
     #[test]
     fn a_state_is_the_sum_over_all_visits() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let fit = Fit::new(&tip, 1e-11).unwrap();
+        let fit = Fit::new(&tip, 1e-11, Retreat::Small).unwrap();
         let of = Exponentials::new(&fit);
         let rules = super::super::Rules::new(tip.band(), 1e-12);
         let mut past = Past::nothing(&of);

@@ -210,3 +210,17 @@ fn an_apex_outside_of_the_profile_is_named() {
         }
     }
 }
+
+/// A file that was written twice holds each row twice: copies are no measurements, and intervals stay as wide.
+#[test]
+fn rows_that_all_stand_twice_count_once() {
+    let x: Vec<f64> = (0..40).map(|i| 0.3 * f64::from(i) - 6.0).collect();
+    let f: Vec<f64> = x.iter().map(|x| (-x * x).exp() + 0.01 * (37.0 * x).sin()).collect();
+    let profile = Profile::new(x.clone(), f.clone()).unwrap();
+    let each_twice = |values: &[f64]| values.iter().flat_map(|v| [*v; 2]).collect();
+    assert_eq!(Profile::new(each_twice(&x), each_twice(&f)).unwrap(), profile);
+    assert_eq!(Profile::new(x.repeat(2), f.repeat(2)).unwrap(), profile);
+    // Rows of which only some stand twice are all kept.
+    let some_twice = Profile::new([&x, &x[..5]].concat(), [&f, &f[..5]].concat()).unwrap();
+    assert_eq!(some_twice.x().len(), 45);
+}

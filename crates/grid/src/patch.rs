@@ -22,6 +22,11 @@ impl Patch {
         self.first + self.values.len() as i64
     }
 
+    /// The value at a cell; `None` outside of the patch.
+    pub(crate) fn at(&self, cell: i64) -> Option<f64> {
+        self.values.get(usize::try_from(cell - self.first).ok()?).copied()
+    }
+
     /// The places in `values` of the cells `first` to `end`; empty unless `first` is below `end`.
     fn places(&self, first: i64, end: i64) -> Range<usize> {
         if first < end { (first - self.first) as usize..(end - self.first) as usize } else { 0..0 }

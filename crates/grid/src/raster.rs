@@ -200,7 +200,6 @@ impl Plane {
         let inertia = mass.map(|mass| (mass, velocity));
         let path = Some(Path { position: &position, knots: &[] });
         let wider = Wider { depth_limit, healing_time, inertia, spring: true, path };
-        let left = move |time: f64| healing_time.map_or(1.0, |healing| (-time / healing).exp());
         let section = |x: f64| scan.layers.iter().map(|l| (l.along)(x) * (l.across)(0.0)).sum();
         let footprint = Footprint::new(&section, scan.reach.0)?;
         let scheme = || method.scheme(footprint, self.spacing);
@@ -215,10 +214,12 @@ impl Plane {
         let request = Request { times: &all, points: &[] };
         request.check(0.0)?;
         let (scheme, ends) = (scheme(), self.ends);
-        self.rows.iter_mut().flat_map(|row| &mut row.values).for_each(|u| *u *= left(duration));
-        let mut carver = Carver { plane: self, scan, line, imprint: Patch::default(), cells: 0 };
+        let left = |t: f64| problem.wider.left_after(duration - t);
+        self.rows.iter_mut().flat_map(|row| &mut row.values).for_each(|u| *u *= left(0.0));
+        let mut cells_carved = 0;
         let mut carve = |visits: &[(f64, f64, f64)]| {
-            carver.carve(visits, -alpha, &|t| left(duration - t));
+            let visits = visits.iter().map(|(t, x, weight)| (*x, -alpha * weight * left(*t)));
+            cells_carved += self.carve(scan, line.y, &visits.collect::<Vec<_>>());
         };
         let mut step = |time: f64, x0: f64| {
             steps.push((time, x0));
@@ -232,11 +233,38 @@ impl Plane {
                 .run(&request, observe)
         })?;
         let mut work = run.work;
-        work.cells_updated += carver.cells;
+        work.cells_updated += cells_carved;
         let mut x0 = run.x0;
         let end = x0[x0.len() - 1];
         x0.truncate(asked);
         Ok((x0, (end, velocity), work))
+    }
+
+    /// Changes all rows within reach by a step on the line at `line_y`: x0 and the change of height at its apex for each
+    /// stage. Returns the number of cells.
+    fn carve(&mut self, scan: &Scan, line_y: f64, visits: &[(f64, f64)]) -> u64 {
+        let (reach, reach_across) = scan.reach;
+        let ends =
+            |(low, high): (f64, f64), visit: &(f64, f64)| (low.min(visit.0), high.max(visit.0));
+        let (low, high) = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let first = ((low - reach) / self.spacing).floor() as i64;
+        let len = ((high + reach) / self.spacing).ceil() as i64 - first + 1;
+        let (mut cells, mut imprint, mut sum) = (0, Patch::default(), Patch::default());
+        for layer in scan.layers {
+            let Ok(footprint) = Footprint::new(layer.along, reach) else { break };
+            sum.reset(first, len as usize);
+            for (x, change) in visits {
+                sample(&footprint, self.spacing, *x, &mut imprint);
+                sum.add(*change, &imprint);
+            }
+            for (y, row) in self.y.iter().zip(&mut self.rows) {
+                if (y - line_y).abs() <= reach_across {
+                    row.add((layer.across)(y - line_y), &sum);
+                    cells += sum.values.len() as u64;
+                }
+            }
+        }
+        cells
     }
 
     fn own_row(&self, y: f64) -> &Patch {
@@ -270,44 +298,5 @@ impl Reader<'_> {
         let mut stencil = Patch::default();
         self.scheme.slope_stencil(x, &mut stencil);
         stencil.overlap(&self.row)
-    }
-}
-
-/// Updates all rows within reach.
-struct Carver<'a> {
-    plane: &'a mut Plane,
-    scan: &'a Scan<'a>,
-    line: ScanLine,
-    imprint: Patch,
-    cells: u64,
-}
-
-impl Carver<'_> {
-    /// Adds the contribution of one step, of which the fraction `left` remains at the end of the line.
-    fn carve(&mut self, visits: &[(f64, f64, f64)], factor: f64, left: &dyn Fn(f64) -> f64) {
-        let Self { plane, scan, line, imprint, cells } = self;
-        let reach = scan.reach.0;
-        let ends = |(low, high): (f64, f64), visit: &(f64, f64, f64)| {
-            (low.min(visit.1), high.max(visit.1))
-        };
-        let (low, high) = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
-        let first = ((low - reach) / plane.spacing).floor() as i64;
-        let len = ((high + reach) / plane.spacing).ceil() as i64 - first + 1;
-        for layer in scan.layers {
-            let Ok(footprint) = Footprint::new(layer.along, reach) else { return };
-            let mut sum = Patch::default();
-            sum.reset(first, len as usize);
-            for (time, x, weight) in visits {
-                sample(&footprint, plane.spacing, *x, imprint);
-                sum.add(factor * weight * left(*time), imprint);
-            }
-            for (y, row) in plane.y.iter().zip(&mut plane.rows) {
-                if (y - line.y).abs() > scan.reach.1 {
-                    continue;
-                }
-                row.add((layer.across)(y - line.y), &sum);
-                *cells += sum.values.len() as u64;
-            }
-        }
     }
 }

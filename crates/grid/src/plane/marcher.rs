@@ -25,7 +25,7 @@ pub(super) struct Marcher<'a> {
     t: f64,
     position: [f64; 2],
     /// x0', with inertia only.
-    velocity: f64,
+    pub(super) velocity: f64,
     /// The reference time s.
     since: f64,
     stages: Vec<Stage>,
@@ -102,10 +102,6 @@ impl<'a> Marcher<'a> {
         }
         self.t = target;
         Ok(self.position)
-    }
-
-    pub(super) fn velocity(&self) -> f64 {
-        self.velocity
     }
 
     pub(super) fn height(&mut self, at: [f64; 2]) -> f64 {
@@ -243,8 +239,7 @@ impl<'a> Marcher<'a> {
         column.values.fill(0.0);
         for (weight, stage) in weights.iter().zip(&self.stages).filter(|(w, _)| w.abs() > 0.0) {
             for [along, across] in &stage.imprint {
-                let cell = usize::try_from(i - along.first).ok();
-                if let Some(along) = cell.and_then(|cell| along.values.get(cell)) {
+                if let Some(along) = along.at(i) {
                     let factor = -self.problem.model.0 * h * weight * stage.weight;
                     column.add(factor * along, across);
                 }

@@ -83,7 +83,7 @@ pub fn scan_plane(
         for time in times.iter().filter(|time| **time <= duration) {
             positions.push(marcher.advance_to(*time, &mut within)?);
         }
-        state = Some((marcher.advance_to(duration, &mut within)?, marcher.velocity()));
+        state = Some((marcher.advance_to(duration, &mut within)?, marcher.velocity));
         marcher.settle();
         if n + 1 == scan.lines.len() {
             scanned.u = points.iter().map(|point| marcher.height(*point)).collect();

@@ -19,22 +19,22 @@ impl Sheet {
 
     /// Σ along(i) across(j) cell(i, j): the value of a product of two stencils.
     pub(super) fn read(&self, along: &Patch, across: &Patch) -> f64 {
-        let own = |i: i64| usize::try_from(i - self.first).ok().and_then(|i| self.columns.get(i));
-        let column = |(i, weight): (i64, &f64)| own(i).map_or(0.0, |c| weight * c.overlap(across));
+        let column =
+            |(i, weight): (i64, &f64)| self.get(i).map_or(0.0, |c| weight * c.overlap(across));
         (along.first..).zip(&along.values).map(column).sum()
     }
 
     pub(super) fn at(&self, column: i64, j: i64) -> f64 {
-        let own = usize::try_from(column - self.first).ok().and_then(|i| self.columns.get(i));
-        own.map_or(0.0, |own| {
-            let cell = usize::try_from(j - own.first).ok().and_then(|j| own.values.get(j));
-            cell.copied().unwrap_or(0.0)
-        })
+        self.get(column).and_then(|own| own.at(j)).unwrap_or(0.0)
     }
 
     pub(super) fn scale(&mut self, factor: f64) {
         let cells = self.columns.iter_mut().flat_map(|column| &mut column.values);
         cells.for_each(|cell| *cell *= factor);
+    }
+
+    fn get(&self, column: i64) -> Option<&Patch> {
+        self.columns.get(usize::try_from(column - self.first).ok()?)
     }
 
     fn column(&mut self, i: i64) -> &mut Patch {

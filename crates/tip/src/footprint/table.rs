@@ -2,7 +2,7 @@
 
 use super::{Across, Layer};
 use crate::sorting::{ascending, sort_by_number, sort_numbers};
-use crate::tip_function::table::{self, MAX_LAST_RATIO, WIDTH_PER_SPACING};
+use crate::tip_function::table::{self, WIDTH_PER_SPACING};
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
 /// Largest number of rows of the lattice: each is a layer, and an image requires one surface u(x) per layer.
@@ -79,24 +79,13 @@ impl Grid {
 
     /// Checks both axes as for a table of f(x), and the decay at both ends.
     fn validate(&self) -> Result<(), TipFunctionError> {
-        table::validate_axis(&self.x)?;
-        table::validate_axis(&self.y)?;
-        if self.y.len() > MOST_ROWS_ACROSS {
-            let (found, min) = (self.y.len(), table::MIN_ROWS);
-            return Err(TipFunctionError::TableLength { found, min, max: MOST_ROWS_ACROSS });
-        }
+        table::validate_axis(&self.x, table::MAX_ROWS)?;
+        table::validate_axis(&self.y, MOST_ROWS_ACROSS)?;
         let size = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m, v| v.abs().max(m));
         let largest = size(&mut self.rows.iter().flatten().copied());
-        if largest <= 0.0 {
-            return Err(TipFunctionError::Zero);
-        }
         let last_x = size(&mut self.rows.iter().map(|row| row[row.len() - 1]));
         let last_y = size(&mut self.rows[self.rows.len() - 1].iter().copied());
-        let ratio = last_x.max(last_y) / largest;
-        if ratio > MAX_LAST_RATIO {
-            return Err(TipFunctionError::TableDecay { ratio, most: MAX_LAST_RATIO });
-        }
-        Ok(())
+        table::validate_decay(last_x.max(last_y), largest)
     }
 }
 

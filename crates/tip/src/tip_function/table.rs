@@ -10,10 +10,10 @@ use crate::elementary::exp;
 use crate::spline::{CubicSpline, Ends};
 
 pub(crate) const MIN_ROWS: usize = 8;
-const MAX_ROWS: usize = 2000;
+pub(crate) const MAX_ROWS: usize = 2000;
 /// Largest allowed ratio of the last value to the largest: a larger one would leave a visible step at the end of the
 /// table.
-pub(crate) const MAX_LAST_RATIO: f64 = 1e-3;
+const MAX_LAST_RATIO: f64 = 1e-3;
 pub(crate) const WIDTH_PER_SPACING: f64 = 1.2;
 /// Number of lattice points of value 0 added beyond the table, so that the sum decays to zero and stays there.
 const ZEROS_BEYOND: usize = 12;
@@ -130,12 +130,16 @@ fn validate(x: &[f64], f: &[f64]) -> Result<(), TipFunctionError> {
     if let Some(i) = (0..found).find(|&i| !(x[i].is_finite() && f[i].is_finite())) {
         return Err(TipFunctionError::TableNotFinite { row: i + 1 });
     }
-    validate_axis(&x[..found])?;
-    let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    validate_axis(&x[..found], MAX_ROWS)?;
+    validate_decay(f[found - 1].abs(), f.iter().fold(0.0, |m: f64, v| m.max(v.abs())))
+}
+
+/// Checks that the last value is small relative to the largest one, and that this is not 0.
+pub(crate) fn validate_decay(last: f64, largest: f64) -> Result<(), TipFunctionError> {
     if largest <= 0.0 {
         return Err(TipFunctionError::Zero);
     }
-    let ratio = f[found - 1].abs() / largest;
+    let ratio = last / largest;
     if ratio > MAX_LAST_RATIO {
         return Err(TipFunctionError::TableDecay { ratio, most: MAX_LAST_RATIO });
     }
@@ -143,10 +147,10 @@ fn validate(x: &[f64], f: &[f64]) -> Result<(), TipFunctionError> {
 }
 
 /// Checks that the number of x is within limits, and that they are finite, increase and start at 0.
-pub(crate) fn validate_axis(x: &[f64]) -> Result<(), TipFunctionError> {
+pub(crate) fn validate_axis(x: &[f64], max: usize) -> Result<(), TipFunctionError> {
     let found = x.len();
-    if !(MIN_ROWS..=MAX_ROWS).contains(&found) {
-        return Err(TipFunctionError::TableLength { found, min: MIN_ROWS, max: MAX_ROWS });
+    if !(MIN_ROWS..=max).contains(&found) {
+        return Err(TipFunctionError::TableLength { found, min: MIN_ROWS, max });
     }
     if let Some(i) = (1..found).find(|&i| x[i] <= x[i - 1]) {
         return Err(TipFunctionError::TableUnsorted { row: i + 1, x: x[i] });

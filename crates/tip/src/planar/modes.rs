@@ -52,7 +52,7 @@ impl Modes {
 
     /// Derivatives of g at 0, from the sum of exponentials.
     pub(super) fn of_tip(&self) -> &[f64] {
-        self.prepared.powers.of_tip()
+        &self.prepared.powers.of_tip
     }
 
     fn terms_in_parts(&self) -> impl Iterator<Item = f64> {
@@ -62,7 +62,7 @@ impl Modes {
     /// Derivatives of the integrals of each layer at the tip, multiplied by a factor, in order from the 0th on, as many
     /// as `of_layers` holds.
     pub(super) fn derivatives(&self, factor: f64, of_layers: &mut [Lanes]) {
-        derivatives(self.prepared.powers.rows(), &self.states, factor, of_layers);
+        derivatives(&self.prepared.powers.rows, &self.states, factor, of_layers);
     }
 }
 

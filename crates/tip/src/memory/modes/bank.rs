@@ -214,7 +214,7 @@ impl Bank {
             }
         }
         if with_height {
-            groove.set_height(height.iter().sum());
+            groove.height = Some(height.iter().sum());
         }
         true
     }

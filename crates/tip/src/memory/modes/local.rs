@@ -12,7 +12,7 @@ pub(super) struct LocalGroove {
     degree: usize,
     coefficients: [f64; HIGHEST_DEGREE + 1],
     /// The height at the center, once it has been evaluated.
-    height: Option<f64>,
+    pub(super) height: Option<f64>,
 }
 
 impl LocalGroove {
@@ -27,11 +27,6 @@ impl LocalGroove {
         (self.center, self.radius, self.degree, self.height) = (center, radius, degree, None);
         self.coefficients[..=degree].fill(0.0);
         &mut self.coefficients[..=degree]
-    }
-
-    /// The height at the center.
-    pub(super) fn set_height(&mut self, height: f64) {
-        self.height = Some(height);
     }
 
     pub(super) fn forget(&mut self) {

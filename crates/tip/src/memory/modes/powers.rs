@@ -13,10 +13,11 @@ pub(crate) type Row = [f64; ROOM];
 /// `w_j s_j^{n-1}`, n = 0, 1, …
 #[derive(Debug, Clone)]
 pub(crate) struct Powers {
-    /// For each term, a row for the real part of its state and one for the imaginary part.
-    rows: Vec<Row>,
+    /// For each term, a row of `Re(w_j s_j^{n-1})` and one of `-Im(w_j s_j^{n-1})`, n = 0, 1, …: the factors of the real
+    /// and of the imaginary part of its state.
+    pub(crate) rows: Vec<Row>,
     /// The derivatives at 0 of the sum of exponentials for f.
-    of_tip: Row,
+    pub(crate) of_tip: Row,
 }
 
 impl Powers {
@@ -34,16 +35,6 @@ impl Powers {
             rows.extend([real, imaginary]);
         }
         Self { rows, of_tip }
-    }
-
-    /// For each term, a row of `Re(w_j s_j^{n-1})` and one of `-Im(w_j s_j^{n-1})`, n = 0, 1, …
-    pub(crate) fn rows(&self) -> &[Row] {
-        &self.rows
-    }
-
-    /// The derivatives at 0 of the sum of exponentials for f.
-    pub(crate) fn of_tip(&self) -> &Row {
-        &self.of_tip
     }
 
     /// Computes the first `count` derivatives, and further ones that fill the lanes. `states` contains real and

@@ -14,6 +14,7 @@
 
 use super::crossings::Crossing;
 use super::law::Law;
+use super::newton::real_steps;
 use super::one_sided::{Jet, Values};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -76,9 +77,7 @@ fn fundamental(law: &Law, pushed: Complex64, start: Crossing) -> Option<Crossing
         let along_a = groove.0 - slope.0 * pushed;
         let value = bare.0 + along_a * density;
         let along_q = (bare.1 + (groove.1 - slope.1 * pushed) * density) * Complex64::I;
-        let determinant = along_a.re * along_q.im - along_a.im * along_q.re;
-        let step_a = (value.re * along_q.im - value.im * along_q.re) / determinant;
-        let step_q = (along_a.re * value.im - along_a.im * value.re) / determinant;
+        let [step_a, step_q] = real_steps(value, [along_a, along_q]);
         density -= step_a;
         wave_number -= step_q;
         if !(density > 0.0 && wave_number > 0.0) {

@@ -6,6 +6,7 @@
 //! the smallest A.
 
 use super::law::Law;
+use super::newton::real_steps;
 use super::one_sided::{OneSided, Transforms};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -184,9 +185,7 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
         let (_, (value, slope)) = law.at(lambda);
         let along_a = c1 + c2 * (2.0 * density);
         let along_q = slope * Complex64::I;
-        let determinant = along_a.re * along_q.im - along_a.im * along_q.re;
-        let step_a = (value.re * along_q.im - value.im * along_q.re) / determinant;
-        let step_q = (along_a.re * value.im - along_a.im * value.re) / determinant;
+        let [step_a, step_q] = real_steps(value, [along_a, along_q]);
         let (to_a, to_q) = (density - step_a, q - step_q);
         if !(to_a > 0.0 && to_q > 0.0 && to_a.is_finite()) {
             break;

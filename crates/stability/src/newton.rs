@@ -109,6 +109,12 @@ pub(super) fn another(
     None
 }
 
+/// The real a and b with a x + b y = `value`.
+pub(super) fn real_steps(value: Complex64, [x, y]: [Complex64; 2]) -> [f64; 2] {
+    let cross = |a: Complex64, b: Complex64| a.re * b.im - a.im * b.re;
+    [cross(value, y), cross(x, value)].map(|part| part / cross(x, y))
+}
+
 /// The N zeros of z^N + c₁z^{N-1} + … + c_N, by simultaneous iteration (Durand and Kerner).
 pub(super) fn simultaneous<const N: usize>(coefficients: [f64; N]) -> [Complex64; N] {
     let value = |z: Complex64| coefficients.iter().fold(Complex64::ONE, |sum, c| sum * z + c);

@@ -3,6 +3,7 @@
 use super::determinant::{Lines, Phase, Wave};
 use super::growth::cramer;
 use super::on_cell::Determinant;
+use crate::newton::real_steps;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
@@ -132,9 +133,7 @@ pub(super) fn solved(lines: &Lines, mut place: Place) -> Option<Place> {
     for _ in 0..MOST_STEPS {
         let here = place.slopes(lines);
         let other = if lines.is_alone() { here.q } else { here.theta };
-        let determinant = here.t.re * other.im - here.t.im * other.re;
-        let step_t = (here.value.re * other.im - here.value.im * other.re) / determinant;
-        let step = (here.t.re * here.value.im - here.t.im * here.value.re) / determinant;
+        let [step_t, step] = real_steps(here.value, [here.t, other]);
         if !(step_t.is_finite() && step.is_finite()) {
             return None;
         }

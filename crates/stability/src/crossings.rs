@@ -209,7 +209,8 @@ fn is_told(law: &Law, lambda: Complex64) -> bool {
     law.density * curvature * roundoff < LARGEST_NOISE * law.bare(lambda).0.norm()
 }
 
-/// Zeros of g between samples: by sign changes, and at local minima of |g|, in case g crosses 0 twice between samples.
+/// Zeros of g between samples: by sign changes, and at local minima of |g|, in case g crosses 0 twice between samples. The
+/// slopes of g fall towards such a minimum: |g| does not reach 0 if the steepest of both would not lead there.
 pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[(f64, f64)]) -> Vec<f64> {
     let mut zeros = vec![];
     for i in 1..samples.len() {
@@ -219,7 +220,9 @@ pub(super) fn zeros(g: impl Fn(f64) -> f64, samples: &[(f64, f64)]) -> Vec<f64> 
         }
         let Some((next, after)) = samples.get(i + 1).copied() else { continue };
         let dips = value.abs() < before.abs().min(after.abs());
-        if dips && before * value > 0.0 && value * after > 0.0 {
+        let slopes = [(before - value) / (here - last), (after - value) / (next - here)];
+        let reach = (next - last) * slopes[0].abs().max(slopes[1].abs());
+        if dips && value.abs() < reach && before * value > 0.0 && value * after > 0.0 {
             let sign = value.signum();
             let bottom = least(|q| sign * g(q), last, next);
             if sign * g(bottom) < 0.0 {

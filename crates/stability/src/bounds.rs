@@ -1,6 +1,7 @@
 //! Regions without zeros of N (see [`Law`]): the transforms at p = Λ + s are bounded and decrease with |p|, while
 //! Mv²Λ² + vΛ + κ grows with |Λ| (for creep it is κ).
 
+use super::extent::Extent;
 use super::kept::Kept;
 use super::law::Law;
 use super::one_sided::OneSided;
@@ -51,14 +52,13 @@ impl Bounds {
             let (area, decay) = ([f64::INFINITY; 3], [WAVES; 3]);
             return Self { area, decay, powers, from: 2.0, terms: vec![] };
         };
-        let reach = tip.reach().unwrap_or(1.0);
-        let samples = f64::from(SAMPLES).max(reach * tip.band()).min(1e5);
-        let step = reach / samples;
-        let (mut area, mut decay) = extent(tip, reach, step);
+        let samples = f64::from(SAMPLES).max(tip.reach().unwrap_or(1.0) * tip.band()).min(1e5);
+        let summed = |tip| Extent::summed(tip, samples, true, |_| 1.0);
+        let Extent { mut area, mut decay, .. } = summed(tip);
         if !tip.is_even() {
-            let (other_area, other_decay) = extent(&tip.mirrored(), reach, step);
-            area = [0, 1, 2].map(|i: usize| area[i].max(other_area[i]));
-            decay = [0, 1, 2].map(|i: usize| decay[i].max(other_decay[i]));
+            let other = summed(&tip.mirrored());
+            area = [0, 1, 2].map(|i: usize| area[i].max(other.area[i]));
+            decay = [0, 1, 2].map(|i: usize| decay[i].max(other.decay[i]));
         }
         let term = |g: &Gaussian| {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
@@ -178,24 +178,4 @@ fn first(holds: impl Fn(f64) -> bool, least: f64) -> f64 {
         at *= STEP;
     }
     at
-}
-
-/// ∫|f|, ∫|f'|, ∫|f''| over x > 0, and |f|, |f'|, |f''| at 0, each plus its total variation over x > 0.
-fn extent(tip: &TipFunction, reach: f64, step: f64) -> ([f64; 3], [f64; 3]) {
-    let at = |x: f64| {
-        let (slope, curvature) = tip.slope_and_curvature(x);
-        [tip.value(x), slope, curvature]
-    };
-    let mut last = at(0.0);
-    let (mut area, mut decay, mut x) = ([0.0; 3], last.map(f64::abs), 0.0);
-    while x < reach {
-        x += step;
-        let here = at(x);
-        for i in 0..3 {
-            area[i] += 0.5 * step * (here[i].abs() + last[i].abs());
-            decay[i] += (here[i] - last[i]).abs();
-        }
-        last = here;
-    }
-    (area, decay)
 }

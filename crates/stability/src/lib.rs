@@ -30,6 +30,7 @@ mod creep;
 mod critical;
 mod crossings;
 mod error;
+mod extent;
 mod half_plane;
 mod inversion;
 mod kept;

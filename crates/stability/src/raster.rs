@@ -50,7 +50,6 @@ mod count;
 mod critical;
 mod determinant;
 mod entry;
-mod extent;
 mod growth;
 mod heights;
 mod lines;

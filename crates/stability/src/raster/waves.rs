@@ -1,7 +1,7 @@
 //! The response of a line to its own ripple e^{iqx} and to those of earlier lines: transforms of f on intervals of q.
 
-use super::extent::Extent;
 use super::patch::Patch;
+use crate::extent::Extent;
 use crate::one_sided::{Jet, OneSided};
 use num_complex::Complex64;
 use std::f64::consts::PI;

@@ -58,6 +58,20 @@ impl Extent {
         let is_table = matches!(tip, TipFunction::Gaussians(sum) if sum.terms().len() > MOST_TERMS);
         let wanted = if is_table { SAMPLES.0 } else { 4.0 * reach * tip.band() };
         let samples = wanted.clamp(SAMPLES.0, SAMPLES.1).ceil();
+        let Self { area, decay, second, bend } = Self::summed(tip, samples, has_edge, weight);
+        let [area, decay, second, bend] =
+            [area, decay, second, bend].map(|all| all.map(|f| MARGIN * f));
+        Self { area, decay, second, bend }
+    }
+
+    /// The sums over x > 0 at this number of samples, without a safety factor; |f(0)| counts if f ends there.
+    pub(super) fn summed(
+        tip: &TipFunction,
+        samples: f64,
+        has_edge: bool,
+        weight: impl Fn(f64) -> f64,
+    ) -> Self {
+        let reach = tip.reach().unwrap_or(1.0);
         let step = reach / samples;
         let at = |x: f64| {
             let (slope, curvature) = tip.slope_and_curvature(x);
@@ -85,9 +99,6 @@ impl Extent {
             }
             (last, x) = (here, x + step);
         }
-        let Self { area, decay, second, bend } = extent;
-        let [area, decay, second, bend] =
-            [area, decay, second, bend].map(|all| all.map(|f| MARGIN * f));
-        Self { area, decay, second, bend }
+        extent
     }
 }

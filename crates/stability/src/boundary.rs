@@ -3,6 +3,7 @@
 use super::axis::{Axis, AxisPoint};
 use super::critical::{Critical, OnsetKind, bessel_wave_number, by_cosine, unless_stopped};
 use super::crossings::Scan;
+use super::law::Law;
 use super::{StabilityError, corner, limits};
 use std::sync::Arc;
 use stickslip_tip::sorting::{sort_by_number, sort_numbers};
@@ -76,7 +77,7 @@ impl Boundary {
     /// # Errors
     /// As [`critical`](super::critical).
     pub fn at(&self, r: f64) -> Result<Critical, StabilityError> {
-        self.judge(r)?;
+        Law::judge(&self.law, r)?;
         let none = || unless_stopped(StabilityError::NoCrossing { r });
         match &self.search {
             Search::ClosedForm => Ok(Critical::bessel(r)),
@@ -136,18 +137,6 @@ impl Boundary {
         }
     }
 
-    /// # Errors
-    /// r or a parameter of the model is out of range, or there is no spring.
-    fn judge(&self, r: f64) -> Result<(), StabilityError> {
-        if !(r.is_finite() && r > 0.0) {
-            return Err(StabilityError::R(r));
-        }
-        if !self.law.spring {
-            return Err(StabilityError::NoSupport);
-        }
-        Ok(self.law.validate()?)
-    }
-
     /// All branches of the curve with `slowest` ≤ r ≤ `fastest`: `points` points in total, evenly spaced in Ω on each
     /// branch, ends included.
     ///
@@ -160,11 +149,7 @@ impl Boundary {
         fastest: f64,
         points: usize,
     ) -> Result<Vec<BoundaryBranch>, StabilityError> {
-        for r in [slowest, fastest] {
-            if !(r.is_finite() && r > 0.0) {
-                return Err(StabilityError::R(r));
-            }
-        }
+        [slowest, fastest].into_iter().try_for_each(StabilityError::unless_positive)?;
         if fastest <= slowest {
             return Err(StabilityError::R(fastest));
         }

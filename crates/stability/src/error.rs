@@ -151,3 +151,10 @@ pub enum StabilityError {
     #[error("{0}")]
     NoLimit(&'static str),
 }
+
+impl StabilityError {
+    /// An error for an r that is not a positive finite number.
+    pub(super) fn unless_positive(r: f64) -> Result<(), Self> {
+        if r.is_finite() && r > 0.0 { Ok(()) } else { Err(Self::R(r)) }
+    }
+}

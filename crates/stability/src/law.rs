@@ -16,6 +16,7 @@
 //!
 //! In the basic model this is (30), rΛ + 1 + (α/r) G(Λ) = 0.
 
+use super::StabilityError;
 use super::one_sided::{Jet, OneSided, Steady, Transforms};
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -47,6 +48,16 @@ pub(super) struct Law {
 const NO_HEIGHT: f64 = 1e-13;
 
 impl Law {
+    /// # Errors
+    /// r or a parameter of the model is out of range, or there is no spring.
+    pub(super) fn judge(wider: &Wider, r: f64) -> Result<(), StabilityError> {
+        StabilityError::unless_positive(r)?;
+        if !wider.spring {
+            return Err(StabilityError::NoSupport);
+        }
+        Ok(wider.validate()?)
+    }
+
     /// N for the steady motion of a tip on its spring.
     pub(super) fn of(model: &Model) -> Self {
         Self::with_density(model.wider(), model.tip(), model.r(), model.steady_density())

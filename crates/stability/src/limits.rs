@@ -34,9 +34,7 @@ pub fn least_depth_limit(wider: &Wider, tip: &TipFunction, r: f64) -> Result<f64
 /// b_c(r) from a given scan of the imaginary axis.
 pub(super) fn least_on(scan: &Scan, wider: &Wider, r: f64) -> Result<f64, StabilityError> {
     let tip = scan.tip();
-    if !(r.is_finite() && r > 0.0) {
-        return Err(StabilityError::R(r));
-    }
+    StabilityError::unless_positive(r)?;
     if !wider.spring {
         return Err(StabilityError::NoSupport);
     }

@@ -63,6 +63,7 @@ mod search;
 mod waves;
 
 use super::StabilityError;
+use super::law::Law;
 pub use critical::{RasterCertificate, RasterCritical, RasterKind, RasterPath};
 use determinant::{Heights, Lines, Terms};
 use heights::heights;
@@ -117,13 +118,7 @@ impl Raster {
         (r, pitch): (f64, f64),
         left: f64,
     ) -> Result<Self, StabilityError> {
-        if !(r.is_finite() && r > 0.0) {
-            return Err(StabilityError::R(r));
-        }
-        if !law.spring {
-            return Err(StabilityError::NoSupport);
-        }
-        law.validate()?;
+        Law::judge(&law, r)?;
         if !law.is_basic() && !is_gaussian(footprint) {
             let what = "a raster of a tip that is no sum of Gaussians";
             return Err(StabilityError::PapersLawOnly(what));

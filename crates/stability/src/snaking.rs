@@ -92,14 +92,9 @@ impl Snaking {
         law: Wider,
         (r, stiffness): (f64, f64),
     ) -> Result<Self, StabilityError> {
-        if !(r.is_finite() && r > 0.0) {
-            return Err(StabilityError::R(r));
-        }
+        StabilityError::unless_positive(r)?;
         judge_stiffness(stiffness, r)?;
-        if !law.spring {
-            return Err(StabilityError::NoSupport);
-        }
-        law.validate()?;
+        Law::judge(&law, r)?;
         if !footprint.is_even() {
             return Err(StabilityError::EvenOnly("the motion across the scan"));
         }

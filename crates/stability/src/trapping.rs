@@ -18,9 +18,7 @@ const SAMPLES: u32 = 400;
 /// # Errors
 /// `r` is not a positive finite number, or Q is nowhere positive.
 pub fn trapping_alpha(tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
-    if !(r.is_finite() && r > 0.0) {
-        return Err(StabilityError::R(r));
-    }
+    StabilityError::unless_positive(r)?;
     let (_, largest) = Push::new(tip).largest().ok_or(StabilityError::NoTrapping)?;
     Ok(r / largest)
 }

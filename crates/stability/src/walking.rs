@@ -77,9 +77,7 @@ pub fn walk(model: &Model, speed: f64, count: usize) -> Result<Walk, StabilityEr
     if model.wider().spring {
         return Err(StabilityError::Dragged);
     }
-    if !(speed.is_finite() && speed > 0.0) {
-        return Err(StabilityError::R(speed));
-    }
+    StabilityError::unless_positive(speed)?;
     let law = law_at(model, speed);
     if Law::has_corner(model.wider(), model.tip(), &law.steady) {
         return Err(StabilityError::Corner);

@@ -289,8 +289,7 @@ impl Raster {
             }
             RasterPath::Zigzag => {
                 let back = (!is_even).then(|| Waves::new(&self.footprint.mirrored(), 0.0));
-                let lines = Lines::zigzag(self.waves.clone(), self.terms, &self.heights);
-                Ok(lines.with_back(back))
+                Ok(Lines::zigzag((self.waves.clone(), back), self.terms, &self.heights))
             }
         }
     }

@@ -74,13 +74,7 @@ pub(super) struct Lines {
     /// The transforms of the mirrored footprint, for the retrace, if the footprint is not even.
     pub(super) back: Option<Waves>,
     pub(super) kind: Kind,
-    pub(super) r: f64,
-    mass: f64,
-    /// Relative change of the indentation rate with the height of the surface, -sign(u)/b; 0 without a depth limit.
-    pub(super) steepness: f64,
-    /// E
-    pub(super) beside: f64,
-    pub(super) across: Option<Sideways>,
+    pub(super) terms: Terms,
     pub(super) all: Vec<Vec<Sequence>>,
     pub(super) odd: Vec<Vec<Sequence>>,
 }
@@ -90,7 +84,9 @@ pub(super) struct Lines {
 pub(super) struct Terms {
     pub(super) r: f64,
     pub(super) mass: f64,
+    /// Relative change of the indentation rate with the height of the surface, -sign(u)/b; 0 without a depth limit.
     pub(super) steepness: f64,
+    /// E
     pub(super) beside: f64,
     pub(super) across: Option<Sideways>,
 }
@@ -109,11 +105,15 @@ impl Lines {
         };
         let sequence = |h: &Vec<f64>| Sequence::new(h.clone(), 1);
         let all = heights.iter().map(|layers| layers.iter().map(sequence).collect()).collect();
-        Self::of(waves, terms, kind, [all, vec![]])
+        Self { waves, back: None, kind, terms, all, odd: vec![] }
     }
 
-    /// Zigzag lines on a surface that does not heal.
-    pub(super) fn zigzag(waves: Waves, terms: Terms, heights: &Heights) -> Self {
+    /// Zigzag lines on a surface that does not heal, with other transforms on the retrace if the footprint is not even.
+    pub(super) fn zigzag(
+        (waves, back): (Waves, Option<Waves>),
+        terms: Terms,
+        heights: &Heights,
+    ) -> Self {
         let every_other = |from: usize| {
             let sequence = |h: &Vec<f64>| {
                 Sequence::new(h.iter().skip(from).step_by(2).copied().collect(), from)
@@ -122,22 +122,12 @@ impl Lines {
         };
         let kind = if terms.across.is_some() { Kind::PlaneZigzag } else { Kind::Zigzag };
         // h(2d), h(4d), … of W, W², …; h(d), h(3d), … of 1, W, …
-        Self::of(waves, terms, kind, [every_other(1), every_other(0)])
-    }
-
-    /// The same lines with these transforms on the retrace.
-    pub(super) fn with_back(self, back: Option<Waves>) -> Self {
-        Self { back, ..self }
+        Self { waves, back, kind, terms, all: every_other(1), odd: every_other(0) }
     }
 
     /// A single line that deviates across the scan only.
     pub(super) fn single_across(waves: Waves, terms: Terms) -> Self {
-        Self::of(waves, terms, Kind::Across, [vec![], vec![]])
-    }
-
-    fn of(waves: Waves, terms: Terms, kind: Kind, [all, odd]: [Vec<Vec<Sequence>>; 2]) -> Self {
-        let Terms { r, mass, steepness, beside, across } = terms;
-        Self { waves, back: None, kind, r, mass, steepness, beside, across, all, odd }
+        Self { waves, back: None, kind: Kind::Across, terms, all: vec![], odd: vec![] }
     }
 
     /// A single line over the steady grooves of the same earlier lines.
@@ -162,7 +152,8 @@ impl Lines {
         let alone = self.alone();
         let both = alone.kind == Kind::PlaneFull;
         let kind = if both { Kind::Full } else { Kind::Scalar };
-        [Self { kind, across: None, ..alone.clone() }, Self { kind: Kind::Across, ..alone }]
+        let terms = Terms { across: None, ..alone.terms };
+        [Self { kind, terms, ..alone.clone() }, Self { kind: Kind::Across, ..alone }]
     }
 
     pub(super) fn is_alone(&self) -> bool {
@@ -215,7 +206,7 @@ impl Lines {
     /// G(s) + s²E
     pub(super) fn still(&self) -> f64 {
         let [_, _, curvature] = self.waves.steady;
-        curvature + self.waves.fading.powi(2) * self.beside
+        curvature + self.waves.fading.powi(2) * self.terms.beside
     }
 
     pub(super) fn wave(&self, centre: f64, half: f64) -> Wave {
@@ -229,7 +220,8 @@ impl Lines {
     }
 
     fn entries(&self, waves: &Waves, (centre, half): (f64, f64)) -> Vec<Entry> {
-        let (r, mass, beta) = (self.r, self.mass * self.r * self.r, self.steepness);
+        let Terms { r, mass, steepness: beta, beside, across } = self.terms;
+        let mass = mass * r * r;
         let m = Patch {
             value: Complex64::new(1.0 - mass * centre * centre, r * centre),
             along: [Complex64::new(-2.0 * mass * centre, r) * half, Complex64::ZERO],
@@ -240,11 +232,11 @@ impl Lines {
         let groove = (Patch::constant(self.still()) - curvature) * inverse;
         let layers = if self.is_alone() { vec![] } else { waves.layers(centre, half) };
         let [_, steady, _] = self.waves.steady;
-        let fading = steady + self.waves.fading * self.beside;
-        if let Some(sideways) = self.across {
+        let fading = steady + self.waves.fading * beside;
+        if let Some(sideways) = across {
             let own = [height, slope, curvature];
             let along = Along { inverse, groove, steepness: beta, fading, own, layers };
-            let across = Across::new(waves, sideways, self.r, (centre, half));
+            let across = Across::new(waves, sideways, r, (centre, half));
             return match self.kind {
                 Kind::Across => across.alone(),
                 Kind::PlaneFull => across.all_rows(&along),
@@ -338,8 +330,8 @@ impl Lines {
 
     /// Contribution to T, for deviations across, of a line's own groove: the real part of (S(s) - S)/m_y.
     pub(super) fn own_across(&self, q: f64) -> f64 {
-        let single = Sideways { beside: [0.0; 2], ..self.across.unwrap_or(Sideways::STIFF) };
-        let across = Across::new(&self.waves, single, self.r, (q, 0.0));
+        let single = Sideways { beside: [0.0; 2], ..self.terms.across.unwrap_or(Sideways::STIFF) };
+        let across = Across::new(&self.waves, single, self.terms.r, (q, 0.0));
         across.alone().iter().map(|entry| entry.own.value.re).sum()
     }
 

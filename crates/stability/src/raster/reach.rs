@@ -21,20 +21,20 @@ impl Lines {
             sums.map(|(layer, total)| layer[power] * total).sum()
         };
         let all = |power: usize| sums(power, 0);
-        let drag = self.r * q;
-        if let Some(sideways) = self.across {
+        let drag = self.terms.r * q;
+        if let Some(sideways) = self.terms.across {
             return self.largest_across(sideways, p, drag, &sums);
         }
-        if self.steepness.abs() <= 0.0 {
+        if self.terms.steepness.abs() <= 0.0 {
             return (curvature + all(2)) / drag;
         }
-        let steep = self.steepness.abs();
+        let steep = self.terms.steepness.abs();
         let still = self.still().abs();
         let [_, steady, _] = self.waves.steady;
         let groove = (curvature + still + all(2)) / drag;
         let weight = steep * (height + all(0));
         let felt = slope + all(1);
-        let fading = (steady + self.waves.fading * self.beside).abs();
+        let fading = (steady + self.waves.fading * self.terms.beside).abs();
         groove + weight + (felt / drag * steep * (fading + felt)).sqrt()
     }
 
@@ -47,14 +47,14 @@ impl Lines {
 
     /// A scale of T: the largest T of a single line, or less.
     pub(super) fn scale(&self) -> f64 {
-        let (bound, spring): (&dyn Fn(f64) -> f64, f64) = match (self.kind, self.across) {
+        let (bound, spring): (&dyn Fn(f64) -> f64, f64) = match (self.kind, self.terms.across) {
             (Kind::Across, Some(across)) => (&|p| self.waves.across_bound(p), across.stiffness),
             _ => (&|p| self.waves.own_bounds(p)[2], 1.0),
         };
         let (far, near) = (bound(1e9), bound(0.0));
         // Where both bounds of G are the same.
         let q = 1e9 * far / near;
-        (near / spring).min(near / (self.r * q))
+        (near / spring).min(near / (self.terms.r * q))
     }
 
     /// [`Self::largest_beyond`] for a tip that is flexible across the lines; |m| and |m_y| are at least `drag`.
@@ -72,7 +72,7 @@ impl Lines {
         if self.kind == Kind::Across {
             return self.waves.across_bound(p) / drag;
         }
-        let (steep, fading) = (self.steepness.abs(), self.waves.fading);
+        let (steep, fading) = (self.terms.steepness.abs(), self.waves.fading);
         let groove = (curvature + self.still().abs() + sums(2, 0)) / drag;
         let weight = steep * (height + sums(0, 0));
         let faded = (fading * tilt + sums(1, 1)) / drag;
@@ -86,7 +86,7 @@ impl Lines {
         }
         let [_, steady, _] = self.waves.steady;
         let felt = slope + sums(1, 0);
-        let lost = steep * ((steady + fading * self.beside).abs() + felt);
+        let lost = steep * ((steady + fading * self.terms.beside).abs() + felt);
         largest_eigenvalue(&[
             [groove, felt / drag, faded],
             [lost, weight, raised],

@@ -39,9 +39,12 @@ impl Raster {
     /// tip is flexible across the lines.
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
         if self.terms.across.is_some() {
-            return settled_in_plane(&self.answers_in_plane(alpha, q));
+            let start = [Complex64::new(1.0, 0.3), Complex64::ZERO, Complex64::new(0.7, -0.2)];
+            return settled(&self.answers_in_plane(alpha, q), start);
         }
-        settled(&self.answers(alpha, q))
+        let answers: Vec<[[Complex64; 1]; 1]> =
+            self.answers(alpha, q).into_iter().map(|answer| [[answer]]).collect();
+        settled(&answers, [Complex64::ONE])
     }
 
     /// Coefficients c_j, j = 1, 2, …, of the recurrence from line to line: the deviation of the indentation density of
@@ -150,12 +153,12 @@ fn solution(p: &Matrix, y: &Matrix) -> Matrix {
     std::array::from_fn(|row| columns.map(|column| column[row]))
 }
 
-/// The limit of the ratio of successive lines in a recurrence of vectors.
-fn settled_in_plane(answers: &[Matrix]) -> Complex64 {
-    let mut tracks = vec![[Complex64::new(1.0, 0.3), Complex64::ZERO, Complex64::new(0.7, -0.2)]];
+/// The limit of the ratio of successive lines in the recurrence x_n = Σ_j M_j x_{n-j} of numbers or vectors.
+fn settled<const N: usize>(answers: &[[[Complex64; N]; N]], start: [Complex64; N]) -> Complex64 {
+    let mut tracks = vec![start];
     let mut z = Complex64::ZERO;
     for _ in 0..MOST_PASSES {
-        let mut next = [Complex64::ZERO; 3];
+        let mut next = [Complex64::ZERO; N];
         for (m, track) in answers.iter().zip(tracks.iter().rev()) {
             for (next, row) in next.iter_mut().zip(m) {
                 *next += row.iter().zip(track).map(|(m, x)| m * x).sum::<Complex64>();
@@ -163,7 +166,7 @@ fn settled_in_plane(answers: &[Matrix]) -> Complex64 {
         }
         let last = tracks[tracks.len() - 1];
         let before = z;
-        let size = |x: &[Complex64; 3]| x.iter().map(Complex64::norm_sqr).sum::<f64>();
+        let size = |x: &[Complex64; N]| x.iter().map(Complex64::norm_sqr).sum::<f64>();
         let product = next.iter().zip(&last).map(|(next, last)| next * last.conj());
         z = product.sum::<Complex64>() / size(&last);
         tracks.push(next);
@@ -181,27 +184,4 @@ fn settled_in_plane(answers: &[Matrix]) -> Complex64 {
 
 fn value(quadratic: &Quadratic, a: f64) -> Complex64 {
     quadratic[0] + (quadratic[1] + quadratic[2] * a) * a
-}
-
-/// The limit of A_n/A_{n-1} in the recurrence A_n = Σ_j c_j A_{n-1-j}.
-fn settled(couplings: &[Complex64]) -> Complex64 {
-    let most = couplings.len();
-    let mut tracks = vec![Complex64::new(1.0, 0.0)];
-    let mut z = Complex64::new(0.0, 0.0);
-    for _ in 0..MOST_PASSES {
-        let earlier = tracks.iter().rev().zip(couplings);
-        let next: Complex64 = earlier.map(|(a, c)| a * c).sum();
-        let before = z;
-        z = next / tracks.last().copied().unwrap_or(next);
-        tracks.push(next);
-        if tracks.len() > 2 * most {
-            tracks.drain(..tracks.len() - most.max(1));
-            let size = next.norm();
-            tracks.iter_mut().for_each(|a| *a /= size);
-        }
-        if (z - before).norm() < 1e-15 * z.norm() {
-            break;
-        }
-    }
-    z
 }

@@ -72,14 +72,14 @@ impl Embedding {
     /// # Errors
     /// No sum is valid farther than the present ones, or none is accurate enough.
     pub(super) fn reaching_back(&self, retreat: f64, allowed: f64) -> Result<Self, CycleError> {
-        let Self { alpha, r, .. } = *self;
-        let model = self.model().ok_or(CycleError::NotConverged { alpha, r })?;
+        let model = self.model().ok_or(self.lost())?;
         let far = Self::of_sums(&model, allowed, Some(retreat))?;
-        if far.retreat() > self.retreat() {
-            Ok(far)
-        } else {
-            Err(CycleError::NotConverged { alpha, r })
-        }
+        if far.retreat() > self.retreat() { Ok(far) } else { Err(self.lost()) }
+    }
+
+    /// The error of a search for a cycle at these parameters.
+    pub(super) fn lost(&self) -> CycleError {
+        CycleError::NotConverged { alpha: self.alpha, r: self.r }
     }
 
     fn of_sums(model: &Model, allowed: f64, far: Option<f64>) -> Result<Self, CycleError> {

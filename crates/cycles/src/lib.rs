@@ -55,7 +55,7 @@ pub use search::{
     ROUGHEST_RESIDUAL, Settled, cycle, cycle_near, cycle_within, settle, small_cycle,
 };
 
-use multipliers::multipliers;
+use multipliers::{multipliers, without_shift};
 use num_complex::Complex;
 use ripple::Ripple;
 use solve::Closed;
@@ -113,7 +113,7 @@ impl Cycle {
             return Err(CycleError::Retreat { retreat, most });
         }
         let (alpha, r) = (closed.equation.alpha, closed.equation.r);
-        let model = closed.equation.model().ok_or(CycleError::NotConverged { alpha, r })?;
+        let model = closed.equation.model().ok_or(closed.equation.lost())?;
         let multipliers = multipliers(&closed);
         let multipliers = multipliers.ok_or(CycleError::Multipliers { alpha, r })?;
         let (law, support) = (closed.equation.wider, Support::Moving(r));
@@ -210,12 +210,7 @@ impl Cycle {
 
     /// The multipliers except that of a shift in time.
     pub fn nontrivial_multipliers(&self) -> impl Iterator<Item = Complex<f64>> + '_ {
-        let distance = |m: &Complex<f64>| (m - 1.0).norm();
-        let nearest = (0..self.multipliers.len()).min_by(|a, b| {
-            distance(&self.multipliers[*a]).total_cmp(&distance(&self.multipliers[*b]))
-        });
-        let others = self.multipliers().iter().enumerate();
-        others.filter(move |(i, _)| Some(*i) != nearest).map(|(_, m)| *m)
+        without_shift(&self.multipliers).filter(|m| m.norm() >= LEAST_MULTIPLIER)
     }
 
     /// Whether every small deviation except a shift in time decays.

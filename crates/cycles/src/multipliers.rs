@@ -60,11 +60,14 @@ pub(super) fn multipliers(closed: &Closed) -> Option<Vec<Complex<f64>>> {
 /// not available.
 pub(super) fn largest_multiplier(linearisation: &Linearisation) -> f64 {
     let Some(found) = sorted(linearisation.monodromy()) else { return 0.0 };
+    without_shift(&found).map(|m| m.norm()).fold(0.0, f64::max)
+}
+
+/// These multipliers except that of a shift in time, the one nearest to 1.
+pub(super) fn without_shift(all: &[Complex<f64>]) -> impl Iterator<Item = Complex<f64>> {
     let distance = |m: &Complex<f64>| (m - 1.0).norm();
-    let nearest =
-        (0..found.len()).min_by(|a, b| distance(&found[*a]).total_cmp(&distance(&found[*b])));
-    let others = found.iter().enumerate().filter(|(i, _)| Some(*i) != nearest);
-    others.map(|(_, m)| m.norm()).fold(0.0, f64::max)
+    let nearest = (0..all.len()).min_by(|a, b| distance(&all[*a]).total_cmp(&distance(&all[*b])));
+    all.iter().enumerate().filter(move |(i, _)| Some(*i) != nearest).map(|(_, m)| *m)
 }
 
 /// The monodromy matrix in the short sum; under a depth limit in the fine one, because heights decay more slowly than

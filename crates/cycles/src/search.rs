@@ -114,11 +114,7 @@ pub fn cycle_near(model: &Model, period: &Trajectory, tolerance: f64) -> Result<
     let ends = period.steps().iter().map(|step| (step.end() - start) / length);
     let mesh = [0.0].into_iter().chain(ends).collect();
     let profile = Profile { l: |t| period.l(start + t), height: |t| period.height(start + t) };
-    let guess = Orbit::of_profile(equation.r, length, mesh, profile);
-    let (alpha, r) = (model.alpha(), model.r());
-    let lost = CycleError::NotConverged { alpha, r };
-    unless_stopped(solve(&equation, guess, tolerance))?
-        .map_err(|error| error.into_error(tolerance, lost))
+    solved(&equation, Orbit::of_profile(equation.r, length, mesh, profile), tolerance)
 }
 
 /// As [`cycle_near`], for the part of a motion between two times one period apart, at both of which l has its maximum.
@@ -131,11 +127,13 @@ pub fn cycle_within(
     (from, to): (f64, f64),
     tolerance: f64,
 ) -> Result<Cycle, CycleError> {
-    let equation = embedding(model, tolerance)?;
-    let (alpha, r) = (model.alpha(), model.r());
-    let found = solve(&equation, part(motion, from, to), tolerance);
-    let lost = CycleError::NotConverged { alpha, r };
-    unless_stopped(found)?.map_err(|error| error.into_error(tolerance, lost))
+    solved(&embedding(model, tolerance)?, part(motion, from, to), tolerance)
+}
+
+/// The cycle near a guess, or the reason why there is none.
+fn solved(equation: &Embedding, guess: Orbit, tolerance: f64) -> Result<Cycle, CycleError> {
+    unless_stopped(solve(equation, guess, tolerance))?
+        .map_err(|error| error.into_error(tolerance, equation.lost()))
 }
 
 /// The small cycle that bifurcates at αc, on the side of αc where it exists; `None` if Newton's method finds no cycle

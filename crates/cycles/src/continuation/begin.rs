@@ -41,8 +41,7 @@ pub(super) fn small(
     amplitude: f64,
 ) -> Result<Closed, CycleError> {
     let equation = embedding(model, settings.tolerance)?;
-    let (alpha, r) = (model.alpha(), model.r());
-    let lost = CycleError::NotConverged { alpha, r };
+    let lost = equation.lost();
     let mesh = even_mesh(steps_of_mode(&equation, period, amplitude).ok_or(lost.clone())?);
     let l = mode(model.steady_l(), amplitude, period);
     let guess = Orbit::of_profile(model.r(), period, mesh, Profile { l, height: |_| None });
@@ -63,8 +62,8 @@ pub(super) fn halved(settings: &Continuation, cycle: &Cycle) -> Option<Place> {
 /// The place of a cycle, with the direction in which the parameter approaches its last value.
 pub(super) fn at_cycle(settings: &Continuation, cycle: &Cycle) -> Result<Place, CycleError> {
     let closed = solved_again(cycle, settings)?;
-    let (alpha, r) = (closed.equation.alpha, closed.equation.r);
+    let lost = closed.equation.lost();
     let ahead = settings.to - closed.equation.parameter(settings.over);
     let along = Direction::PARAMETER.times(ahead.signum());
-    Place::new(closed, settings.over, &along).ok_or(CycleError::NotConverged { alpha, r })
+    Place::new(closed, settings.over, &along).ok_or(lost)
 }

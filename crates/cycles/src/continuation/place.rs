@@ -79,11 +79,10 @@ impl Place {
 /// The cycle, linearised again with the parameter of the continuation free.
 pub(super) fn solved_again(cycle: &Cycle, settings: &Continuation) -> Result<Closed, CycleError> {
     let Closed { equation, orbit, .. } = cycle.closed.clone();
-    let (alpha, r) = (equation.alpha, equation.r);
+    let lost = equation.lost();
     let condition = Condition { free: settings.over, fixed: Direction::PARAMETER };
-    close(equation, orbit, condition, settings.tolerance).map_err(|error| {
-        error.into_error(settings.tolerance, CycleError::NotConverged { alpha, r })
-    })
+    close(equation, orbit, condition, settings.tolerance)
+        .map_err(|error| error.into_error(settings.tolerance, lost))
 }
 
 /// Units of the changes of l, of the period and of the parameter.

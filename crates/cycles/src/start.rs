@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use stickslip_stability::{Criticality, Onset};
 use stickslip_tip::elementary::cos;
-use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
+use stickslip_tip::motion::{Oscillation, last_period, latest_extrema};
 use stickslip_tip::step::longest_displacement;
 use stickslip_tip::{Model, Scenario, Trajectory, run_observed};
 
@@ -113,22 +113,13 @@ fn offer(
     offered: &mut Vec<(f64, f64)>,
     take: impl FnMut(Orbit) -> bool,
 ) -> bool {
+    let extrema = latest_extrema(trajectory);
     // Where none is seen yet, a period may have one slip or two.
-    let repeats = Oscillation::of(trajectory, &latest_extrema(trajectory));
-    let slips = repeats.map_or(1..=2, |o| o.slips..=o.slips);
-    let mut periods: Vec<_> = slips.filter_map(|slips| last_period(trajectory, slips)).collect();
+    let slips = Oscillation::of(trajectory, &extrema).map_or(1..=2, |o| o.slips..=o.slips);
+    let mut periods: Vec<_> = slips.filter_map(|slips| last_period(&extrema, slips)).collect();
     periods.retain(|period| !offered.contains(period));
     offered.extend_from_slice(&periods);
     periods.into_iter().map(|(from, to)| part(trajectory, from, to)).any(take)
-}
-
-/// Times of two maxima a period apart: the second is the highest of the last period.
-fn last_period(trajectory: &Trajectory, slips: usize) -> Option<(f64, f64)> {
-    let maxima: Vec<_> = latest_extrema(trajectory).into_iter().filter(|e| e.is_maximum).collect();
-    let highest = |a: &(usize, &Extremum), b: &(usize, &Extremum)| a.1.l.total_cmp(&b.1.l);
-    let (i, end) = maxima.iter().take(slips).enumerate().max_by(highest)?;
-    let start = maxima.get(i + slips)?;
-    Some((start.t, end.t))
 }
 
 /// One period of a run, with the steps of the run.

@@ -1,7 +1,7 @@
 //! The limit cycle on or close to a motion: the reference solution for its classification.
 
 use stickslip_cycles::{Cycle, CycleError, ROUGHEST_RESIDUAL, cycle_near, cycle_within};
-use stickslip_tip::motion::{Extremum, Oscillation, latest_extrema};
+use stickslip_tip::motion::{Extremum, Oscillation, last_period, latest_extrema};
 use stickslip_tip::{Model, Trajectory};
 
 /// Residual of a reference cycle.
@@ -82,14 +82,6 @@ fn closed(model: &Model, tail: &Trajectory, span: (f64, f64)) -> Option<Cycle> {
         }
         found => found.ok(),
     }
-}
-
-/// Times of two maxima a period apart: the second is the highest of the last period.
-fn last_period(extrema: &[Extremum], slips: usize) -> Option<(f64, f64)> {
-    let maxima: Vec<_> = extrema.iter().filter(|e| e.is_maximum).collect();
-    let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
-    let start = maxima.get(i + slips)?;
-    Some((start.t, end.t))
 }
 
 /// A maximum closer than this fraction of a period to the seam, the start and end of the period, counts as lying on it.

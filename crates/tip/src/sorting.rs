@@ -1,9 +1,15 @@
-//! Sorting by a number. The sort itself is compiled once, for all kinds of items: a copy of it for each takes as long to
+//! Sorting by a number, and the least and the largest of numbers. The sort itself is compiled once, for all kinds of items: a copy of it for each takes as long to
 //! compile as the code that uses it.
 
 /// Sorts numbers, the least first, as [`f64::total_cmp`] orders them.
 pub fn sort_numbers(numbers: &mut [f64]) {
     numbers.sort_by(f64::total_cmp);
+}
+
+/// The least and the largest of these numbers; ∞ and -∞ if there are none.
+pub fn ends(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let wider = |(low, high): (f64, f64), number: f64| (low.min(number), high.max(number));
+    numbers.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }
 
 /// Sorts items by a number, the least first. Items with the same number keep their order.

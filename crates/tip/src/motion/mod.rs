@@ -5,4 +5,4 @@ mod extrema;
 mod oscillation;
 
 pub use extrema::{Extrema, Extremum, extrema_within, latest_extrema};
-pub use oscillation::Oscillation;
+pub use oscillation::{Oscillation, last_period};

@@ -3,6 +3,7 @@
 use super::extrema::Extremum;
 use crate::Trajectory;
 use crate::roots::zero_between;
+use crate::sorting::ends;
 
 /// The periodic motion at the end of a run. Lengths in σ, times in Γ/k.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,9 +53,7 @@ impl Oscillation {
         let compared = &maxima[..maxima.len().min(CYCLES * slips + 1)];
         let (last, before) = (compared.first()?, compared.get(slips)?);
         let cycle = latest_first.iter().filter(|e| e.t > before.t && e.t <= last.t);
-        let (low, high) = cycle.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), e| {
-            (low.min(e.l), high.max(e.l))
-        });
+        let (low, high) = ends(cycle.map(|e| e.l));
         let amplitude_x0 = 0.5 * (high - low);
         let pairs = compared.iter().zip(&compared[slips..]);
         let drift = pairs.map(|(a, b)| (a.l - b.l).abs()).fold(0.0, f64::max) / amplitude_x0;
@@ -66,6 +65,14 @@ impl Oscillation {
         let wavelength = trajectory.r() * period;
         Some(Self { period, wavelength, amplitude_x0, slips, drift, last_period_from: start })
     }
+}
+
+/// Times of two maxima a period of `slips` maxima apart: the second is the highest of the last period.
+pub fn last_period(latest_first: &[Extremum], slips: usize) -> Option<(f64, f64)> {
+    let maxima = maxima(latest_first);
+    let (i, end) = maxima.iter().take(slips).enumerate().max_by(|a, b| a.1.l.total_cmp(&b.1.l))?;
+    let start = maxima.get(i + slips)?;
+    Some((start.t, end.t))
 }
 
 fn maxima(latest_first: &[Extremum]) -> Vec<Extremum> {

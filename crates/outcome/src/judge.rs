@@ -4,7 +4,7 @@ use crate::creep::{Fate, Stuck, measured};
 use crate::linear::{Linear, Slowest};
 use crate::reference::Reference;
 use crate::sequence::Sequence;
-use crate::{Observer, Oscillation, Outcome, Prospect, Regime, Remark};
+use crate::{Creeping, Observer, Oscillation, Outcome, Prospect, Regime, Remark};
 use std::cell::OnceCell;
 use stickslip_cycles::{DEFAULT_TOLERANCE, small_cycle};
 use stickslip_stability::{Criticality, creep, onset};
@@ -76,6 +76,10 @@ impl Outcome {
             prospect: None,
             remarks: vec![],
         }
+    }
+
+    fn trapped(creep: Creeping) -> Self {
+        Self { creep: Some(creep), ..Self::settled(Regime::Trapped) }
     }
 
     fn transient(towards: Option<Regime>, time: Option<f64>) -> Self {
@@ -156,26 +160,18 @@ impl End<'_> {
             let since = self.extrema.first().map_or(self.start(), |e| e.t.max(self.start()));
             let risen = self.observer.risen();
             let creep = measured(model, (self.start(), since), risen, &self.last)?;
-            return Some(Outcome { creep: Some(creep), ..Outcome::settled(Regime::Trapped) });
+            return Some(Outcome::trapped(creep));
         }
         let (surface, tail) = (self.surface, &self.tail);
         let stuck = Stuck { model, surface, tail, tolerance: *tolerance };
-        match stuck.fate()? {
-            Fate::Held(creep) => {
-                Some(Outcome { creep: Some(creep), ..Outcome::settled(Regime::Trapped) })
-            }
-            // Within an oscillation that repeats itself every slip is foretold.
-            Fate::Slips(time) => {
-                let oscillates = self.oscillates();
-                let slips = || Outcome::transient(None, None).remarked(Remark::SlipsAfter { time });
-                Some(oscillates.filter(|o| o.regime == Regime::StickSlip).unwrap_or_else(slips))
-            }
-            Fate::Open => {
-                let oscillates = self.oscillates();
-                let open = || Outcome::transient(None, None).remarked(Remark::AtTheBorder);
-                Some(oscillates.filter(|o| o.regime == Regime::StickSlip).unwrap_or_else(open))
-            }
-        }
+        let remark = match stuck.fate()? {
+            Fate::Held(creep) => return Some(Outcome::trapped(creep)),
+            Fate::Slips(time) => Remark::SlipsAfter { time },
+            Fate::Open => Remark::AtTheBorder,
+        };
+        // Within an oscillation that repeats itself every slip is foretold.
+        let oscillates = self.oscillates().filter(|o| o.regime == Regime::StickSlip);
+        Some(oscillates.unwrap_or_else(|| Outcome::transient(None, None).remarked(remark)))
     }
 
     /// Classifies an oscillation on or close to a cycle, or one that repeats itself.

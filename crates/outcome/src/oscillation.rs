@@ -39,9 +39,7 @@ impl Oscillation {
         let off = cycle.map_or(0.0, |cycle| (cycle.amplitude_u() - amplitude_u).abs());
         (off + 3.0 * relative * amplitude_u.abs()).min(f64::MAX)
     }
-}
 
-impl Oscillation {
     /// The oscillation on a cycle, with the distance from the cycle as error.
     pub(crate) fn on(near: Reference) -> Self {
         let (error, measured) = (near.cycle.error(), near.measured);

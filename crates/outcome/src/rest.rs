@@ -9,6 +9,7 @@
 //!
 //! so that deviations grow at the rate λ(t), the larger root of (Mλ + 1)(λ + 1/T) = α f''(0) θ(t).
 
+use stickslip_tip::roots::halved_between;
 use stickslip_tip::{Model, Wider};
 
 /// Coefficients of this problem for a model without a spring.
@@ -76,12 +77,7 @@ impl Rest {
 
 /// |h|/|αf(0)| at the balance of digging and healing: y = T e^{-dig y/b}.
 fn settled(dig: f64, limit: f64, healing: f64) -> f64 {
-    let (mut low, mut high) = (0.0, healing);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if middle > healing * (-dig * middle / limit).exp() { high = middle } else { low = middle }
-    }
-    0.5 * (low + high)
+    halved_between(|y| healing * (-dig * y / limit).exp() - y, 0.0, healing)
 }
 
 #[cfg(test)]

@@ -106,11 +106,6 @@ impl<'a> Course<'a> {
         Job { n, rows: rows.clone(), after, given_up: Arc::default() }
     }
 
-    /// The surface of line n after these rows.
-    pub(crate) fn surface(&self, n: usize, rows: &Rows) -> InitialSurface {
-        self.surface_of(&self.job(n, rows))
-    }
-
     /// Scans one-way or repeated lines from `out` on with this number of threads. Each is passed to `take` in its order,
     /// with the result of `of_line` and the rows after it, until `take` returns false or the work is cancelled.
     pub(crate) fn each_line<T: Send>(

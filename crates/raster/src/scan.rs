@@ -61,21 +61,6 @@ impl<'a> Scanning<'a> {
         &self.lines
     }
 
-    /// The initial surface of the next line, in the frame of that line: the sum of all grooves within reach; flat
-    /// after the last line.
-    pub fn surface_ahead(&mut self) -> InitialSurface {
-        if self.lines.len() >= self.plan.lines() {
-            return InitialSurface::flat();
-        }
-        match &mut self.past {
-            Past::Traces(course, rows) => course.surface(self.lines.len(), rows),
-            Past::Grooves(grooves) => {
-                let relief = grooves.relief(&self.plan.track(self.lines.len()));
-                relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with)
-            }
-        }
-    }
-
     /// Scans the next line; `None` after the last one, or if the work is [cancelled](stop), in which case the
     /// unfinished line is lost.
     ///
@@ -89,8 +74,10 @@ impl<'a> Scanning<'a> {
         let begins = self.begins(self.plan.track(n));
         let line = match (&mut self.past, &self.plan.free) {
             (Past::Traces(course, rows), _) => course.line(n, rows, begins)?,
-            (Past::Grooves(_), None) => self.held_line(n)?,
-            (Past::Grooves(_), Some(free)) => self.free_line(n, free)?,
+            (Past::Grooves(grooves), None) => held_line(self.plan, (n, begins), grooves)?,
+            (Past::Grooves(grooves), Some(free)) => {
+                free_line((self.plan, free), (begins, &self.lines), grooves)?
+            }
         };
         let Some(line) = line else { return Ok(None) };
         self.lines.push(line);
@@ -154,49 +141,6 @@ impl<'a> Scanning<'a> {
         Ok(())
     }
 
-    /// Line n of a tip that is held on it; `None` if the work is cancelled.
-    fn held_line(&mut self, n: usize) -> Result<Option<Line>, RasterError> {
-        let track = self.plan.track(n);
-        let surface = self.surface_ahead();
-        let scenario = self.plan.line(n, self.begins(track));
-        let failed = |error| RasterError::Line { line: n + 1, error };
-        let mut running = Running::new(&scenario, &surface).map_err(failed)?;
-        let mut steps: Vec<Step> = vec![];
-        while let Some(step) = running.step().map_err(failed)? {
-            steps.push(step);
-            if stop::is_requested() {
-                return Ok(None);
-            }
-        }
-        Ok(Some(Line::new(track, &scenario.model, steps, running.work())))
-    }
-
-    /// Line n of a tip that is free to move across; `None` if the work is cancelled.
-    fn free_line(&mut self, n: usize, free: &Free) -> Result<Option<Line>, RasterError> {
-        let track = self.plan.track(n);
-        let off = match self.lines.last() {
-            None => free.kick,
-            Some(last) if self.plan.path == Path::Zigzag => last.y0_at_end() - track.y,
-            Some(_) => 0.0,
-        };
-        let along = self.plan.line(n, self.begins(track));
-        let scenario = free.scenario(&self.plan.footprint, along, (n, off));
-        loop {
-            let Past::Grooves(grooves) = &mut self.past else { return Ok(None) };
-            let earlier = grooves.around(&track);
-            match run(&scenario, earlier.as_ref()) {
-                Ok(Some((steps, work))) => {
-                    let model = &scenario.along.model;
-                    return Ok(Some(Line::free(track, model, &steps, work)));
-                }
-                Ok(None) => return Ok(None),
-                // The surface farther away from the line is needed too.
-                Err(PlanarError::BeyondGrooves { .. }) => grooves.widen_across(&self.lines),
-                Err(error) => return Err(RasterError::of_free(n, error)),
-            }
-        }
-    }
-
     /// Distance of the tip ahead of the support at the start of a line, and its velocity, in the frame of the line. On a
     /// zigzag the tip keeps its position when the support turns.
     fn begins(&self, track: Track) -> (f64, f64) {
@@ -210,6 +154,58 @@ impl<'a> Scanning<'a> {
     #[must_use]
     pub fn into_lines(self) -> Vec<Line> {
         self.lines
+    }
+}
+
+/// Line n of a tip that is held on it, from its beginning; `None` if the work is cancelled.
+fn held_line(
+    plan: &Plan,
+    (n, begins): (usize, (f64, f64)),
+    grooves: &mut Grooves,
+) -> Result<Option<Line>, RasterError> {
+    let track = plan.track(n);
+    // The sum of all grooves within reach.
+    let relief = grooves.relief(&track);
+    let surface = relief.into_iter().fold(InitialSurface::flat(), InitialSurface::with);
+    let scenario = plan.line(n, begins);
+    let failed = |error| RasterError::Line { line: n + 1, error };
+    let mut running = Running::new(&scenario, &surface).map_err(failed)?;
+    let mut steps: Vec<Step> = vec![];
+    while let Some(step) = running.step().map_err(failed)? {
+        steps.push(step);
+        if stop::is_requested() {
+            return Ok(None);
+        }
+    }
+    Ok(Some(Line::new(track, &scenario.model, steps, running.work())))
+}
+
+/// The line after these of a tip that is free to move across, from its beginning; `None` if the work is cancelled.
+fn free_line(
+    (plan, free): (&Plan, &Free),
+    (begins, lines): ((f64, f64), &[Line]),
+    grooves: &mut Grooves,
+) -> Result<Option<Line>, RasterError> {
+    let n = lines.len();
+    let track = plan.track(n);
+    let off = match lines.last() {
+        None => free.kick,
+        Some(last) if plan.path == Path::Zigzag => last.y0_at_end() - track.y,
+        Some(_) => 0.0,
+    };
+    let scenario = free.scenario(&plan.footprint, plan.line(n, begins), (n, off));
+    loop {
+        let earlier = grooves.around(&track);
+        match run(&scenario, earlier.as_ref()) {
+            Ok(Some((steps, work))) => {
+                let model = &scenario.along.model;
+                return Ok(Some(Line::free(track, model, &steps, work)));
+            }
+            Ok(None) => return Ok(None),
+            // The surface farther away from the line is needed too.
+            Err(PlanarError::BeyondGrooves { .. }) => grooves.widen_across(lines),
+            Err(error) => return Err(RasterError::of_free(n, error)),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::{MOST_LINES, RasterError};
 use crate::path::{AreaLine, Path, Track};
-use stickslip_tip::sorting::sort_numbers;
+use stickslip_tip::sorting::{ends, sort_numbers};
 
 /// Positions of the scan lines.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,9 +52,7 @@ impl Area {
         match self {
             Self::Rectangle { length, .. } => (0.0, *length),
             Self::Lines(lines) => {
-                lines.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), line| {
-                    (low.min(line.start), high.max(line.start + line.length))
-                })
+                ends(lines.iter().flat_map(|line| [line.start, line.start + line.length]))
             }
         }
     }

@@ -19,6 +19,7 @@ use num_complex::Complex64;
 use rayon::prelude::*;
 use stickslip_convolution::{Density, Spectra};
 use stickslip_tip::planar::{EarlierGrooves, GrooveRows, RowLattice};
+use stickslip_tip::sorting::ends;
 use stickslip_tip::{Across, Footprint, Layer, Relief, Wider};
 
 /// ρ̂ of all lines at one y; for a tip that is free to move across, the part of all lines on one row of a lattice.
@@ -347,10 +348,7 @@ fn row_of(line: &Line, spectra: &mut Spectra) -> Row {
 /// The rows of a lattice for the groove of a line of a tip that is free to move across.
 fn rows_of_free(line: &Line, lattice: &RowLattice, spectra: &mut Spectra) -> Vec<Row> {
     let visits = line.visits();
-    let ends = visits.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), visit| {
-        (low.min(visit.y), high.max(visit.y))
-    });
-    let (first, last) = lattice.touched(ends);
+    let (first, last) = lattice.touched(ends(visits.iter().map(|visit| visit.y)));
     let count = |rows: i64| usize::try_from(rows).unwrap_or(0);
     let mut densities = spectra.rows(count(last - first + 1));
     let mut shares = vec![];

@@ -5,6 +5,7 @@ use crate::error::RasterError;
 use crate::free::Free;
 use crate::path::{Path, Track};
 use stickslip_tip::planar::RowLattice;
+use stickslip_tip::sorting::ends;
 use stickslip_tip::{Footprint, Force, Model, Scenario, Start};
 
 /// Definition of a raster. Lengths in σ, times in Γ/k.
@@ -129,11 +130,9 @@ impl Plan {
 
     /// Number of rows that the grooves of a tip that is free to move across occupy, if it remains near its lines.
     fn rows(&self) -> f64 {
-        let y = (0..self.lines()).map(|n| self.track(n).y);
-        let ends =
-            y.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        let (low, high) = ends((0..self.lines()).map(|n| self.track(n).y));
         let (spacing, reach) = (RowLattice::of(&self.footprint).y(1), 2.0 * self.reach_across());
-        (ends.1 - ends.0 + reach).min(reach * self.lines() as f64) / spacing
+        (high - low + reach).min(reach * self.lines() as f64) / spacing
     }
 
     /// Number of lines.

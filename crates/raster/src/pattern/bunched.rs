@@ -16,7 +16,7 @@ use super::{FEWEST_WAVES, POINTS, Pattern, SETTLED, Written, changing, felt, gro
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::{Scanned, carved_depth};
+use crate::surface::Scanned;
 use ndarray::Array2;
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ const STRAIGHT: f64 = 0.6;
 /// The pattern, if crests along the lines are the strongest wave of the surface; `None` otherwise.
 pub(super) fn bunched(plan: &Plan, lines: &[Line], window: &Window) -> Option<Written> {
     let (sheet, amplitude) = sheet(plan, lines, window);
-    let (carved, healed) = depth_and_healing(plan, lines, window);
+    let (carved, healed) = window.depth_and_healing(plan, lines);
     if sheet.amplitude() < FLAT * carved {
         return None;
     }
@@ -54,15 +54,7 @@ pub(super) fn growing(plan: &Plan, lines: &[Line]) -> Option<Doubt> {
     let window = Window::of(plan, lines.len()).ok()?;
     let (sheet, _) = sheet(plan, lines, &window);
     let rows = window.end - window.first;
-    growth(plan, &sheet.u, depth_and_healing(plan, lines, &window), (rows, lines.len()))
-}
-
-/// Mean carved depth, and the fraction of the relief of the first half of the lines that remains after the second half was
-/// scanned.
-fn depth_and_healing(plan: &Plan, lines: &[Line], window: &Window) -> (f64, f64) {
-    let carved = carved_depth(plan, &lines[window.first..window.end], window.pitch);
-    let left = plan.law.model.wider().left_after(plan.duration(window.first));
-    (carved, left.powf(0.5 * (window.end - window.first) as f64))
+    growth(plan, &sheet.u, window.depth_and_healing(plan, lines), (rows, lines.len()))
 }
 
 /// The wave of straight crests along lines one pitch apart, with its rivals; `None` if another wave is stronger.
@@ -113,9 +105,7 @@ impl Measured {
 /// its neighbours, so that the grooves of equal lines have the same height on all rows.
 fn sheet(plan: &Plan, lines: &[Line], window: &Window) -> (Sheet, f64) {
     let Window { first, end, from, to, pitch } = *window;
-    let points = (POINTS * (to - from) * plan.band() / 8.7) as usize;
-    let spacing = (to - from) / points as f64;
-    let x: Vec<f64> = (0..points).map(|i| from + spacing * i as f64).collect();
+    let (spacing, x) = window.points((POINTS * (to - from) * plan.band() / 8.7) as usize);
     let step = pitch / ROWS as f64;
     let low = lines[first].track().y - step;
     let count = ROWS * (end - first) + 2;

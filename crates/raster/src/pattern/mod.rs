@@ -19,11 +19,12 @@ use crate::grooves::Grooves;
 use crate::line::Line;
 use crate::path::Path;
 use crate::plan::Plan;
-use crate::surface::{Scanned, carved_depth};
+use crate::surface::Scanned;
 use estimate::Estimate;
 use local::Local;
 use regime::{FLAT, Measures, PITTED};
 use sheet::{Sheet, halves_of};
+use stickslip_tip::sorting::ends;
 use vector::Vector;
 use wave::Wave;
 use window::{ALONG, FEWEST_ROWS, Window};
@@ -188,9 +189,7 @@ pub fn line_regime(plan: &Plan, line: &Line) -> LineRegime {
         let part = ALONG.0 + (ALONG.1 - ALONG.0) * f64::from(i) / 400.0;
         line.lag(part * duration).abs()
     };
-    let (low, high) = (0..=400)
-        .map(at)
-        .fold((f64::INFINITY, 0.0_f64), |(low, high), lag| (low.min(lag), high.max(lag)));
+    let (low, high) = ends((0..=400).map(at));
     if high - low < SAME_LAG * high { LineRegime::Steady } else { LineRegime::StickSlip }
 }
 
@@ -216,17 +215,14 @@ struct Sheets<'a> {
 }
 
 fn sheets<'a>(plan: &'a Plan, lines: &'a [Line]) -> Result<Sheets<'a>, Doubt> {
-    let Window { first, end, from, to, pitch } = Window::of(plan, lines.len())?;
+    let window = Window::of(plan, lines.len())?;
+    let Window { first, end, from, to, pitch } = window;
     let width = 8.7 / plan.band();
-    let points = (POINTS * (to - from) / width) as usize;
-    let spacing = (to - from) / points as f64;
-    let x: Vec<f64> = (0..points).map(|i| from + spacing * i as f64).collect();
+    let (spacing, x) = window.points((POINTS * (to - from) / width) as usize);
     let y: Vec<f64> = lines[first..end].iter().map(|line| line.track().y).collect();
     let heights = Scanned::new(plan, felt(plan, lines, (y[0], y[y.len() - 1]))).heights(&x, &y);
     let surface = Sheet::new(heights, (from, spacing), pitch, plan.band());
-    let depth = carved_depth(plan, &lines[first..end], pitch);
-    let left = plan.law.model.wider().left_after(plan.duration(first));
-    let healed = left.powf(0.5 * (end - first) as f64);
+    let (depth, healed) = window.depth_and_healing(plan, lines);
     let sheets = Sheets { plan, surface, lines: &lines[first..end], x, depth, healed };
     let visible = sheets.surface.visible_rows();
     if visible < FEWEST_ROWS as f64 && sheets.surface.amplitude() > FLAT * depth {

@@ -4,6 +4,7 @@ use ndarray::{Array1, Array2, ArrayView2, Axis, Slice};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
+use stickslip_tip::sorting::ends;
 
 /// Heights on evenly spaced points of evenly spaced lines, minus the mean and slope of each line or minus a plane.
 pub(super) struct Sheet {
@@ -106,8 +107,7 @@ impl Sheet {
 
     /// Half peak-to-peak.
     pub(super) fn amplitude(&self) -> f64 {
-        let ends = |(low, high): (f64, f64), u: &f64| (low.min(*u), high.max(*u));
-        let (low, high) = self.u.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+        let (low, high) = ends(self.u.iter().copied());
         0.5 * (high - low)
     }
 

@@ -2,8 +2,10 @@
 
 use super::doubt::Doubt;
 use crate::area::pitch_of;
+use crate::line::Line;
 use crate::path::{AreaLine, Path};
 use crate::plan::{Plan, WIDTHS};
+use crate::surface::carved_depth;
 
 /// Evaluated part of the length, without the pit at the beginning and without the end.
 pub(super) const ALONG: (f64, f64) = (0.2, 0.85);
@@ -57,6 +59,20 @@ impl Window {
         let rows = window.end - window.first;
         let is_enough = rows >= FEWEST_ROWS && window.pitch * rows as f64 >= SHORTEST * across;
         if is_enough { Ok(window) } else { Err(few) }
+    }
+
+    /// The distance of this number of evenly spaced x, and these.
+    pub(super) fn points(&self, count: usize) -> (f64, Vec<f64>) {
+        let spacing = (self.to - self.from) / count as f64;
+        (spacing, (0..count).map(|i| self.from + spacing * i as f64).collect())
+    }
+
+    /// Mean carved depth, and the fraction of the relief of the first half of the lines that remains after the second half
+    /// was scanned.
+    pub(super) fn depth_and_healing(&self, plan: &Plan, lines: &[Line]) -> (f64, f64) {
+        let carved = carved_depth(plan, &lines[self.first..self.end], self.pitch);
+        let left = plan.law.model.wider().left_after(plan.duration(self.first));
+        (carved, left.powf(0.5 * (self.end - self.first) as f64))
     }
 }
 

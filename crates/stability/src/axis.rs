@@ -4,7 +4,7 @@
 
 use super::crossings::zeros;
 use super::kept::Kept;
-use super::transform::CurvatureTransform;
+use super::one_sided::OneSided;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -29,8 +29,7 @@ pub(super) struct AxisPoint {
 /// c and s, sampled so densely that no crossing lies unseen between two samples.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
-    tip: TipFunction,
-    transform: CurvatureTransform,
+    footprint: OneSided,
     samples: Vec<AxisPoint>,
     /// c below this is round-off.
     least: f64,
@@ -44,11 +43,11 @@ impl Axis {
     }
 
     fn new(tip: &TipFunction) -> Self {
-        let transform = CurvatureTransform::new(tip);
+        let footprint = OneSided::new(tip);
         let reach = tip.reach().unwrap_or(1.0);
         let step = (2.0 * PI / (SAMPLES_PER_PERIOD * reach)).max(tip.band() / MOST_SAMPLES);
-        let roundoff = if transform.is_closed_form() { 0.0 } else { ROUNDOFF };
-        let mut axis = Self { tip: tip.clone(), transform, samples: vec![], least: 0.0 };
+        let roundoff = if footprint.is_closed_form() { 0.0 } else { ROUNDOFF };
+        let mut axis = Self { footprint, samples: vec![], least: 0.0 };
         axis.samples.push(axis.at(0.0));
         let (mut largest, mut faded, mut wave_number) = (0.0_f64, 0, 0.0);
         while wave_number < tip.band() && faded < FADED_SPAN && !stop::is_requested() {
@@ -64,12 +63,13 @@ impl Axis {
 
     /// c and s at Ω ≥ 0.
     pub(super) fn at(&self, wave_number: f64) -> AxisPoint {
+        let tip = self.footprint.tip();
         if wave_number <= 0.0 {
-            return AxisPoint { wave_number, cosine: 0.0, sine: self.tip.value(0.0) };
+            return AxisPoint { wave_number, cosine: 0.0, sine: tip.value(0.0) };
         }
-        let g = self.transform.at(Complex64::new(0.0, wave_number)).value;
-        let cosine = if self.transform.is_closed_form() && self.tip.is_even() {
-            0.5 * wave_number * wave_number * self.tip.fourier(wave_number)
+        let (g, _) = self.footprint.plain(Complex64::new(0.0, wave_number)).curvature;
+        let cosine = if self.footprint.is_closed_form() && tip.is_even() {
+            0.5 * wave_number * wave_number * tip.fourier(wave_number)
         } else {
             -g.re
         };

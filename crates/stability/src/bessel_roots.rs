@@ -6,8 +6,9 @@
 use super::StabilityError;
 use super::certificate::{Certificate, Region};
 use super::newton::{polish, simultaneous};
+use super::one_sided::bessel_root;
 use super::spectrum::{Spectrum, with_conjugates};
-use super::transform::{Scaled, bessel_root};
+use super::transform::Scaled;
 use super::winding::{argument_along, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;

@@ -11,8 +11,9 @@ use super::characteristic::Characteristic;
 use super::half_plane::HalfPlane;
 use super::law::Law;
 use super::newton::polish;
+use super::one_sided::OneSided;
 use super::spectrum::{Spectrum, with_conjugates};
-use super::transform::{CurvatureTransform, Scaled};
+use super::transform::Scaled;
 use num_complex::Complex64;
 use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, TipFunction};
@@ -58,20 +59,20 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
         HalfPlane::counted(&h, 0.0)?.spectrum(&h)?
     };
     let roots: Vec<Complex64> = roots.into_iter().filter(|p| p.re > 0.0).collect();
-    let transform = CurvatureTransform::new(model.tip());
-    let slopes = roots.iter().map(|p| -transform.at(*p).derivative).collect();
+    let footprint = OneSided::new(model.tip());
+    let slopes = roots.iter().map(|p| -footprint.plain(*p).curvature.1).collect();
     Ok(Creep { roots, slopes, certificate })
 }
 
 /// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp. Squared, this is
 /// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
 fn bessel(kappa: f64) -> Spectrum {
-    let transform = CurvatureTransform::new(&TipFunction::Bessel);
+    let footprint = OneSided::new(&TipFunction::Bessel);
     let h = |p: Complex64| {
-        let g = transform.at(p);
-        Scaled { value: g.value * kappa + 1.0, derivative: g.derivative * kappa, log_scale: 0.0 }
+        let (g, slope) = footprint.plain(p).curvature;
+        Scaled { value: g * kappa + 1.0, derivative: slope * kappa, log_scale: 0.0 }
     };
-    let size = |p: Complex64| 1.0 + kappa * transform.at(p).value.norm();
+    let size = |p: Complex64| 1.0 + kappa * footprint.plain(p).curvature.0.norm();
     let is_root = |p: &Complex64| h(*p).value.norm() < 1e-11 * size(*p);
     let real = |z: Complex64| if z.im.abs() < 1e-9 * z.norm() { z.re.into() } else { z };
     let candidates = cubic([(kappa * kappa + 1.0) / (-2.0 * kappa), 1.0, -0.5 / kappa]);

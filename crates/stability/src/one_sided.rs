@@ -2,7 +2,7 @@
 //! = pφ - f(0) and G = ∫_0^∞ f'' e^{-py}dy = pφ1. For deviations across the scan, the stored function is `f_yy(x,0)`, and
 //! its own transform replaces G.
 
-use super::transform::{CurvatureTransform, Scaled, bessel_root};
+use super::transform::{CurvatureTransform, Scaled};
 use num_complex::Complex64;
 use stickslip_tip::TipFunction;
 
@@ -42,7 +42,8 @@ pub(super) struct Steady {
 pub(super) struct OneSided {
     tip: TipFunction,
     apex: f64,
-    curvature: CurvatureTransform,
+    /// G of a sum of Gaussians; the transforms of J0 and cos x are elementary.
+    sum: Option<CurvatureTransform>,
     is_across: bool,
 }
 
@@ -56,8 +57,11 @@ pub(super) struct Values {
 
 impl OneSided {
     pub(super) fn new(tip: &TipFunction) -> Self {
-        let (apex, curvature) = (tip.value(0.0), CurvatureTransform::new(tip));
-        Self { tip: tip.clone(), apex, curvature, is_across: false }
+        let sum = match tip {
+            TipFunction::Gaussians(sum) => Some(CurvatureTransform::new(sum.terms(), tip.band())),
+            TipFunction::Bessel | TipFunction::Cosine => None,
+        };
+        Self { tip: tip.clone(), apex: tip.value(0.0), sum, is_across: false }
     }
 
     /// The transforms for deviations across the scan, given `f_yy(x,0)`.
@@ -79,15 +83,16 @@ impl OneSided {
         &self.tip
     }
 
+    /// Whether G has a closed form. For an even f its real part on the imaginary axis is then most accurate from f̂.
     pub(super) fn is_closed_form(&self) -> bool {
-        self.curvature.is_closed_form()
+        !matches!(self.sum, Some(CurvatureTransform::Quadrature(..)))
     }
 
     pub(super) fn at(&self, p: Complex64) -> Transforms {
-        let at = match self.tip {
-            TipFunction::Gaussians(_) => self.gaussians(p),
-            TipFunction::Bessel => bessel(p),
-            TipFunction::Cosine => cosine(p),
+        let at = match &self.sum {
+            Some(sum) => self.gaussians(sum, p),
+            None if self.tip == TipFunction::Bessel => bessel(p),
+            None => cosine(p),
         };
         if self.is_across { Transforms { curvature: at.height, ..at } } else { at }
     }
@@ -116,13 +121,13 @@ impl OneSided {
     }
 
     fn sizes_along(&self, p: Complex64, at: &Transforms) -> [f64; 3] {
-        if !matches!(self.tip, TipFunction::Gaussians(_)) {
+        let Some(sum) = &self.sum else {
             return [at.height, at.slope, at.curvature].map(|f| f.0.norm());
-        }
-        let curvature = self.curvature.size(p, at.log_scale);
+        };
+        let curvature = sum.size(p, at.log_scale);
         let distance = p.norm();
         let apex = self.apex.abs() * at.unit.0.norm();
-        if self.curvature.height_near_origin(p).is_some() {
+        if sum.height_near_origin(p).is_some() {
             return [at.height.0.norm(), distance * at.height.0.norm() + apex, curvature];
         }
         let slope = curvature / distance;
@@ -130,14 +135,14 @@ impl OneSided {
     }
 
     /// φ1 = G/p and φ = (φ1 + f(0))/p; near p = 0, where these terms cancel, φ1 and G follow from φ.
-    fn gaussians(&self, p: Complex64) -> Transforms {
-        if let Some(height) = self.curvature.height_near_origin(p) {
+    fn gaussians(&self, sum: &CurvatureTransform, p: Complex64) -> Transforms {
+        if let Some(height) = sum.height_near_origin(p) {
             let slope = (p * height.0 - self.apex, height.0 + p * height.1);
             let curvature = (p * slope.0, slope.0 + p * slope.1);
             let unit = (Complex64::ONE, Complex64::ZERO);
             return Transforms { unit, height, slope, curvature, log_scale: 0.0 };
         }
-        let Scaled { value, derivative, log_scale } = self.curvature.at(p);
+        let Scaled { value, derivative, log_scale } = sum.at(p);
         let unit = Complex64::new((-log_scale).exp(), 0.0);
         let slope = value / p;
         let slope = (slope, (derivative - slope) / p);
@@ -146,6 +151,11 @@ impl OneSided {
         let curvature = (value, derivative);
         Transforms { unit: (unit, Complex64::ZERO), height, slope, curvature, log_scale }
     }
+}
+
+/// √(p²+1), positive for positive p, with cuts from ±i straight to the left.
+pub(super) fn bessel_root(p: Complex64) -> Complex64 {
+    (p + Complex64::I).sqrt() * (p - Complex64::I).sqrt()
 }
 
 /// With S = √(p²+1): φ = 1/S, φ1 = p/S - 1, times S.

@@ -5,7 +5,7 @@
 //! D(λ) = h(λ/r) of (30), and subscripts are derivatives. `docs/explanation/linear-theory.md` derives N.
 
 use super::critical::Critical;
-use super::transform::CurvatureTransform;
+use super::one_sided::OneSided;
 use super::{StabilityError, critical};
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -90,14 +90,14 @@ impl Coefficients {
     /// Φ_n(Λ) = ∫_0^∞ F^{(n)}(rτ) e^{-Λrτ}dτ, F = -αf', from G by parts: Φ1 = -κG, Φ2 = -κ(ΛG - f''(0)),
     /// Φ3 = -κ(Λ(ΛG - f''(0)) - f'''(0)), with κ = α/r.
     fn new(tip: &TipFunction, critical: &Critical) -> Self {
-        let transform = CurvatureTransform::new(tip);
+        let footprint = OneSided::new(tip);
         let kappa = critical.alpha / critical.r;
         let curvature = tip.slope_and_curvature(0.0).1;
         let i_omega = Complex64::new(0.0, critical.omega / critical.r);
-        let first = transform.at(i_omega);
-        let double = transform.at(i_omega * 2.0);
+        let (first, first_slope) = footprint.plain(i_omega).curvature;
+        let (double, _) = footprint.plain(i_omega * 2.0).curvature;
         let second = |z: Complex64, g: Complex64| -(z * g - curvature) * kappa;
-        let (p2, p2_double) = (second(i_omega, first.value), second(i_omega * 2.0, double.value));
+        let (p2, p2_double) = (second(i_omega, first), second(i_omega * 2.0, double));
         let p2_zero = kappa * curvature;
         // 0 for an even f.
         let p3_zero = kappa * third_derivative_at_0(tip);
@@ -105,12 +105,12 @@ impl Coefficients {
 
         // Second harmonic: D(2iω) B = b A².
         let b = (p2_double - p2 * 2.0 + p2_zero) * 0.5;
-        let d_double = i_omega * (2.0 * critical.r) + 1.0 + double.value * kappa;
+        let d_double = i_omega * (2.0 * critical.r) + 1.0 + double * kappa;
         let quadratic = b / d_double * (p2 - p2.conj() - p2_double + p2_zero);
         let cubic = quadratic + (p3 * 3.0 + p3.conj() - p3_double - p3_zero * 3.0) * 0.5;
         Self {
-            slope_lambda: first.derivative * (kappa / critical.r) + 1.0,
-            slope_alpha: first.value / critical.r,
+            slope_lambda: first_slope * (kappa / critical.r) + 1.0,
+            slope_alpha: first / critical.r,
             cubic,
         }
     }

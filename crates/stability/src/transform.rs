@@ -7,7 +7,6 @@ use num_complex::Complex64;
 use panels::Panels;
 use std::f64::consts::{PI, SQRT_2};
 use stickslip_tip::Gaussian;
-use stickslip_tip::TipFunction;
 
 /// Largest number of Gaussians in a closed form; longer sums, such as those of tables, are integrated by quadrature.
 const MOST_CLOSED_FORMS: usize = 16;
@@ -28,64 +27,40 @@ pub(super) struct Scaled {
     pub(super) log_scale: f64,
 }
 
-/// G for one tip function.
-///
-/// Gaussian sums: closed form by the scaled complementary error function, or, for the many narrow
-/// Gaussians of a table, Gauss-Legendre quadrature. J0: closed form (44), √(Λ²+1) = √(Λ+i)√(Λ-i)
-/// with principal roots, that is, analytic for Re Λ > 0 and continued to the left with cuts that run
-/// from ±i straight to the left.
+/// G for a sum of Gaussians.
 #[derive(Debug, Clone)]
-pub(super) struct CurvatureTransform {
-    kind: Kind,
-}
-
-#[derive(Debug, Clone)]
-enum Kind {
+pub(super) enum CurvatureTransform {
+    /// By the scaled complementary error function.
     ClosedForms(Vec<Gaussian>, Origin),
+    /// By Gauss-Legendre quadrature, for the many narrow Gaussians of a table.
     Quadrature(Panels, Vec<Gaussian>),
-    Bessel,
-    Cosine,
 }
 
 impl CurvatureTransform {
-    pub(super) fn new(tip: &TipFunction) -> Self {
-        let kind = match tip {
-            TipFunction::Bessel => Kind::Bessel,
-            TipFunction::Cosine => Kind::Cosine,
-            TipFunction::Gaussians(sum) if sum.terms().len() <= MOST_CLOSED_FORMS => {
-                Kind::ClosedForms(sum.terms().to_vec(), Origin::of(sum.terms()))
-            }
-            TipFunction::Gaussians(sum) => {
-                Kind::Quadrature(Panels::new(sum.terms(), tip.band()), sum.terms().to_vec())
-            }
-        };
-        Self { kind }
-    }
-
-    /// Whether G has a closed form. For an even f its real part on the imaginary axis is then most accurate from f̂.
-    pub(super) fn is_closed_form(&self) -> bool {
-        !matches!(self.kind, Kind::Quadrature(..))
+    pub(super) fn new(terms: &[Gaussian], band: f64) -> Self {
+        if terms.len() <= MOST_CLOSED_FORMS {
+            return Self::ClosedForms(terms.to_vec(), Origin::of(terms));
+        }
+        Self::Quadrature(Panels::new(terms, band), terms.to_vec())
     }
 
     /// G(Λ) and G'(Λ).
     pub(super) fn at(&self, lambda: Complex64) -> Scaled {
-        match &self.kind {
-            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => origin.at(terms, lambda),
-            Kind::ClosedForms(terms, _) => closed_forms(terms, lambda),
-            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
-            Kind::Quadrature(_, terms) => closed_forms(terms, lambda),
-            Kind::Bessel => bessel(lambda),
-            Kind::Cosine => cosine(lambda),
+        match self {
+            Self::ClosedForms(terms, origin) if origin.is_near(lambda) => origin.at(terms, lambda),
+            Self::ClosedForms(terms, _) => closed_forms(terms, lambda),
+            Self::Quadrature(panels, _) if panels.serves(lambda) => panels.at(lambda),
+            Self::Quadrature(_, terms) => closed_forms(terms, lambda),
         }
     }
 
     /// φ(Λ) = ∫_0^∞ f e^{-Λy}dy and φ'(Λ), for Λ so small that G(Λ) = Λ(Λφ - f(0)) does not determine φ; else `None`.
     pub(super) fn height_near_origin(&self, lambda: Complex64) -> Option<(Complex64, Complex64)> {
-        match &self.kind {
-            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+        match self {
+            Self::ClosedForms(terms, origin) if origin.is_near(lambda) => {
                 Some(transform_of_heights(terms, lambda))
             }
-            Kind::Quadrature(panels, _) => panels.height_near_origin(lambda),
+            Self::Quadrature(panels, _) => panels.height_near_origin(lambda),
             _ => None,
         }
     }
@@ -95,15 +70,13 @@ impl CurvatureTransform {
     /// Side lobes of height β/2 at ±c cancel the peak along Re Λ = -ln(2/β)/c, where each of these terms is
     /// e^{Re(Λ²)w²/2} times as large as their sum.
     pub(super) fn size(&self, lambda: Complex64, log_scale: f64) -> f64 {
-        match &self.kind {
-            Kind::ClosedForms(terms, origin) if origin.is_near(lambda) => {
+        match self {
+            Self::ClosedForms(terms, origin) if origin.is_near(lambda) => {
                 origin.size(terms, lambda)
             }
-            Kind::ClosedForms(terms, _) => size_of_closed_forms(terms, lambda, log_scale),
-            Kind::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
-            Kind::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
-            Kind::Bessel => bessel(lambda).value.norm(),
-            Kind::Cosine => cosine(lambda).value.norm(),
+            Self::ClosedForms(terms, _) => size_of_closed_forms(terms, lambda, log_scale),
+            Self::Quadrature(panels, _) if panels.serves(lambda) => panels.size(lambda, log_scale),
+            Self::Quadrature(_, terms) => size_of_closed_forms(terms, lambda, log_scale),
         }
     }
 }
@@ -144,7 +117,7 @@ fn closed_forms(terms: &[Gaussian], lambda: Complex64) -> Scaled {
 /// G = Λ(Λf̃ - f(0)) for Λ small against 1/width, where these terms do not cancel. The terms of [`closed_forms`] do:
 /// they are of the size of f'(0) of each Gaussian, while G falls like Λ.
 #[derive(Debug, Clone, Copy)]
-struct Origin {
+pub(super) struct Origin {
     radius: f64,
     height: f64,
     /// Sum of the sizes of the terms of `height`.
@@ -260,32 +233,11 @@ fn algebraic_part(g: &Gaussian, lambda: Complex64) -> (Complex64, Complex64) {
     (value * at_origin, derivative * at_origin)
 }
 
-/// G = Λ²/√(Λ²+1) - Λ = -Λ/(s(s + Λ)) with s = √(Λ²+1), (44).
-fn bessel(lambda: Complex64) -> Scaled {
-    let s = bessel_root(lambda);
-    // s - Λ = 1/(s + Λ) avoids the cancellation where they are close, which is where s ≈ Λ.
-    let difference = if (s + lambda).norm_sqr() > 1.0 { (s + lambda).inv() } else { s - lambda };
-    let value = -lambda * difference / s;
-    let derivative = lambda * (lambda * lambda + 2.0) / (s * s * s) - 1.0;
-    Scaled { value, derivative, log_scale: 0.0 }
-}
-
-/// G = -Λ/(Λ²+1) for f = cos.
-fn cosine(lambda: Complex64) -> Scaled {
-    let square = lambda * lambda;
-    let value = -lambda / (square + 1.0);
-    let derivative = (square - 1.0) / ((square + 1.0) * (square + 1.0));
-    Scaled { value, derivative, log_scale: 0.0 }
-}
-
-/// √(Λ²+1), positive for positive Λ, with cuts from ±i straight to the left.
-pub(super) fn bessel_root(lambda: Complex64) -> Complex64 {
-    (lambda + Complex64::I).sqrt() * (lambda - Complex64::I).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::one_sided::OneSided;
     use super::*;
+    use stickslip_tip::TipFunction;
 
     #[test]
     fn the_derivative_agrees_with_differences() {
@@ -297,16 +249,13 @@ mod tests {
         ];
         let points = [(0.0, 0.75), (0.3, 0.2), (-2.0, 1.0), (-3.5, 0.3), (4.0, 7.0), (0.0, 3.0)];
         for tip in &tips {
-            let transform = CurvatureTransform::new(tip);
+            let transform = OneSided::new(tip);
             for lambda in points.map(|(re, im)| Complex64::new(re, im)) {
-                let at = |h: f64| transform.at(lambda + h).value;
+                let at = |h: f64| transform.plain(lambda + h).curvature.0;
                 let h = 5e-4;
                 let difference = ((at(h) - at(-h)) * 8.0 - at(2.0 * h) + at(-2.0 * h)) / (12.0 * h);
-                let g = transform.at(lambda);
-                assert!(
-                    (difference - g.derivative).norm() < 1e-9 * g.derivative.norm(),
-                    "{tip:?} {lambda}"
-                );
+                let (_, slope) = transform.plain(lambda).curvature;
+                assert!((difference - slope).norm() < 1e-9 * slope.norm(), "{tip:?} {lambda}");
             }
         }
     }

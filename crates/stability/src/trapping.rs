@@ -4,7 +4,7 @@
 //! Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds = -G(p). `docs/explanation/trapping.md` derives it.
 
 use super::StabilityError;
-use super::transform::CurvatureTransform;
+use super::one_sided::OneSided;
 use num_complex::Complex64;
 use stickslip_tip::TipFunction;
 use stickslip_tip::roots::bisected;
@@ -24,7 +24,7 @@ pub fn trapping_alpha(tip: &TipFunction, r: f64) -> Result<f64, StabilityError> 
 }
 
 struct Push {
-    transform: CurvatureTransform,
+    footprint: OneSided,
     slowest: f64,
     fastest: f64,
 }
@@ -32,14 +32,13 @@ struct Push {
 impl Push {
     fn new(tip: &TipFunction) -> Self {
         let reach = tip.reach().unwrap_or(10.0);
-        let transform = CurvatureTransform::new(tip);
-        Self { transform, slowest: 1e-2 / reach, fastest: 10.0 * tip.band() }
+        Self { footprint: OneSided::new(tip), slowest: 1e-2 / reach, fastest: 10.0 * tip.band() }
     }
 
     /// Q and Q'.
     fn q(&self, p: f64) -> (f64, f64) {
-        let g = self.transform.at(Complex64::new(p, 0.0));
-        (-g.value.re, -g.derivative.re)
+        let (g, slope) = self.footprint.plain(Complex64::new(p, 0.0)).curvature;
+        (-g.re, -slope.re)
     }
 
     /// p and Q at the highest maximum of Q, if that is positive.

@@ -133,7 +133,7 @@ fn sums(
 /// Gauss-Legendre quadrature of f'' e^{-Λy} on equal panels over the reach of the tip; near Λ = 0 of
 /// Λ f' e^{-Λy}, which is the same by parts and does not cancel there.
 #[derive(Debug, Clone)]
-pub(super) struct Panels {
+pub(crate) struct Panels {
     count: usize,
     width: f64,
     /// Nodes within a panel, from its start.

@@ -4,10 +4,9 @@
 //! (Λ = 0 is no root), μ = 1/Λ solves μ⁴ + 2aμ³ + (1+a²)μ² + 2aμ + a² - κ² = 0, a = r - κ.
 
 use super::StabilityError;
-use super::certificate::{Certificate, Region};
+use super::certificate::{Certificate, Region, Spectrum, with_conjugates};
 use super::newton::{polish, simultaneous};
 use super::one_sided::bessel_root;
-use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::Scaled;
 use super::winding::{argument_along, whole};
 use num_complex::Complex64;

@@ -1,8 +1,9 @@
-//! A certificate that a list of roots is complete.
+//! Growth exponents, with a certificate that their list is complete.
 
 use super::cell::Cell;
 use super::characteristic::Characteristic;
 use num_complex::Complex64;
+use stickslip_tip::sorting::sort_by_number;
 
 /// A listed value whose residual, relative to the terms of h, is above this is not a root.
 const LARGEST_RESIDUAL: f64 = 1e-9;
@@ -69,6 +70,25 @@ impl Certificate {
     }
 }
 
+/// Roots of (29) with their certificate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectrum {
+    /// λ by falling real part, including both members of each conjugate pair (the one above the real axis first).
+    pub roots: Vec<Complex64>,
+    /// Certificate that no root is missing.
+    pub certificate: Certificate,
+}
+
+impl Spectrum {
+    /// An empty list, without a search.
+    pub fn none() -> Self {
+        let region = Region { re_min: 0.0, re_max: 0.0, im_max: 0.0 };
+        let certificate =
+            Certificate { region, counted: 0, found: 0, largest_residual: 0.0, largest_error: 0.0 };
+        Self { roots: vec![], certificate }
+    }
+}
+
 impl Region {
     pub(super) fn contains(&self, z: Complex64) -> bool {
         (self.re_min..=self.re_max).contains(&z.re) && z.im.abs() <= self.im_max
@@ -93,4 +113,16 @@ fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
         };
     }
     found
+}
+
+/// λ = rΛ of all roots, by falling real part, each followed by its conjugate.
+pub(super) fn with_conjugates(upper: &[Complex64], r: f64) -> Vec<Complex64> {
+    let mut upper = upper.to_vec();
+    sort_by_number(&mut upper, |z| z.im);
+    sort_by_number(&mut upper, |z| -z.re);
+    let both = |z: &Complex64| {
+        let lambda = z * r;
+        if z.im > 0.0 { vec![lambda, lambda.conj()] } else { vec![lambda] }
+    };
+    upper.iter().flat_map(both).collect()
 }

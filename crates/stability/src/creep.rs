@@ -1,18 +1,17 @@
-//! All rates p at which a trapped tip may creep, x0 ~ (1/p) ln t: the roots of 1 + (α/r) G(p) = 0 with a positive real
-//! part.
+//! Trapping: all rates p at which a tip that its own groove holds may creep, x0 ~ (1/p) ln t, and the threshold of it. The
+//! rates are the roots of 1 + (α/r) G(p) = 0 with a positive real part, α/r = 1/Q(p) with Q = -G.
 //!
 //! If the tip hardly moves, the time θ(x) at which it reaches x obeys a linear equation with the solutions Σ C e^{px}
 //! over these roots (`docs/explanation/trapping.md`). The root of largest real part dominates. If it is real, the
 //! tip is held permanently; if it is one of a complex pair, θ reaches a maximum, so that every stick ends in a slip.
 
 use super::StabilityError;
-use super::certificate::{Certificate, Region};
+use super::certificate::{Certificate, Region, Spectrum, with_conjugates};
 use super::characteristic::Characteristic;
 use super::half_plane::HalfPlane;
 use super::law::Law;
-use super::newton::polish;
+use super::newton::{polish, simultaneous};
 use super::one_sided::OneSided;
-use super::spectrum::{Spectrum, with_conjugates};
 use super::transform::Scaled;
 use num_complex::Complex64;
 use stickslip_tip::roots::bisected;
@@ -75,9 +74,9 @@ fn bessel(kappa: f64) -> Spectrum {
     let size = |p: Complex64| 1.0 + kappa * footprint.plain(p).curvature.0.norm();
     let is_root = |p: &Complex64| h(*p).value.norm() < 1e-11 * size(*p);
     let real = |z: Complex64| if z.im.abs() < 1e-9 * z.norm() { z.re.into() } else { z };
-    let candidates = cubic([(kappa * kappa + 1.0) / (-2.0 * kappa), 1.0, -0.5 / kappa]);
+    let candidates = simultaneous([(kappa * kappa + 1.0) / (-2.0 * kappa), 1.0, -0.5 / kappa]);
     let mut upper: Vec<Complex64> = vec![];
-    for p in candidates.into_iter().filter(|p| p.im >= 0.0 && p.re > 0.0) {
+    for p in candidates.map(real).into_iter().filter(|p| p.im >= 0.0 && p.re > 0.0) {
         let p = real(polish(h, p));
         if is_root(&p) && upper.iter().all(|known| (known - p).norm() > 1e-9 * p.norm()) {
             upper.push(p);
@@ -96,13 +95,48 @@ fn bessel(kappa: f64) -> Spectrum {
     Spectrum { roots, certificate }
 }
 
-/// The zeros of z³ + a z² + b z + c: a real one by bisection, the other two from the quadratic factor.
-fn cubic([a, b, c]: [f64; 3]) -> [Complex64; 3] {
-    let value = |z: f64| ((z + a) * z + b) * z + c;
-    let bound = 1.0 + a.abs().max(b.abs()).max(c.abs());
-    let (low, high) = bisected((-bound, bound), |z| value(z) < 0.0, |_| false);
-    let z = 0.5 * (low + high);
-    let (p, q) = (a + z, b + z * (a + z));
-    let root = Complex64::new(0.25 * p * p - q, 0.0).sqrt();
-    [z.into(), root - 0.5 * p, -root - 0.5 * p]
+/// Number of samples of ln p in the search for the largest Q.
+const SAMPLES: u32 = 400;
+
+/// Trapping threshold r/max_p Q(p), Q(p) = p ∫_0^∞ e^{-ps}(-f'(s))ds: the smallest α with a creep x0 ~ (1/p) ln t. For a
+/// footprint with several peaks this creep need not be attracting: see [`Creep::attracting`].
+///
+/// # Errors
+/// `r` is not a positive finite number, or Q is nowhere positive.
+pub fn trapping_alpha(tip: &TipFunction, r: f64) -> Result<f64, StabilityError> {
+    StabilityError::unless_positive(r)?;
+    let (_, largest) = Push::new(tip).largest().ok_or(StabilityError::NoTrapping)?;
+    Ok(r / largest)
+}
+
+struct Push {
+    footprint: OneSided,
+    slowest: f64,
+    fastest: f64,
+}
+
+impl Push {
+    fn new(tip: &TipFunction) -> Self {
+        let reach = tip.reach().unwrap_or(10.0);
+        Self { footprint: OneSided::new(tip), slowest: 1e-2 / reach, fastest: 10.0 * tip.band() }
+    }
+
+    /// Q and Q'.
+    fn q(&self, p: f64) -> (f64, f64) {
+        let (g, slope) = self.footprint.plain(Complex64::new(p, 0.0)).curvature;
+        (-g.re, -slope.re)
+    }
+
+    /// p and Q at the highest maximum of Q, if that is positive.
+    fn largest(&self) -> Option<(f64, f64)> {
+        let ratio = (self.fastest / self.slowest).powf(1.0 / f64::from(SAMPLES));
+        let sample = |i: u32| self.slowest * ratio.powi(i.cast_signed());
+        let samples = (0..=SAMPLES).map(sample).map(|p| (p, self.q(p).0));
+        let (highest, _) = samples.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let rises = |p: f64| self.q(p).1 > 0.0;
+        let is_narrow = |(low, high): (f64, f64)| high - low <= 4.0 * f64::EPSILON * high;
+        let (p, _) = bisected((highest / ratio, highest * ratio), rises, is_narrow);
+        let q = self.q(p).0;
+        (q > 0.0).then_some((p, q))
+    }
 }

@@ -2,10 +2,9 @@
 
 use super::StabilityError;
 use super::cell::Cell;
-use super::certificate::{Certificate, ROUNDOFF, Region};
+use super::certificate::{Certificate, ROUNDOFF, Region, Spectrum, with_conjugates};
 use super::characteristic::Characteristic;
 use super::newton::{MOST_ITERATIONS, another, pair, polish};
-use super::spectrum::{Spectrum, with_conjugates};
 use super::winding::{argument_along, resolved, whole};
 use num_complex::Complex64;
 use std::f64::consts::PI;

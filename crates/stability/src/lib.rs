@@ -45,9 +45,7 @@ mod response;
 mod roots;
 mod scaled_erfc;
 mod snaking;
-mod spectrum;
 mod transform;
-mod trapping;
 mod walking;
 mod winding;
 
@@ -56,8 +54,8 @@ mod winding;
 mod tables;
 
 pub use boundary::{Boundary, BoundaryBranch, critical};
-pub use certificate::{Certificate, Region};
-pub use creep::{Creep, creep};
+pub use certificate::{Certificate, Region, Spectrum};
+pub use creep::{Creep, creep, trapping_alpha};
 pub use critical::{Critical, OnsetKind, critical_r};
 pub use error::StabilityError;
 pub use inversion::Inversion;
@@ -68,6 +66,4 @@ pub use raster::{Raster, RasterCertificate, RasterCritical, RasterKind, RasterPa
 pub use response::{Response, ResponseMode, response};
 pub use roots::{certify, leading_roots, roots, unstable_count};
 pub use snaking::{Snaking, SnakingCertificate, SnakingCritical};
-pub use spectrum::Spectrum;
-pub use trapping::trapping_alpha;
 pub use walking::{Walk, walk, walking_alpha, walking_speeds};

@@ -49,7 +49,6 @@ mod bands;
 mod count;
 mod critical;
 mod determinant;
-mod entry;
 mod growth;
 mod heights;
 mod lines;

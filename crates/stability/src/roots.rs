@@ -1,9 +1,8 @@
 //! All roots λ right of a line, with a certificate that none is missing: of (30), or for J0 of (44).
 
-use super::certificate::Certificate;
+use super::certificate::{Certificate, Spectrum};
 use super::characteristic::Characteristic;
 use super::half_plane::{HalfPlane, leading};
-use super::spectrum::Spectrum;
 use super::{StabilityError, bessel_roots};
 use num_complex::Complex64;
 use stickslip_tip::{Model, TipFunction};

@@ -21,12 +21,12 @@
 //! increases from x = 0 on never snakes, because ∫ f_yy sin Ωx dx < 0 for all Ω; the Gaussian is an example.
 
 use super::StabilityError;
+use super::certificate::Spectrum;
 use super::characteristic::Characteristic;
 use super::half_plane::{HalfPlane, leading};
 use super::law::Law;
 use super::one_sided::OneSided;
 use super::raster::{judge_stiffness, single_across};
-use super::spectrum::Spectrum;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use stickslip_tip::{Footprint, Model, ModelError, TipFunction, Wider};

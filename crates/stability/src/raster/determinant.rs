@@ -27,10 +27,9 @@
 //! If the tip is flexible across the lines, Q = det(T - N) has the rows of `plane.rs`, on a zigzag twice. A and F_l are then
 //! matrices: Σ F_l E_l adds to κ as above, and Σ F_l O_l couples trace and retrace.
 
-use super::entry::Entry;
 use super::lines::Sequence;
 use super::on_cell::Determinant;
-use super::patch::Patch;
+use super::patch::{Entry, Patch};
 use super::plane::{Across, Along, Sideways};
 use super::polynomial::{Polynomial, minor, null_vector};
 use super::waves::Waves;

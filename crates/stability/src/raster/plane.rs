@@ -18,8 +18,7 @@
 //!     (T - N22 + pN12) R = (N23 - pN13) C,     (T - N33) C = N32 R
 //! ```
 
-use super::entry::Entry;
-use super::patch::Patch;
+use super::patch::{Entry, Patch};
 use super::waves::Waves;
 use num_complex::Complex64;
 

@@ -1,10 +1,9 @@
 //! Special points between two cycles of a branch.
 
-use super::Continuation;
 use super::begin::{halved, small};
 use super::place::Place;
 use super::signs::{Counts, circle, difference_of_halves, doubling, fold, second_one};
-use super::special::{Special, SpecialKind};
+use super::{Continuation, Special, SpecialKind};
 use crate::Cycle;
 
 /// Whether and how the branch ends between two cycles.

@@ -13,10 +13,10 @@ pub(super) struct Carrying {
     /// The inverse of `by_force`.
     pub(super) to_force: Square,
     pub(super) by_force_rate: Square,
-    /// With inertia: displacement without a force.
-    pub(super) glide: Option<Vector>,
-    pub(super) glide_rate: Option<Vector>,
-    /// Displacement at the velocity 1.
+    /// Displacement without a force; 0 without inertia.
+    pub(super) glide: Vector,
+    pub(super) glide_rate: Vector,
+    /// With inertia: displacement at the velocity 1.
     pub(super) by_velocity: Option<Vector>,
 }
 
@@ -31,9 +31,9 @@ impl Carrying {
     pub(super) fn new(wider: &Wider, h: f64, velocity: f64) -> Option<Self> {
         let (a, inverse) = *BUTCHER;
         let Some(mass) = wider.inertia else {
-            let (by_force, to_force) = (a * h, inverse / h);
-            let (glide, glide_rate, by_velocity) = (None, None, None);
-            let by_force_rate = a;
+            let (by_force, to_force, by_force_rate) = (a * h, inverse / h, a);
+            let still = Vector::zeros();
+            let (glide, glide_rate, by_velocity) = (still, still, None);
             return Some(Self {
                 by_force,
                 to_force,
@@ -55,8 +55,8 @@ impl Carrying {
             by_force,
             to_force: inverted(by_force)?,
             by_force_rate: a - rate,
-            glide: Some(glide * velocity),
-            glide_rate: Some(glide_rate * velocity),
+            glide: glide * velocity,
+            glide_rate: glide_rate * velocity,
             by_velocity: Some(glide),
         })
     }

@@ -170,12 +170,8 @@ impl<'a> LinearStep<'a> {
             Parameter::Alpha => self.groove,
             Parameter::R => Vector::from(RADAU.c) * self.h,
         };
-        let mut missed = by_force * self.velocity - Vector::from(*self.d);
-        let mut lengthened = by_force_rate * self.velocity;
-        if let (Some(glide), Some(rate)) = (glide, glide_rate) {
-            missed += glide;
-            lengthened += rate;
-        }
+        let mut missed = by_force * self.velocity - Vector::from(*self.d) + glide;
+        let lengthened = by_force_rate * self.velocity + glide_rate;
         if let Some(heights) = &self.heights {
             by_length += heights.force_by_length();
             missed -= by_force * heights.force_missed();

@@ -8,9 +8,9 @@
 //! the kinetic force. Errors of means come from batches of the force, whose number follows from its correlation length.
 //! The error of the peak comes from the noise of the rows near it.
 
-use crate::interval::{Estimate, student};
+use crate::interval::{Estimate, median, student};
 use crate::profile::MEDIAN_OF_NORMAL;
-use stickslip_tip::sorting::{sort_by_number, sort_numbers};
+use stickslip_tip::sorting::sort_by_number;
 use thiserror::Error;
 
 /// Forces on the way there and on the way back, at the same ascending positions, in any units.
@@ -153,11 +153,8 @@ impl FrictionLoop {
         let quantile = student((2 * BESIDE) as f64);
         let width = quantile * 0.5 * f64::hypot(peaks[0].error, peaks[1].error);
         let [first, second] = [there.rise(&peaks[0], noise), back.rise(&peaks[1], noise)];
-        let stiffness = Estimate {
-            value: 0.5 * (first.0 + second.0),
-            low: 0.5 * (first.0 + second.0) - quantile * 0.5 * f64::hypot(first.1, second.1),
-            high: 0.5 * (first.0 + second.0) + quantile * 0.5 * f64::hypot(first.1, second.1),
-        };
+        let error = quantile * 0.5 * f64::hypot(first.1, second.1);
+        let stiffness = Estimate::about(0.5 * (first.0 + second.0), error);
         let reversal = 0.5 * (peaks[0].way + peaks[1].way);
         let work = self.work(noise, &friction, both.len());
         let twice = 2.0 * (self.x[rows - 1] - self.x[0]);
@@ -167,7 +164,7 @@ impl FrictionLoop {
             friction,
             mean,
             offset,
-            static_peak: Estimate { value: peak, low: peak - width, high: peak + width },
+            static_peak: Estimate::about(peak, width),
             peak_ratio: peak / friction.value,
             work,
             reversal,
@@ -189,7 +186,7 @@ impl FrictionLoop {
             (friction.high - friction.low) * length * part,
             student(f64::INFINITY) * noise * spacing * (2.0 * rest).sqrt(),
         );
-        Estimate { value, low: value - error, high: value + error }
+        Estimate::about(value, error)
     }
 }
 
@@ -309,7 +306,7 @@ fn mean(values: &[f64]) -> Estimate {
     let square: f64 = means.iter().map(|m| (m - middle).powi(2)).sum();
     let freedom = means.len() as f64 - 1.0;
     let error = student(freedom) * (square / freedom / means.len() as f64).sqrt();
-    Estimate { value, low: value - error, high: value + error }
+    Estimate::about(value, error)
 }
 
 /// Number of batches, within limits: each is twice as long as the distance at which the correlation has changed sign
@@ -332,8 +329,6 @@ fn batches(values: &[f64], mean: f64) -> usize {
 
 /// Standard deviation of the noise from row to row, from the median of the absolute second differences.
 fn noise(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> =
-        values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0)).collect();
-    sort_numbers(&mut sizes);
-    sizes[sizes.len() / 2] / MEDIAN_OF_NORMAL
+    let sizes = values.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).abs() / f64::sqrt(6.0));
+    median(sizes).unwrap_or(0.0) / MEDIAN_OF_NORMAL
 }

@@ -7,13 +7,13 @@
 //! a, c and w are those of the profile along x through the middle, from [`tip`](crate::tip); v and y0 are fitted to
 //! all pixels, with background and height projected out.
 
+use crate::interval::median;
 use crate::least_squares::{Minimum, Residuals, forward, minimum};
 use crate::profile::{Profile, ProfileError};
 use crate::projection::project;
-use crate::tip::MeasuredTip;
+use crate::tip::{MeasuredTip, bell};
 use std::ops::Range;
 use stickslip_tip::Gaussian;
-use stickslip_tip::sorting::sort_numbers;
 use thiserror::Error;
 
 /// Heights over an even grid, a row for each y, in any units.
@@ -215,9 +215,7 @@ impl Image {
     /// The median over the rows of [`Profile::noise`].
     fn noise(&self) -> f64 {
         let of = |row: &Vec<f64>| Profile::new(self.x.clone(), row.clone()).ok().map(|p| p.noise());
-        let mut noises: Vec<f64> = self.rows.iter().filter_map(of).collect();
-        sort_numbers(&mut noises);
-        noises.get(noises.len() / 2).copied().unwrap_or(0.0)
+        median(self.rows.iter().filter_map(of)).unwrap_or(0.0)
     }
 }
 
@@ -238,10 +236,7 @@ impl Problem {
     fn of(pixels: Vec<[f64; 3]>, tip: &MeasuredTip, middle: f64) -> Self {
         let sigma = tip.sigma.value;
         let along = tip.gaussians.iter().map(|g| {
-            let at = |p: &[f64; 3]| {
-                let away = ((p[0] - tip.centre) / sigma - g.center) / g.width;
-                g.amplitude * (-0.5 * away * away).exp()
-            };
+            let at = |p: &[f64; 3]| bell(g, (p[0] - tip.centre) / sigma);
             pixels.iter().map(at).collect()
         });
         let along = along.collect();

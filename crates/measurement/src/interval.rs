@@ -15,6 +15,11 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// The interval of this half length about a value.
+    pub(crate) fn about(value: f64, error: f64) -> Self {
+        Self { value, low: value - error, high: value + error }
+    }
+
     /// Half the length of the interval, relative to the value.
     pub fn relative(&self) -> f64 {
         0.5 * (self.high - self.low) / self.value.abs()
@@ -52,7 +57,7 @@ impl Estimate {
     }
 
     /// The interval between percentiles of resampled values; the widest one over several ways of resampling.
-    pub fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
+    pub(crate) fn of_resamples(value: f64, ways: &[Vec<f64>]) -> Self {
         let mut found: Option<Self> = None;
         for resamples in ways {
             let mut sorted: Vec<f64> =
@@ -76,6 +81,13 @@ const HALF: f64 = 0.475;
 /// 97.5 % quantile of Student's distribution with this number of degrees of freedom.
 pub(crate) fn student(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.min(1e4)).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+}
+
+/// The median, or the larger one of the two values in the middle; `None` if there are no values.
+pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.into_iter().collect();
+    sort_numbers(&mut sorted);
+    sorted.get(sorted.len() / 2).copied()
 }
 
 /// Quantile of sorted values, interpolated.

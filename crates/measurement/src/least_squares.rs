@@ -115,6 +115,12 @@ pub(crate) fn differences(
     (0..at.len()).map(column).collect()
 }
 
+/// The matrix of these columns.
+pub(crate) fn matrix_of(columns: Vec<Vec<f64>>) -> DMatrix<f64> {
+    let columns: Vec<DVector<f64>> = columns.into_iter().map(DVector::from_vec).collect();
+    DMatrix::from_columns(&columns)
+}
+
 struct Problem<'a> {
     model: &'a dyn Residuals,
     at: DVector<f64>,
@@ -157,8 +163,6 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         if stop::is_requested() {
             return None;
         }
-        let columns = self.model.derivatives(self.here.as_ref()?, self.at.as_slice())?;
-        let columns: Vec<DVector<f64>> = columns.into_iter().map(DVector::from_vec).collect();
-        Some(DMatrix::from_columns(&columns))
+        self.model.derivatives(self.here.as_ref()?, self.at.as_slice()).map(matrix_of)
     }
 }

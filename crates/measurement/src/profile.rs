@@ -1,6 +1,7 @@
 //! A measured profile: positions and heights.
 
-use stickslip_tip::sorting::{sort_by_number, sort_numbers};
+use crate::interval::median;
+use stickslip_tip::sorting::sort_by_number;
 use thiserror::Error;
 
 /// Smallest number of rows that determines a shape, an offset, a slope and a noise.
@@ -111,20 +112,14 @@ impl Profile {
     /// (1986): the distance of each row from the line between its neighbours. The median of their absolute values
     /// reduces the influence of a few steep places.
     pub(crate) fn noise(&self) -> f64 {
-        let mut sizes: Vec<f64> = (1..self.x.len() - 1)
-            .filter_map(|i| {
-                let (before, after) = (self.x[i] - self.x[i - 1], self.x[i + 1] - self.x[i]);
-                let part = after / (before + after);
-                let off = part * self.f[i - 1] + (1.0 - part) * self.f[i + 1] - self.f[i];
-                let size = off.abs() / (1.0 + part * part + (1.0 - part).powi(2)).sqrt();
-                size.is_finite().then_some(size)
-            })
-            .collect();
-        if sizes.is_empty() {
-            return 0.0;
-        }
-        sort_numbers(&mut sizes);
-        sizes[sizes.len() / 2] / MEDIAN_OF_NORMAL
+        let sizes = (1..self.x.len() - 1).filter_map(|i| {
+            let (before, after) = (self.x[i] - self.x[i - 1], self.x[i + 1] - self.x[i]);
+            let part = after / (before + after);
+            let off = part * self.f[i - 1] + (1.0 - part) * self.f[i + 1] - self.f[i];
+            let size = off.abs() / (1.0 + part * part + (1.0 - part).powi(2)).sqrt();
+            size.is_finite().then_some(size)
+        });
+        median(sizes).map_or(0.0, |size| size / MEDIAN_OF_NORMAL)
     }
 }
 

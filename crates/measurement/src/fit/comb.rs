@@ -3,11 +3,12 @@
 
 use super::data::{Data, Track};
 use super::noise::{Noise, one_line};
-use super::problem::ends;
+use super::start::least_between;
 use super::subspace::{beyond, by_noise, dot, size};
 use crate::projection::project;
 use std::f64::consts::TAU;
 use std::ops::Range;
+use stickslip_tip::sorting::ends;
 
 /// Rows of a track; a loop has two lines of them.
 #[derive(Debug, Clone)]
@@ -37,13 +38,13 @@ impl Rows {
     }
 
     fn extent(&self) -> f64 {
-        let (first, last) = ends(&self.x);
+        let (first, last) = ends(self.x.iter().copied());
         last - first
     }
 
     /// The function of the position that is -1 at the first and 1 at the last row.
     fn part(&self) -> impl Fn(f64) -> f64 {
-        let (first, last) = ends(&self.x);
+        let (first, last) = ends(self.x.iter().copied());
         move |x| (2.0 * x - first - last) / (last - first)
     }
 
@@ -64,7 +65,7 @@ impl Rows {
 
     /// cos and sin of a number of turns per length, times a power of the position.
     fn wave(&self, turns: f64, power: i32) -> Vec<Vec<f64>> {
-        let (first, last) = ends(&self.x);
+        let (first, last) = ends(self.x.iter().copied());
         let middle = 0.5 * (first + last);
         let angle = |x: f64| TAU * turns * (x - middle);
         let part = self.part();
@@ -114,12 +115,8 @@ impl Comb {
                 .map_or(f64::INFINITY, |(_, left)| dot(&left, &left))
         };
         let extent = rows.extent();
-        let (mut low, mut high) = ((count - OFF) / extent, (count + OFF) / extent);
-        for _ in 0..24 {
-            let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
-            if left(a) < left(b) { high = b } else { low = a }
-        }
-        Self::at(rows, 0.5 * (low + high), harmonics)
+        let ends = ((count - OFF) / extent, (count + OFF) / extent);
+        Self::at(rows, least_between(left, ends, 24), harmonics)
     }
 
     /// The fit at this wavelength if it is close to the current one, otherwise the current fit.

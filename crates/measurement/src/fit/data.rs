@@ -1,6 +1,6 @@
 //! Measured data.
 
-use stickslip_tip::sorting::ascending;
+use stickslip_tip::sorting::{ascending, ends};
 use thiserror::Error;
 
 /// Values along a line.
@@ -25,10 +25,7 @@ impl Track {
 
     /// Distance of the rows before averaging.
     pub(super) fn spacing(&self) -> f64 {
-        let (first, last) = self
-            .x
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+        let (first, last) = ends(self.x.iter().copied());
         (last - first) / (self.x.len().max(2) - 1) as f64 / self.averaged as f64
     }
 }
@@ -230,6 +227,13 @@ impl Data {
         }
         Ok(())
     }
+}
+
+/// Columns of offset and slope at these positions.
+pub(super) fn ground(x: &[f64]) -> Vec<Vec<f64>> {
+    let (first, last) = ends(x.iter().copied());
+    let slope = x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
+    vec![vec![1.0; x.len()], slope]
 }
 
 /// A track, and the retrace of a loop, by ascending position and averaged in groups.

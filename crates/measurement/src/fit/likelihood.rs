@@ -5,9 +5,9 @@ use super::parameters::Name;
 use super::problem::Problem;
 use super::verdict::Verdict;
 use crate::Estimate;
-use crate::least_squares::{Minimum, minimum, squares};
+use crate::least_squares::{Minimum, matrix_of, minimum, squares};
 use crate::likelihood::crossing;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use stickslip_tip::sorting::sort_by_number;
 
@@ -63,8 +63,7 @@ impl<'a> Around<'a> {
     /// The neighbourhood of a minimum; `None` if a derivative is not finite.
     pub(super) fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
         let slopes = problem.slopes(&best.residuals, &best.parameters)?;
-        let columns: Vec<DVector<f64>> = slopes.iter().cloned().map(DVector::from_vec).collect();
-        let jacobian = DMatrix::from_columns(&columns);
+        let jacobian = matrix_of(slopes.clone());
         let mut normal = jacobian.tr_mul(&jacobian);
         // What no datum feels has no variance to speak of, and a huge one in numbers.
         let largest = normal.diagonal().max();

@@ -6,7 +6,6 @@
 
 mod comb;
 mod data;
-mod found;
 mod law;
 mod likelihood;
 mod noise;
@@ -21,19 +20,19 @@ mod verdict;
 mod wave;
 
 pub use data::{Data, DataError, Scan, Track};
-pub use found::{Fit, Part};
 pub use likelihood::Fitted as FittedNumber;
 pub use parameters::{Name, Shape, Values};
 pub use rivals::Alternative;
 pub use verdict::Judged;
 
+use crate::interval::median;
 use crate::least_squares::{Minimum, minimum};
 use crate::profile::MEDIAN_OF_NORMAL;
 use comb::{Rows, by_chance};
 use likelihood::{Around, plain};
 use problem::Problem;
 use start::Start;
-use stickslip_tip::sorting::{sort_by_number, sort_numbers};
+use stickslip_tip::sorting::{ends, sort_by_number};
 use stickslip_tip::{TipFunction, stop};
 use thiserror::Error;
 use verdict::Evidence;
@@ -54,6 +53,52 @@ pub struct FitRequest {
     pub scan: Option<Scan>,
     /// Footprints, each in its own σ, drawn within the error of the measured shape; empty if it is exact.
     pub footprints: Vec<TipFunction>,
+}
+
+/// The best fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The fitted parameters.
+    pub numbers: Vec<FittedNumber>,
+    /// All parameters, including the known ones.
+    pub values: Values,
+    /// Correlations of the logarithms of the fitted parameters.
+    pub correlations: Vec<Vec<f64>>,
+    /// The fit of each data set.
+    pub parts: Vec<Part>,
+    /// Total number of rows.
+    pub rows: usize,
+    /// Number of fitted parameters, including offsets, slopes, gains and phases.
+    pub parameters: usize,
+    /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
+    pub alternatives: Vec<Alternative>,
+    /// The best fit with a depth limit, if the request has none and the data do not exclude one at 95 %.
+    pub with_depth_limit: Option<Alternative>,
+    /// Whether the model explains the data: intervals are given only if it does.
+    pub explained: bool,
+    /// Probability that the joint residual of several data sets is as large by chance; `None` for a single data set.
+    pub joint: Option<f64>,
+    /// Warnings about the result.
+    pub remarks: Vec<String>,
+}
+
+/// The fit of one data set, in its units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// The model at every row; for a loop, the trace and then the retrace; for a series, loads at onset or wavelengths.
+    pub model: Vec<f64>,
+    /// Standard deviation of the residuals; relative for a series.
+    pub residual: f64,
+    /// Offset at position 0, if fitted.
+    pub offset: Option<f64>,
+    /// Slope per length, if fitted.
+    pub slope: Option<f64>,
+    /// Fitted gain, defined as in [`Track::gain`](super::Track::gain).
+    pub gain: Option<f64>,
+    /// The direction of the scan; `None` for a series.
+    pub scan: Option<Scan>,
+    /// Tests of the model against these data.
+    pub judged: Judged,
 }
 
 /// The reason why there is no fit.
@@ -271,7 +316,7 @@ fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
         let plain_of = here.iter().zip(&problem.weights[i]).map(|(r, w)| r / w.max(1e-6));
         let plain_of: Vec<f64> = plain_of.collect();
         let spread = if robust {
-            median(plain_of.iter().map(|r| r.abs()).collect()) / MEDIAN_OF_NORMAL
+            median(plain_of.iter().map(|r| r.abs())).unwrap_or(0.0) / MEDIAN_OF_NORMAL
         } else {
             (plain(here, &problem.weights[i]) / here.len() as f64).sqrt()
         };
@@ -286,11 +331,6 @@ fn reweigh(problem: &mut Problem, best: &Minimum, robust: bool) {
         }
         problem.noise[i] *= spread;
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    sort_numbers(&mut values);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// The fit of each data set.
@@ -317,7 +357,7 @@ fn parts(problem: &Problem, best: &Minimum, judged: &[Judged]) -> Vec<Part> {
         };
         let (mut offset, mut slope, mut gain) = (None, None, None);
         if let Some(track) = data.track() {
-            let (first, last) = problem::ends(&track.x);
+            let (first, last) = ends(track.x.iter().copied());
             let per_length = 2.0 * found.coefficients[1] / (last - first);
             slope = Some(per_length);
             offset = Some(found.coefficients[0] - 0.5 * (first + last) * per_length);

@@ -1,11 +1,12 @@
 //! The residuals of all data sets, as a function of the searched parameters.
 
-use super::data::{Data, Scan, Track};
+use super::data::{Data, Scan, Track, ground};
 use super::parameters::{Name, Shape, Values};
 use super::wave::{Cycles, Wave};
 use crate::least_squares::{Minimum, Residuals, differences, forward, minimum};
 use crate::projection::{Projected, project};
 use stickslip_stability::critical;
+use stickslip_tip::sorting::ends;
 
 /// A fit problem: data, model and parameters.
 #[derive(Clone)]
@@ -213,7 +214,7 @@ impl Problem<'_> {
 /// The wave minus its mean at these positions. The phase is the position of the crest of its first harmonic, in turns
 /// from the middle, where it depends least on the wavelength; the direction is 1 or -1.
 fn along(wave: &Wave, track: &Track, width: f64, (phase, direction): (f64, f64)) -> Vec<f64> {
-    let (first, last) = ends(&track.x);
+    let (first, last) = ends(track.x.iter().copied());
     let middle = 0.5 * (first + last);
     let moved = phase * wave.wavelength - wave.crest();
     let wave = wave.clone().averaged(track.averaged, track.spacing() / width);
@@ -222,9 +223,7 @@ fn along(wave: &Wave, track: &Track, width: f64, (phase, direction): (f64, f64))
 
 /// Columns of offset, slope and, unless the gain is known, the model.
 fn track_columns(track: &Track, model: Vec<f64>, size: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let (first, last) = ends(&track.x);
-    let slope = track.x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
-    let mut columns = vec![vec![1.0; track.x.len()], slope];
+    let mut columns = ground(&track.x);
     match track.gain {
         Some(gain) => {
             let rest = track.y.iter().zip(&model).map(|(y, v)| y - gain * size * v);
@@ -235,10 +234,6 @@ fn track_columns(track: &Track, model: Vec<f64>, size: f64) -> (Vec<Vec<f64>>, V
             (columns, track.y.clone())
         }
     }
-}
-
-pub(super) fn ends(x: &[f64]) -> (f64, f64) {
-    x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
 }
 
 impl Problem<'_> {

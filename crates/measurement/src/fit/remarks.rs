@@ -1,10 +1,10 @@
 //! Warnings about a fit, in words.
 
-use super::found::{Fit, Part};
 use super::likelihood::{Around, Fitted, least_determined};
 use super::parameters::{Name, Values};
 use super::problem::Problem;
 use super::verdict::{CHANGE, MISFIT};
+use super::{Fit, Part};
 
 /// Ratio of the ends of an interval above which it is reported as wide.
 const WIDE: f64 = 3.0;

@@ -1,12 +1,12 @@
 //! Starting points of a search, from the data: a wavelength, and a grid of motions.
 
-use super::data::{Data, Scan, Track};
+use super::data::{Data, Scan, Track, ground};
 use super::parameters::{Name, Values};
-use super::problem::{Problem, ends};
+use super::problem::Problem;
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
 use std::f64::consts::TAU;
-use stickslip_tip::sorting::sort_by_number;
+use stickslip_tip::sorting::{ends, sort_by_number};
 
 /// Values of r, and of α over αc, that are tried if they are unknown.
 const RS: [f64; 8] = [0.15, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0];
@@ -216,12 +216,13 @@ fn with_phases(problem: &Problem, values: &Values) -> Option<Vec<f64>> {
 /// The residual of the fit of one harmonic with this number of turns per length, and the position of its crest in turns
 /// from the middle.
 fn harmonic(x: &[f64], y: &[f64], turns: f64) -> Option<(f64, f64)> {
-    let (first, last) = ends(x);
-    let slope = x.iter().map(|x| (2.0 * x - first - last) / (last - first)).collect();
+    let (first, last) = ends(x.iter().copied());
     let middle = 0.5 * (first + last);
     let turn = |x: &f64| (TAU * turns * (x - middle)).sin_cos();
     let (sin, cos): (Vec<f64>, Vec<f64>) = x.iter().map(turn).unzip();
-    let found = project(&[vec![1.0; x.len()], slope, cos, sin], y)?;
+    let mut columns = ground(x);
+    columns.extend([cos, sin]);
+    let found = project(&columns, y)?;
     let crest = found.coefficients[3].atan2(found.coefficients[2]) / TAU;
     Some((squares(&found.residuals), crest))
 }
@@ -243,7 +244,7 @@ pub(super) fn wavelength(track: &Track) -> Option<f64> {
     let every = track.x.len().div_ceil(ENOUGH).max(1);
     let thin = |v: &[f64]| v.iter().step_by(every).copied().collect::<Vec<f64>>();
     let (x, y) = (thin(&track.x), thin(&track.y));
-    let (first, last) = ends(&x);
+    let (first, last) = ends(x.iter().copied());
     let extent = last - first;
     let most = (0.25 * x.len() as f64).min(MOST_TURNS);
     let left = |turns: f64| harmonic(&x, &y, turns / extent).map_or(f64::INFINITY, |h| h.0);
@@ -252,10 +253,19 @@ pub(super) fn wavelength(track: &Track) -> Option<f64> {
     let at = |i: usize| FEWEST_TURNS + i as f64 / STEPS_A_TURN;
     let best = (0..=steps).map(at).min_by(|a, b| left(*a).total_cmp(&left(*b)))?;
     // Golden section between its neighbours.
-    let (mut low, mut high) = (best - 1.0 / STEPS_A_TURN, best + 1.0 / STEPS_A_TURN);
-    for _ in 0..30 {
+    let ends = (best - 1.0 / STEPS_A_TURN, best + 1.0 / STEPS_A_TURN);
+    Some(extent / least_between(left, ends, 30))
+}
+
+/// The minimum of a function between two points, by this number of rounds of the golden section.
+pub(super) fn least_between(
+    of: impl Fn(f64) -> f64,
+    (mut low, mut high): (f64, f64),
+    rounds: usize,
+) -> f64 {
+    for _ in 0..rounds {
         let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
-        if left(a) < left(b) { high = b } else { low = a }
+        if of(a) < of(b) { high = b } else { low = a }
     }
-    Some(extent / (0.5 * (low + high)))
+    0.5 * (low + high)
 }

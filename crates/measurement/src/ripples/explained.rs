@@ -4,7 +4,7 @@ use super::travelling::{Lines, Travelling, crest_angle};
 use super::wave::{HARMONICS, UNKNOWNS, Wave, height, phase};
 use super::{Lag, RippleProfile, Ripples};
 use crate::interval::{Estimate, student};
-use crate::least_squares::{Minimum, Residuals, differences, minimum, squares};
+use crate::least_squares::{Minimum, Residuals, differences, matrix_of, minimum, squares};
 use crate::likelihood::crossing;
 use nalgebra::{Cholesky, Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
@@ -268,16 +268,17 @@ impl<'a> Problem<'a> {
                 + by[1] * by[1] * c[(i + 1, i + 1)];
             quantile * square.max(0.0).sqrt()
         };
-        let around =
-            |value: f64, error: f64| Estimate { value, low: value - error, high: value + error };
         let wavelength = TAU / length;
         let turned = error(0, [kappa / (length * length), -q / (length * length)]);
         let first = self.wave.harmonic(1);
         let size = first.norm();
         (
-            around(wavelength, error(0, [q, kappa].map(|v| wavelength * v / (length * length)))),
-            around(crest_angle(q, kappa), turned.to_degrees()),
-            around(2.0 * size, 2.0 * error(2, [first.re / size, first.im / size])),
+            Estimate::about(
+                wavelength,
+                error(0, [q, kappa].map(|v| wavelength * v / (length * length))),
+            ),
+            Estimate::about(crest_angle(q, kappa), turned.to_degrees()),
+            Estimate::about(2.0 * size, 2.0 * error(2, [first.re / size, first.im / size])),
         )
     }
 }
@@ -310,8 +311,7 @@ struct Around<'a> {
 impl<'a> Around<'a> {
     fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
         let slopes = problem.derivatives(&best.residuals, &best.parameters)?;
-        let columns: Vec<DVector<f64>> = slopes.into_iter().map(DVector::from_vec).collect();
-        let jacobian = DMatrix::from_columns(&columns);
+        let jacobian = matrix_of(slopes);
         let covariance = jacobian.tr_mul(&jacobian).try_inverse()?;
         Some(Self { problem, best, covariance, quantile: student(BLOCK_FREEDOM) })
     }

@@ -6,8 +6,7 @@
 //! the crests is that of the model if both images have the same positions.
 
 use super::RippleError;
-use super::pair::Pair;
-use super::wave::Wave;
+use super::wave::{Pair, Wave};
 use crate::image::Image;
 use crate::interval::Estimate;
 use std::f64::consts::{PI, TAU};

@@ -8,7 +8,6 @@ mod across;
 mod direction;
 mod explained;
 mod lateral;
-mod pair;
 mod part;
 mod retrace;
 mod travelling;

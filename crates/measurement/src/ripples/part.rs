@@ -3,8 +3,7 @@
 //! Ripples grow along the scan and from line to line, as in a wake. Where the lines begin, and on the first lines, they are still
 //! growing; beyond the wake the edge of the area determines them. Between these regions is the pattern of the model.
 
-use super::pair::Pair;
-use super::wave::{Wave, coarse_image};
+use super::wave::{Pair, Wave, coarse_image};
 use super::{RippleError, Ripples};
 use crate::image::Image;
 use std::f64::consts::TAU;

@@ -2,8 +2,7 @@
 //! along the lines relative to those of the other.
 
 use super::RippleError;
-use super::pair::Pair;
-use super::wave::{HARMONICS, UNKNOWNS, Wave};
+use super::wave::{HARMONICS, Pair, UNKNOWNS, Wave};
 use crate::image::Image;
 use nalgebra::{Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};

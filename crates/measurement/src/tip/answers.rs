@@ -1,7 +1,9 @@
 //! Results for a footprint: width, onset, trapping threshold.
 
 use super::search::Candidate;
+use super::shape::value;
 use stickslip_stability::{critical, trapping_alpha};
+use stickslip_tip::roots::halved_between;
 use stickslip_tip::{Gaussian, TipFunction, Wider};
 
 /// Results for a footprint with f(0) = 1, in units of σ.
@@ -24,7 +26,7 @@ pub(super) fn normalised(
     sigma: Option<f64>,
 ) -> Option<(Vec<Gaussian>, f64, f64)> {
     let terms = candidate.gaussians();
-    let value = |x: f64| sum(&terms, x);
+    let value = |x: f64| value(&terms, x);
     let reach = terms.iter().map(|g| g.center.abs() + 5.0 * g.width).fold(0.0, f64::max);
     let samples = (0..=SAMPLES).map(|i| reach * f64::from(i) / f64::from(SAMPLES));
     let largest = samples.clone().map(|x| value(x).abs()).fold(0.0, f64::max);
@@ -47,32 +49,20 @@ pub(super) fn normalised(
 /// Number of samples from the apex outwards.
 const SAMPLES: u32 = 2000;
 
-fn sum(terms: &[Gaussian], x: f64) -> f64 {
-    let term = |g: &Gaussian| {
-        let z = (x - g.center) / g.width;
-        g.amplitude * (-0.5 * z * z).exp()
-    };
-    terms.iter().map(term).sum()
-}
-
 /// The distance at which f first falls to half of f(0).
 fn half_width(
     value: &impl Fn(f64) -> f64,
     apex: f64,
     mut samples: impl Iterator<Item = f64>,
 ) -> Option<f64> {
-    let is_above = |x: f64| value(x) / apex > 0.5;
+    let above = |x: f64| value(x) / apex - 0.5;
     let mut last = 0.0;
-    let (mut low, mut high) = samples.find_map(|x| {
-        let found = (!is_above(x)).then_some((last, x));
+    let (low, high) = samples.find_map(|x| {
+        let found = (above(x) <= 0.0).then_some((last, x));
         last = x;
         found
     })?;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if is_above(middle) { &mut low } else { &mut high }) = middle;
-    }
-    Some(0.5 * (low + high))
+    Some(halved_between(above, low, high))
 }
 
 impl Answers {

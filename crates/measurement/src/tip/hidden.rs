@@ -1,5 +1,6 @@
 //! Effect of an undetected Gaussian, too weak to be selected by the criterion.
 
+use super::Request;
 use super::answers::Answers;
 use super::search::Candidate;
 use super::shape::{Shape, pair};
@@ -27,10 +28,11 @@ const ALONG: f64 = 0.05;
 /// trapping threshold].
 pub(super) fn factors(
     profile: &Profile,
-    (centre, sigma, r): (Option<f64>, Option<f64>, f64),
+    request: &Request,
     found: &Candidate,
     effective: f64,
 ) -> [f64; 4] {
+    let Request { centre, sigma, r, .. } = *request;
     let mut factors = [1.0; 4];
     let shape = Shape::of(profile, centre, (found.terms, found.finest), found.order());
     let searched = shape.searched(&found.places);
@@ -54,7 +56,7 @@ pub(super) fn factors(
             // A large change along the tangent counts as far as a fit to such a profile confirms it.
             let whole = hidden.beside(found, sign * amplitude);
             let fitted = if share < 1.0 {
-                refitted(profile, (centre, sigma, r), found, &whole, effective)
+                refitted(profile, request, found, &whole, effective)
             } else {
                 None
             };
@@ -74,7 +76,7 @@ pub(super) fn factors(
 /// Differences of the logarithms of the results between a sum and a fit to it without its last Gaussian.
 fn refitted(
     profile: &Profile,
-    (centre, sigma, r): (Option<f64>, Option<f64>, f64),
+    &Request { centre, sigma, r, .. }: &Request,
     found: &Candidate,
     whole: &Candidate,
     effective: f64,

@@ -1,5 +1,6 @@
 //! Asymmetry of a profile that an even footprint leaves in the residuals.
 
+use super::shape::bell;
 use super::{MeasuredTip, correlation, effective};
 use crate::least_squares::squares;
 use crate::projection::project;
@@ -12,7 +13,7 @@ const SIGNIFICANT: f64 = 4.0;
 fn footprint(tip: &MeasuredTip, distance: f64) -> (f64, f64) {
     tip.gaussians.iter().fold((0.0, 0.0), |(value, slope), gaussian| {
         let away = (distance - gaussian.center) / gaussian.width;
-        let height = gaussian.amplitude * (-0.5 * away * away).exp();
+        let height = bell(gaussian, distance);
         (value + height, slope - height * away / gaussian.width)
     })
 }

@@ -13,6 +13,7 @@ use answers::{Answers, normalised};
 use resample::Resampling;
 pub use search::Candidate;
 use search::{Found, MOST_TERMS};
+pub(crate) use shape::bell;
 pub use sides::{Sides, sides};
 use stickslip_tip::{Gaussian, stop};
 use thiserror::Error;
@@ -178,16 +179,12 @@ fn measured(profile: &Profile, request: &Request) -> Result<MeasuredTip, TipErro
     };
     let resampling = Resampling {
         profile,
-        centre: request.centre,
-        sigma: request.sigma,
-        r: request.r,
+        request,
         makers: candidates.iter().chain(&others).filter(is_plausible).collect(),
         effective,
-        seed: request.seed,
     };
     let draws = resampling.draw(request.resamples);
-    let asked = (request.centre, request.sigma, request.r);
-    let factors = hidden::factors(profile, asked, found, effective);
+    let factors = hidden::factors(profile, request, found, effective);
     let estimates: [Estimate; 4] = std::array::from_fn(|i| {
         let of = |a: &Answers| a.each()[i];
         let ways = draws.iter().map(|drawn| drawn.iter().flatten().map(of).collect());

@@ -1,6 +1,7 @@
 //! Uncertainty of a profile by Efron's bootstrap: fits to profiles made of a fitted curve and of its resampled
 //! residuals, for all plausible numbers of Gaussians.
 
+use super::Request;
 use super::answers::{Answers, normalised};
 use super::hidden;
 use super::search::Candidate;
@@ -18,14 +19,11 @@ const FOOTPRINTS: u64 = 1 << 32;
 #[derive(Debug)]
 pub(super) struct Resampling<'a> {
     pub(super) profile: &'a Profile,
-    pub(super) centre: Option<f64>,
-    pub(super) sigma: Option<f64>,
-    pub(super) r: f64,
+    pub(super) request: &'a Request,
     /// Plausible sums of Gaussians.
     pub(super) makers: Vec<&'a Candidate>,
     /// Number of effectively independent rows.
     pub(super) effective: f64,
-    pub(super) seed: u64,
 }
 
 impl Resampling<'_> {
@@ -47,10 +45,11 @@ impl Resampling<'_> {
         let one = |i: usize| {
             let maker = self.makers[i % self.makers.len()];
             let (profile, fitted, mut random) = self.fitted(FOOTPRINTS + i as u64, maker)?;
-            let more = hidden::drawn(&profile, self.centre, &fitted, self.effective, &mut random);
+            let more =
+                hidden::drawn(&profile, self.request.centre, &fitted, self.effective, &mut random);
             let of = |candidate: &Candidate| {
-                let gaussians = normalised(candidate, self.sigma)?.0;
-                Answers::of(candidate, self.sigma, self.r).map(|_| gaussians)
+                let gaussians = normalised(candidate, self.request.sigma)?.0;
+                Answers::of(candidate, self.request.sigma, self.request.r).map(|_| gaussians)
             };
             more.as_ref().and_then(of).or_else(|| of(&fitted))
         };
@@ -59,15 +58,15 @@ impl Resampling<'_> {
     }
 
     fn one(&self, stream: u64, maker: &Candidate) -> Option<Answers> {
-        Answers::of(&self.fitted(stream, maker)?.1, self.sigma, self.r)
+        Answers::of(&self.fitted(stream, maker)?.1, self.request.sigma, self.request.r)
     }
 
     /// The fit to a resampled profile, and the random numbers for later use.
     fn fitted(&self, stream: u64, maker: &Candidate) -> Option<(Profile, Candidate, ChaCha8Rng)> {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut random = ChaCha8Rng::seed_from_u64(self.request.seed);
         random.set_stream(stream);
         let profile = self.drawn(maker, &mut random);
-        let fitted = maker.again(&profile, self.centre, self.effective)?;
+        let fitted = maker.again(&profile, self.request.centre, self.effective)?;
         Some((profile, fitted, random))
     }
 

@@ -138,6 +138,16 @@ impl<'a> Shape<'a> {
     }
 }
 
+/// A Gaussian at x.
+pub(crate) fn bell(g: &Gaussian, x: f64) -> f64 {
+    g.amplitude * (-0.5 * ((x - g.center) / g.width).powi(2)).exp()
+}
+
+/// A sum of Gaussians at x.
+pub(super) fn value(terms: &[Gaussian], x: f64) -> f64 {
+    terms.iter().map(|g| bell(g, x)).sum()
+}
+
 /// The function G.
 pub(super) fn pair(x: f64, d: f64, w: f64) -> f64 {
     let bell = |z: f64| (-0.5 * z * z).exp();

@@ -5,6 +5,7 @@
 //! backward motion that of f(-|x|). An even fit to the whole profile is the mean of both, and right for neither. The grooves of
 //! earlier lines of a raster, and a tip that turns back, depend on both halves.
 
+use super::shape::{bell, value};
 use super::{MeasuredTip, Request, TipError, tip};
 use crate::Profile;
 use crate::least_squares::{Residuals, differences, minimum};
@@ -141,20 +142,12 @@ impl Sides {
     }
 }
 
-fn bell(g: &Gaussian, x: f64) -> f64 {
-    g.amplitude * (-0.5 * ((x - g.center) / g.width).powi(2)).exp()
-}
-
 fn slope(g: &Gaussian, x: f64) -> f64 {
     -(x - g.center) / g.width.powi(2) * bell(g, x)
 }
 
 fn curvature(g: &Gaussian, x: f64) -> f64 {
     (((x - g.center) / g.width).powi(2) - 1.0) * bell(g, x) / g.width.powi(2)
-}
-
-fn value(terms: &[Gaussian], x: f64) -> f64 {
-    terms.iter().map(|g| bell(g, x)).sum()
 }
 
 /// Heights above the line through both ends.

@@ -10,7 +10,6 @@ mod linear;
 mod map;
 mod motion;
 mod parameters;
-mod periodic;
 mod refusal;
 mod scan;
 mod walk;
@@ -19,7 +18,7 @@ use motion::Motion;
 use parameters::Parameters;
 use refusal::Refusal;
 use serde::Serialize;
-use stickslip::{RunFound, Samples};
+use stickslip::{Ask, Context, RunFound, Samples};
 use wasm_bindgen::prelude::*;
 
 fn json(result: &impl Serialize) -> Result<String, JsError> {
@@ -108,7 +107,8 @@ pub fn linear(parameters: &str) -> Result<String, JsError> {
 /// A parameter out of range, or no cycle at these parameters.
 #[wasm_bindgen]
 pub fn cycle(parameters: &str) -> Result<String, JsError> {
-    json(&periodic::cycle_document(&Parameters::read(parameters)?)?)
+    let found = Parameters::read(parameters)?.cycle()?.ask(&Context::default());
+    json(&found.map_err(Refusal::Question)?)
 }
 
 /// The command line that computes the same run.

@@ -2,7 +2,7 @@
 
 use crate::refusal::Refusal;
 use serde::Deserialize;
-use stickslip::{Indentation, Run, StartName, Tip};
+use stickslip::{Cycle, Indentation, Run, StartName, Tip};
 use stickslip_tip::{Model, TipFunction, Wider};
 
 /// Values of the sliders. Lengths in σ, times in Γ/k, heights in kσ²/a.
@@ -58,6 +58,13 @@ impl Parameters {
     pub(crate) fn pushed_across(&self) -> Option<f64> {
         let is_pushed = self.stiffness_across.is_some() && self.kick_across.abs() > 0.0;
         is_pushed.then_some(self.kick_across)
+    }
+
+    /// The cycle at these parameters.
+    pub(crate) fn cycle(&self) -> Result<Cycle, Refusal> {
+        let model = self.model()?;
+        let cycle = Cycle::new(Tip(model.tip().clone()), Indentation::given(self.alpha), self.r);
+        Ok(Cycle { law: self.wider().into(), ..cycle })
     }
 
     /// The run with these parameters.

@@ -1,8 +1,7 @@
 //! Command-line options made from the parameters that a question declares.
 
 use super::TipArguments;
-use super::interval::Interval;
-use super::range::Range;
+use super::range::{Interval, Range};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use serde_json::{Map, Value, json};

@@ -19,8 +19,7 @@ pub(crate) fn follow(session: &Session, arguments: &ContinueArguments) -> Result
     let start = from.as_deref().map(|path| read_cycle(session, path)).transpose()?;
     let mut question: Continue = parameter::question(values(session, options, start.as_ref())?)?;
     if let Some((path, document)) = &start {
-        let named = || format!("--from {}", path.display());
-        let unusable = |error: Unusable| Failure::input(named(), error);
+        let unusable = |error: Unusable| Failure::file("--from", path, error);
         question = question.beginning_with(document).map_err(unusable)?;
     }
     let interrupt = Interrupt::listen(session)?;

@@ -19,13 +19,13 @@ use stickslip_reproduction as reproduction;
 pub(crate) fn figures(session: &Session, arguments: &FiguresArguments) -> Result<(), Failure> {
     let folder = arguments.out_dir.as_path();
     std::fs::create_dir_all(folder).map_err(|error| {
-        let named = format!("--out-dir {}", folder.display());
         let said = match error.kind() {
             io::ErrorKind::AlreadyExists => "is a file".into(),
             io::ErrorKind::NotFound => "cannot be made".into(),
             kind => kind.to_string(),
         };
-        Failure::input(named, format!("{said}; name a folder that can be made"))
+        let message = format!("{said}; name a folder that can be made");
+        Failure::file("--out-dir", folder, message)
     })?;
     let _reserved = place::folder("--out-dir", folder)?;
     let asked = arguments.only.as_deref().unwrap_or(FigureName::value_variants());

@@ -126,8 +126,7 @@ impl Given {
     /// The scales of these options. Options that lack a companion or contradict each other are rejected.
     fn scales(&self, r: Option<f64>) -> Result<KnownScales, Failure> {
         let Self { sigma, stiffness, damping, velocity, slope_force } = *self;
-        let together = |one: Option<f64>, other: Option<f64>| one.zip(other);
-        let by_friction = together(damping, stiffness).map(|(damping, k)| damping / k);
+        let by_friction = damping.zip(stiffness).map(|(damping, k)| damping / k);
         let by_velocity = velocity.zip(sigma).zip(r).map(|((v0, sigma), r)| r * sigma / v0);
         if let (Some(one), Some(other)) = (by_friction, by_velocity)
             && (one - other).abs() > SAME * one
@@ -139,7 +138,7 @@ impl Given {
             );
             return Err(Failure::input("--damping, --stiffness, --sigma, --velocity", message));
         }
-        let force = together(stiffness, sigma).map(|(k, sigma)| k * sigma);
+        let force = stiffness.zip(sigma).map(|(k, sigma)| k * sigma);
         let height = force.zip(sigma).zip(slope_force).map(|((force, sigma), a)| force * sigma / a);
         let scales =
             KnownScales { length: sigma, time: by_friction.or(by_velocity), height, force };
@@ -196,9 +195,8 @@ struct WithScales {
 
 /// The scales in a document.
 pub(crate) fn of_document(session: &Session, path: &Path) -> Result<KnownScales, Failure> {
-    let named = || format!("--units {}", path.display());
     let document: Scaled = serde_json::from_reader(open(session, "--units", path)?)
-        .map_err(|error| Failure::input(named(), format!("no document: {error}")))?;
+        .map_err(|error| Failure::file("--units", path, format!("no document: {error}")))?;
     let scales = match document.format.as_deref() {
         Some(UnitsDocument::FORMAT) => document.scales,
         Some(MeasuredTipDocument::FORMAT) => {
@@ -212,9 +210,9 @@ pub(crate) fn of_document(session: &Session, path: &Path) -> Result<KnownScales,
     let Some(scales) = scales else {
         let advice = "contains no scales: a document of `stickslip units` does, one of `tip` or `fit` from data with a \
                       unit, and any that was written with --units or --sigma";
-        return Err(Failure::input(named(), advice));
+        return Err(Failure::file("--units", path, advice));
     };
-    sound(scales, &named())
+    sound(scales, &format!("--units {}", path.display()))
 }
 
 /// The scales, if they are above 0.

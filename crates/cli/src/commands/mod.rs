@@ -29,7 +29,6 @@ mod finished;
 mod fit_image;
 mod in_units;
 mod job;
-mod judged;
 mod progress;
 mod summary;
 

@@ -1,11 +1,13 @@
 //! From the options of a footprint to a footprint.
 
-use super::judged::judge_table;
+use super::summary::quoted;
 use crate::arguments::{Length, TipArguments};
 use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use crate::session::Session;
+use std::path::Path;
 use stickslip::{GaussianDocument, NamedTip, judge_details};
+use stickslip_measurement::{Verdict, judge};
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, TipFunction};
 
@@ -24,9 +26,9 @@ pub(crate) fn tip_and_draws(
         Failure::input(option, format!("has no meaning with {with}: leave one of them out"))
     };
     if let Some(path) = tip_file {
-        let named = format!("--tip-file {}", path.display());
         if tip.is_some() || beta.is_some() || width.is_some() {
-            return Err(unused(named, "--tip, --beta or --width"));
+            let option = format!("--tip-file {}", path.display());
+            return Err(unused(option, "--tip, --beta or --width"));
         }
         let mut file = read_tip(session, path)?;
         let draws = match &mut file {
@@ -38,7 +40,7 @@ pub(crate) fn tip_and_draws(
             TipFile::Table2d(columns) => Some(on_path(columns)),
             _ => None,
         };
-        let tip = from_file(file).map_err(|message| Failure::input(&named, message))?;
+        let tip = from_file(file).map_err(|message| Failure::file("--tip-file", path, message))?;
         if *retrace && tip.is_even() {
             let message = "has no effect on a tip with two equal sides: leave it out";
             return Err(Failure::input("--retrace", message));
@@ -127,4 +129,46 @@ fn gaussian_2d(entry: &GaussianEntry) -> Option<Gaussian2d> {
     let GaussianEntry { amplitude, center, width, .. } = *entry;
     let center_y = entry.center_y.unwrap_or(0.0);
     entry.width_y.map(|width_y| Gaussian2d { amplitude, center, width, center_y, width_y })
+}
+
+/// Rejects a table whose result depends on noise, and warns if noise has an effect or if that is unknown.
+fn judge_table(
+    session: &Session,
+    path: &Path,
+    (x, f): (&[f64], &[f64]),
+    tip: &TipFunction,
+) -> Result<(), Failure> {
+    let option = format!("--tip-file {}", path.display());
+    let advice = match tip.footprint() {
+        Some(_) => "fit it: `stickslip tip IMAGE.gsf -o tip.json` with the original image, then --tip-file tip.json".into(),
+        None => format!(
+            "fit it: `stickslip tip {} --half --sigma 1σ -o tip.json`, then --tip-file tip.json",
+            quoted(path.display().to_string())
+        ),
+    };
+    match judge((x, f), tip) {
+        Verdict::Sound => Ok(()),
+        Verdict::Few { rows } => {
+            session.say(format_args!(
+                "stickslip: {option}: {rows} rows are too few to distinguish noise from shape: 2 % of noise can halve alpha_c"
+            ));
+            Ok(())
+        }
+        Verdict::Felt { change } => {
+            session.say(format_args!(
+                "stickslip: {option}: its noise may change alpha_c by {:.0} % (r = 1); {advice}",
+                100.0 * change
+            ));
+            Ok(())
+        }
+        Verdict::Decided { table, fitted } => {
+            let instead =
+                fitted.map(|fitted| format!(" where a sum of few Gaussians has {fitted:.4}"));
+            let message = format!(
+                "the noise dominates: alpha_c = {table:.4} at r = 1{}; {advice}",
+                instead.unwrap_or_default()
+            );
+            Err(Failure::input(option, message))
+        }
+    }
 }

@@ -13,7 +13,10 @@ use crate::session::Session;
 use std::path::Path;
 use stickslip::{BoundaryDocument, FigureDocument};
 use stickslip_figures::{self as figures, AnimationFormat, FigureError, Size, View, Width};
+use stickslip_saved::Document;
 use stickslip_units::Unit;
+
+const OPTION: &str = "DOCUMENT.json";
 
 pub(crate) fn plot(session: &Session, arguments: &PlotArguments) -> Result<(), Failure> {
     if let Some(format) = AnimationFormat::of(&arguments.output) {
@@ -36,7 +39,7 @@ pub(crate) fn plot(session: &Session, arguments: &PlotArguments) -> Result<(), F
         scales: None,
     };
     let units = ("--units", arguments.in_units.units.as_deref());
-    let read = [("DOCUMENT.json", Some(&*arguments.document)), units];
+    let read = [(OPTION, Some(&*arguments.document)), units];
     distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Figure::at("--output", &arguments.output)?;
     output.write(&figure(session, arguments, &view)?, &size)
@@ -62,21 +65,15 @@ fn figure(
     arguments: &PlotArguments,
     view: &View,
 ) -> Result<FigureDocument, Failure> {
-    let option = "DOCUMENT.json";
     let path: &Path = &arguments.document;
-    let named = || format!("{option} {}", path.display());
-    let refused = |error: FigureError| match error {
-        FigureError::Damaged(_) | FigureError::Nothing(_) => Failure::input(named(), error),
-        error => drawing_failure(&error),
-    };
+    let refused = |error| undrawn(path, &error);
     if arguments.onset {
-        let option = format!("--onset with {option}");
+        let option = format!("--onset with {OPTION}");
         let document: BoundaryDocument = read_document(session, &option, path)?;
         let view = View { scales: scales(session, &arguments.in_units, None, None)?, ..*view };
         return figures::onset_of(&document, &view).map_err(refused);
     }
-    let document = stickslip_saved::drawn(open(session, option, path)?)
-        .map_err(|error| Failure::input(named(), error))?;
+    let document = read_drawn(session, path)?;
     // With the velocity of the support times need the single r of the document.
     let r = match &arguments.in_units.velocity {
         Some(_) => figures::of(document.drawn(), view).map_err(refused)?.one_r(),
@@ -84,6 +81,21 @@ fn figure(
     };
     let view = View { scales: scales(session, &arguments.in_units, None, r)?, ..*view };
     figures::of(document.drawn(), &view).map_err(refused)
+}
+
+fn read_drawn(session: &Session, path: &Path) -> Result<Box<dyn Document>, Failure> {
+    stickslip_saved::drawn(open(session, OPTION, path)?)
+        .map_err(|error| Failure::file(OPTION, path, error))
+}
+
+/// The error of a document that cannot be drawn.
+fn undrawn(path: &Path, error: &FigureError) -> Failure {
+    match error {
+        FigureError::Damaged(_) | FigureError::Nothing(_) | FigureError::Still(_) => {
+            Failure::file(OPTION, path, error)
+        }
+        error => drawing_failure(error),
+    }
 }
 
 fn size(arguments: &PlotArguments) -> Result<Size, Failure> {

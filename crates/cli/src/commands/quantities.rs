@@ -5,7 +5,7 @@
 use super::in_units::{of_document, with_origin};
 use crate::arguments::InUnitsArguments;
 use crate::failure::{Failure, Typed};
-use crate::files::in_model_units::measured_in;
+use crate::files::columns::measured_in;
 use crate::files::input::open;
 use crate::session::{Session, TypedQuantity};
 use clap::{Arg, ArgAction, Command};

@@ -112,10 +112,10 @@ fn unit(
 ) -> Result<Option<String>, Failure> {
     let written = heading.unit(Unit::Length);
     let Some(unit) = given else {
-        let named = format!("{option} {}", path.display());
-        let advice = "give the unit of the positions by --unit";
-        let written =
-            written.map_err(|error| Failure::input(named, format!("{error}: {advice}")))?;
+        let written = written.map_err(|error| {
+            let message = format!("{error}: give the unit of the positions by --unit");
+            Failure::file(option, path, message)
+        })?;
         return Ok(written.map(|(unit, _)| unit.to_owned()));
     };
     let one = metres(unit)?;

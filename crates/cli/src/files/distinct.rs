@@ -17,11 +17,10 @@ pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure>
     let all: Vec<Named> = read.iter().chain(written).copied().collect();
     for (place, (option, path)) in written.iter().enumerate() {
         let Some(path) = path.filter(|path| is_file(path)) else { continue };
-        let named = format!("{option} {}", path.display());
         let before = &all[..read.len() + place];
         if let Some((other, _)) = before.iter().find(|(_, other)| is(*other, path)) {
             let message = format!("is the file of {other}: give it a name of its own");
-            return Err(Failure::input(named, message));
+            return Err(Failure::file(option, path, message));
         }
         for ending in ENDINGS {
             let companion = beside::with(&resolved(path), ending);
@@ -31,7 +30,7 @@ pub(crate) fn distinct(written: &[Named], read: &[Named]) -> Result<(), Failure>
                     "{} is reserved for data beside it, and the file of {other}: give one of them a name of its own",
                     found.display()
                 );
-                return Err(Failure::input(named, message));
+                return Err(Failure::file(option, path, message));
             }
         }
     }

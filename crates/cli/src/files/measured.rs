@@ -116,7 +116,6 @@ impl Common {
             return Ok(1.0);
         };
         match (first.one, one) {
-            (Some(first), Some(one)) if first.to_bits() == one.to_bits() => Ok(1.0),
             (Some(first), Some(one)) => Ok(one / first),
             (None, None) => Ok(1.0),
             // The unit of the option applies to all columns without a unit.

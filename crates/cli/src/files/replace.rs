@@ -8,17 +8,12 @@ use std::path::Path;
 
 /// The permissions of a file, within the umask, and if possible its owner.
 #[derive(Debug, Default)]
-pub(super) struct Permissions(Option<Metadata>);
+pub(super) struct Permissions(pub(super) Option<Metadata>);
 
 impl Permissions {
     /// The permissions of the file at this place, if there is one.
     pub(super) fn of(path: &Path) -> Self {
         Self(path.metadata().ok())
-    }
-
-    /// The permissions of an open file.
-    pub(super) fn of_file(file: &File) -> Self {
-        Self(file.metadata().ok())
     }
 
     /// Applies the permissions to a file, while it is still empty, so that no unauthorised process can read it.

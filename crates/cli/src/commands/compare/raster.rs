@@ -186,11 +186,7 @@ fn on_rows(comparison: &Comparison, rows: (RowMethod, f64)) -> Result<RasterComp
     let on_line = |(line, motion): (&ScanLine, Vec<(f64, f64)>)| {
         motion.into_iter().map(|(t, x0)| (t, [x0, line.y])).collect()
     };
-    let at_times = |x0: &Vec<f64>| times.iter().copied().zip(x0.iter().copied()).collect();
-    let motions = match times.is_empty() {
-        true => scanned.steps,
-        false => scanned.x0.iter().map(at_times).collect(),
-    };
+    let motions = motions(times, scanned.steps, &scanned.x0);
     Ok(RasterCompared {
         x: x.clone(),
         motions: lines.iter().zip(motions).map(on_line).collect(),
@@ -198,6 +194,19 @@ fn on_rows(comparison: &Comparison, rows: (RowMethod, f64)) -> Result<RasterComp
         u: scanned.u,
         work: grid_work(&scanned.work, seconds),
     })
+}
+
+/// The motion on each line: at the requested times, if any, or else at the ends of steps.
+fn motions<P: Copy>(
+    times: &[f64],
+    steps: Vec<Vec<(f64, P)>>,
+    at_times: &[Vec<P>],
+) -> Vec<Vec<(f64, P)>> {
+    if times.is_empty() {
+        return steps;
+    }
+    let line = |at: &Vec<P>| times.iter().copied().zip(at.iter().copied()).collect();
+    at_times.iter().map(line).collect()
 }
 
 /// The observer of a grid's lines.
@@ -242,11 +251,7 @@ fn on_cells(
     let mut line = |done: f64| watch.reached(done);
     let scanned = scan_plane(&scan, &plane.method, stepping, (times, &points), &mut line);
     let (scanned, seconds) = watch.ended(scanned.map_err(explain))?;
-    let at_times = |at: &Vec<[f64; 2]>| times.iter().copied().zip(at.iter().copied()).collect();
-    let motions = match times.is_empty() {
-        true => scanned.steps,
-        false => scanned.position.iter().map(at_times).collect(),
-    };
+    let motions = motions(times, scanned.steps, &scanned.position);
     let u = scanned.u.chunks(x.len()).map(<[f64]>::to_vec).collect();
     Ok(RasterCompared { x: x.clone(), motions, y, u, work: grid_work(&scanned.work, seconds) })
 }

@@ -3,10 +3,9 @@
 use crate::arguments::PlotArguments;
 use crate::commands::figure::drawing_failure;
 use crate::commands::in_units::scales;
-use crate::commands::plot::{range, width};
+use crate::commands::plot::{OPTION, range, read_drawn, undrawn, width};
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
-use crate::files::input::open;
 use crate::files::output::Output;
 use crate::session::Session;
 use stickslip_figures::{self as figures, AnimationFormat, Drawn, FigureError, Film, Shot};
@@ -20,13 +19,10 @@ pub(super) fn write(
     let film = film(arguments)?;
     let times = range("--times", arguments.times.as_deref())?;
     let units = ("--units", arguments.in_units.units.as_deref());
-    let read = [("DOCUMENT.json", Some(&*arguments.document)), units];
+    let read = [(OPTION, Some(&*arguments.document)), units];
     distinct(&[("--output", Some(&*arguments.output))], &read)?;
     let output = Output::open("--output", &arguments.output)?;
-    let option = "DOCUMENT.json";
-    let named = || format!("{option} {}", arguments.document.display());
-    let document = stickslip_saved::drawn(open(session, option, &arguments.document)?)
-        .map_err(|error| Failure::input(named(), error))?;
+    let document = read_drawn(session, &arguments.document)?;
     let document = document.drawn();
     let scales = scales(session, &arguments.in_units, None, one_r(arguments, document))?;
     let known = scales.or_else(|| document.physical().map(|physical| physical.scales));
@@ -37,12 +33,7 @@ pub(super) fn write(
         return Err(drawing_failure(&FigureError::Unit(given, format!("of times in {unit}"))));
     }
     let shot = Shot { times: times.map(|(times, _)| times), scales };
-    let failed = |error: FigureError| match error {
-        FigureError::Damaged(_) | FigureError::Nothing(_) | FigureError::Still(_) => {
-            Failure::input(named(), error)
-        }
-        error => drawing_failure(&error),
-    };
+    let failed = |error| undrawn(&arguments.document, &error);
     let mut scene = figures::scene_of(document, &shot).map_err(failed)?;
     output.write_bytes(&figures::animate(&mut *scene, format, &film).map_err(failed)?)
 }

@@ -61,18 +61,17 @@ fn judged(order: Order, arguments: &RunArguments) -> Result<Order, Failure> {
     if order.format != RunFormat::Jsonl {
         return Ok(order);
     }
-    let plot = arguments.plot.as_deref().map(|path| format!("--plot {}", path.display()));
-    if let Some(option) = plot {
-        let message = "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz";
-        return Err(Failure::input(option, message));
+    let needs = "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz";
+    if let Some(path) = &arguments.plot {
+        return Err(Failure::file("--plot", path, needs));
     }
     if order.scales.is_some() {
         let message = "apply to tables and documents, and .jsonl is written during the run: write it to a .json, .csv or .npz";
         return Err(Failure::input("--units, --sigma and the other scales", message));
     }
     if arguments.verify {
-        let message = "needs the history, which a run written as .jsonl does not keep: write it to a .json, .csv or .npz, \
-             or verify the lines afterwards, with `stickslip verify FILE.jsonl`";
+        let or = "or verify the lines afterwards, with `stickslip verify FILE.jsonl`";
+        let message = format!("{needs}, {or}");
         return Err(Failure::input("--verify", message));
     }
     Ok(order)

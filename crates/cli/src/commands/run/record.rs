@@ -2,8 +2,8 @@
 
 use super::motion::{Recorded, numbers_of, sample_of};
 use crate::failure::Failure;
+use crate::files::journal::{Rows, journal_of};
 use crate::files::place::taken;
-use crate::files::rows::{Rows, journal_of};
 use crate::files::stream::Stream;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -3,8 +3,9 @@
 use super::{Summary, again, digits, extremes};
 use crate::commands::job::Product;
 use stickslip::{
-    BoundaryDocument, ComplexDocument, CriticalityName, LimitColumns, ResponseDocument,
-    SnakingDocument, StabilityDocument, WalkDocument, WalkingDocument, to_its_digits,
+    BoundaryDocument, CertificateDocument, ComplexDocument, CriticalityName, LimitColumns,
+    ResponseDocument, SnakingDocument, StabilityDocument, WalkDocument, WalkingDocument,
+    to_its_digits,
 };
 
 /// Number of significant digits of a critical point.
@@ -52,28 +53,39 @@ impl Product for StabilityDocument {
             Some(snaking) => across(summary, snaking),
             None => summary,
         };
-        let error = self.certificate.largest_error;
-        let root = |root: &ComplexDocument| {
-            let [re, im] = [root.re, root.im].map(|part| to_its_digits(part, error));
-            format!("({re}) + ({im}) i k/Γ")
-        };
-        let certain =
-            if self.certificate.complete { "none is missing" } else { "some may be missing" };
         let limits = self.limits.as_ref();
         let least = limits.and_then(|limits| limits.least_depth_limit);
         let length = limits.and_then(|limits| limits.memory_length);
-        let summary = summary
-            .maybe("always stable below", least.map(|b| format!("b = {}", digits(b, 7))))
-            .maybe(
-                "always stable below rT",
-                length.map(|l| format!("{} σ, without a depth limit", digits(l, 7))),
-            );
-        summary
-            .maybe("leading growth exponent", self.roots.first().map(root))
-            .row("growth exponents", format!("{}, {certain}", self.roots.len()))
+        let least = least.map(|b| format!("b = {}", digits(b, 7)));
+        let summary = always_stable(summary, least, length);
+        exponents(summary, self.roots.first(), self.roots.len(), &self.certificate)
             .remarks(&self.remarks)
             .next(again("-o stability.json --plot roots.svg"))
     }
+}
+
+/// Adds the limits below which steady motion is stable at every α.
+fn always_stable(summary: Summary, depth: Option<String>, length: Option<f64>) -> Summary {
+    let length = length.map(|l| format!("{} σ, without a depth limit", digits(l, 7)));
+    summary.maybe("always stable below", depth).maybe("always stable below rT", length)
+}
+
+/// Adds the leading growth exponent and the number of all.
+fn exponents(
+    summary: Summary,
+    leading: Option<&ComplexDocument>,
+    count: usize,
+    certificate: &CertificateDocument,
+) -> Summary {
+    let leading = leading.map(|root| {
+        let [re, im] =
+            [root.re, root.im].map(|part| to_its_digits(part, certificate.largest_error));
+        format!("({re}) + ({im}) i k/Γ")
+    });
+    let certain = if certificate.complete { "none is missing" } else { "some may be missing" };
+    summary
+        .maybe("leading growth exponent", leading)
+        .row("growth exponents", format!("{count}, {certain}"))
 }
 
 /// Adds the onset of snaking of a line, if there is one.
@@ -125,12 +137,7 @@ fn least(summary: Summary, limits: Option<&LimitColumns>) -> Summary {
     let depths: Vec<f64> = depths.into_iter().flatten().collect();
     let [low, high] = extremes(depths.iter().copied()).map(|b| digits(b, 7));
     let range = (!depths.is_empty()).then(|| format!("b = {low} to {high}, by r"));
-    summary.maybe("always stable below", range).maybe(
-        "always stable below rT",
-        limits
-            .and_then(|limits| limits.memory_length)
-            .map(|length| format!("{} σ, without a depth limit", digits(length, 7))),
-    )
+    always_stable(summary, range, limits.and_then(|limits| limits.memory_length))
 }
 
 impl Product for ResponseDocument {
@@ -181,15 +188,8 @@ impl Product for WalkingDocument {
 }
 
 fn tell(summary: Summary, walk: &WalkDocument) -> Summary {
-    let error = walk.certificate.largest_error;
     // The first of the others: 0 is that of a shift.
-    let leading = walk.roots.iter().find(|root| root.re != 0.0 || root.im != 0.0).map(|root| {
-        let [re, im] = [root.re, root.im].map(|part| to_its_digits(part, error));
-        format!("({re}) + ({im}) i k/Γ")
-    });
-    let certain = if walk.certificate.complete { "none is missing" } else { "some may be missing" };
-    summary
-        .row("speed", format!("{} kσ/Γ, {}", digits(walk.speed, WALK), walk.stability()))
-        .maybe("leading growth exponent", leading)
-        .row("growth exponents", format!("{}, {certain}", walk.roots.len()))
+    let leading = walk.roots.iter().find(|root| root.re != 0.0 || root.im != 0.0);
+    let speed = format!("{} kσ/Γ, {}", digits(walk.speed, WALK), walk.stability());
+    exponents(summary.row("speed", speed), leading, walk.roots.len(), &walk.certificate)
 }

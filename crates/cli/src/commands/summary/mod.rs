@@ -6,7 +6,6 @@ mod measured;
 mod others;
 mod raster;
 mod run;
-mod walker;
 
 pub(in crate::commands) use run::{of_lines, of_run};
 

@@ -46,22 +46,21 @@ impl SurfaceFormat {
     pub(super) fn of(session: &Session, arguments: &SurfaceArguments) -> Result<Self, Failure> {
         let path = &arguments.output;
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let refused = |what: String, advice: &str| Err(Failure::input(what, advice));
+        let refused = |advice| Err(Failure::file("--output", path, advice));
         if extension.as_deref() != Some("gsf") || arguments.format.is_some() {
             return format(session, arguments.format, path, ", .gsf").map(Self::Document);
         }
-        let named = format!("--output {}", path.display());
         if arguments.y.is_some() {
-            return refused(named, "a .gsf image has evenly spaced rows: give --y-range, not --y");
+            return refused("a .gsf image has evenly spaced rows: give --y-range, not --y");
         }
         if arguments.x.is_some() {
-            let advice =
-                "a .gsf image has evenly spaced columns: give --range and --spacing, not --x";
-            return refused(named, advice);
+            return refused(
+                "a .gsf image has evenly spaced columns: give --range and --spacing, not --x",
+            );
         }
         match arguments.at.as_deref() {
             Some(times) if times.len() != 1 => {
-                refused(named, "a .gsf file contains one image: give one time with --at")
+                refused("a .gsf file contains one image: give one time with --at")
             }
             _ => Ok(Self::Gsf),
         }

@@ -105,8 +105,7 @@ impl Frame<'_> {
                 continue;
             };
             area.extend([(last.0, self.at.top), (first.0, self.at.top)]);
-            let ground = colour(ColourName::Vermillion);
-            let paint = Paint { fill_opacity: Some(SHADE_OPACITY), ..Paint::fill(ground) };
+            let paint = Paint::translucent(colour(ColourName::Vermillion), SHADE_OPACITY);
             drawing.path(polygon(&area), paint);
         }
     }
@@ -118,8 +117,7 @@ impl Frame<'_> {
         let (above, below) = (self.stretches(&curve.x, &curve.y), self.stretches(&curve.x, low));
         for (above, below) in above.iter().zip(&below) {
             let area: Vec<Point> = above.iter().chain(below.iter().rev()).copied().collect();
-            let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(pen.colour) };
-            drawing.path(polygon(&area), paint);
+            drawing.path(polygon(&area), Paint::translucent(pen.colour, BAND_OPACITY));
             for edge in [above, below] {
                 drawing.path(polyline(edge), Paint::stroke(pen.colour, 1.2));
             }
@@ -132,12 +130,9 @@ pub(crate) fn is_empty(curve: &CurveDocument) -> bool {
     !curve.x.iter().zip(&curve.y).any(|(x, y)| drawable(*x) && y.is_some_and(drawable))
 }
 
-/// Paint of a mark: filled, or an outline with a translucent white interior.
+/// Paint of a mark: filled, or an outline.
 pub(crate) fn marked(colour: Colour, filled: bool) -> Paint {
-    if filled {
-        return Paint::fill(colour);
-    }
-    Paint { fill: None, ..Paint::stroke(colour, 1.6) }
+    if filled { Paint::fill(colour) } else { Paint::stroke(colour, 1.6) }
 }
 
 /// The outline of a mark.

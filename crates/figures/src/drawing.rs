@@ -65,6 +65,10 @@ impl Paint {
     pub(crate) fn fill(colour: Colour) -> Self {
         Self { fill: Some(colour), ..Self::default() }
     }
+
+    pub(crate) fn translucent(colour: Colour, opacity: f64) -> Self {
+        Self { fill_opacity: Some(opacity), ..Self::fill(colour) }
+    }
 }
 
 /// A step of a path.

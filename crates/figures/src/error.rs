@@ -53,6 +53,11 @@ pub enum FigureError {
     Png(String),
 }
 
+/// The error for pixels that cannot be packed.
+pub(crate) fn unpacked(error: impl Display) -> FigureError {
+    FigureError::Png(error.to_string())
+}
+
 /// The error for a document from which something cannot be computed.
 pub(crate) fn damaged(error: impl Display) -> FigureError {
     FigureError::Damaged(error.to_string())

@@ -103,8 +103,8 @@ impl Sample {
                 drawing.segment((left, y), (right, y), paint);
             }
             Self::Curve(Pen { colour, mark: Mark::Band }) => {
-                let paint = Paint { fill_opacity: Some(BAND_OPACITY), ..Paint::fill(colour) };
-                drawing.rect(Rect { left, right, top: y - 6.0, bottom: y + 6.0 }, paint);
+                let at = Rect { left, right, top: y - 6.0, bottom: y + 6.0 };
+                drawing.rect(at, Paint::translucent(colour, BAND_OPACITY));
             }
             Self::Curve(Pen { colour, mark: Mark::Point { shape: of, radius, filled } }) => {
                 let radius = if of == Shape::Disc { radius.max(3.0) } else { radius };

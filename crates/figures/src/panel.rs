@@ -130,21 +130,17 @@ impl<'a> Panel<'a> {
                 let part = self.x.part(x).unwrap_or(0.0);
                 at.left + part.clamp(0.0, 1.0) * at.width()
             };
-            let ground = Paint::fill(colour(ColourName::Vermillion));
-            let (left, right) = (place(*from), place(*to));
-            drawing.rect(
-                Rect { left, right, ..at },
-                Paint { fill_opacity: Some(SHADE_OPACITY), ..ground },
-            );
+            let at = Rect { left: place(*from), right: place(*to), ..at };
+            drawing.rect(at, Paint::translucent(colour(ColourName::Vermillion), SHADE_OPACITY));
         }
         if self.map.is_some() || self.document.cells.is_some() {
             return;
         }
         let grid = Paint::stroke(GRID, 1.0);
-        for (x, _) in self.x.labelled().filter_map(|(x, l)| Some((self.x_of(x, at)?, l))) {
+        for x in self.x.labelled().filter_map(|(x, _)| self.x_of(x, at)) {
             drawing.segment((x, at.top), (x, at.bottom), grid);
         }
-        for (y, _) in self.y.labelled().filter_map(|(y, l)| Some((self.y_of(y, at)?, l))) {
+        for y in self.y.labelled().filter_map(|(y, _)| self.y_of(y, at)) {
             drawing.segment((at.left, y), (at.right, y), grid);
         }
     }
@@ -209,12 +205,9 @@ impl<'a> Panel<'a> {
             let wanted = if note.arrow.is_some() { x - half - 10.0 } else { x };
             let shown = if from < to { wanted.clamp(from, to) } else { x };
             if note.arrow.is_some() || self.document.cells.is_some() {
-                let ground = Paint { fill_opacity: Some(0.8), ..Paint::fill(PAPER) };
                 let (left, right) = (shown - half, shown + half);
-                drawing.rect(
-                    Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size },
-                    ground,
-                );
+                let ground = Rect { left, right, top: y - 0.7 * size, bottom: y + 0.7 * size };
+                drawing.rect(ground, Paint::translucent(PAPER, 0.8));
             }
             let (label, anchor, upright) = (note.text.clone(), Anchor::Middle, false);
             drawing.text(Text { x: shown, y: y + 0.35 * size, label, size, anchor, upright });

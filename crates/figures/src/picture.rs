@@ -1,6 +1,6 @@
 //! Images of height maps, and PNG files.
 
-use crate::error::FigureError;
+use crate::error::{FigureError, unpacked};
 use crate::style::Colour;
 
 /// Largest number of columns and rows; more are averaged.
@@ -36,8 +36,6 @@ pub(crate) fn png_file(
     pixels: &[u8],
     dots_per_inch: Option<f64>,
 ) -> Result<Vec<u8>, FigureError> {
-    let failed = |error: png::EncodingError| FigureError::Png(error.to_string());
-    let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let mut bytes = vec![];
     let mut encoder = png::Encoder::new(&mut bytes, side(width), side(height));
     encoder.set_color(colours);
@@ -49,10 +47,15 @@ pub(crate) fn png_file(
         let (xppu, yppu, unit) = (per_metre, per_metre, png::Unit::Meter);
         encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
     }
-    let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(pixels).map_err(failed)?;
-    writer.finish().map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(unpacked)?;
+    writer.write_image_data(pixels).map_err(unpacked)?;
+    writer.finish().map_err(unpacked)?;
     Ok(bytes)
+}
+
+/// A length in pixels, as files have it.
+pub(crate) fn side(length: usize) -> u32 {
+    u32::try_from(length).unwrap_or(u32::MAX)
 }
 
 /// Averages over blocks of rows and columns, with at most [`MOST`] blocks.

@@ -17,10 +17,13 @@ pub(crate) fn thin(points: Vec<Point>, (low, high): (f64, f64), columns: usize) 
     }
     let column = |p: &Point| ((p.0 - low) / (high - low) * columns as f64).floor() as i64;
     let mut kept = Vec::with_capacity(2 * columns + 2);
+    // A repetition of an end is invisible.
+    kept.extend(points.first());
     for run in points.chunk_by(|a, b| column(a) == column(b)) {
         push_extremes(run, &mut kept);
     }
-    with_ends(&points, kept)
+    kept.extend(points.last());
+    kept
 }
 
 /// Appends the lowest and the highest point of `run` in their order.
@@ -38,12 +41,6 @@ fn push_extremes(run: &[Point], kept: &mut Vec<Point>) {
     if lowest != highest {
         kept.push(run[lowest.max(highest)]);
     }
-}
-
-/// Adds the first and the last of `points`; a repetition is invisible.
-fn with_ends(points: &[Point], kept: Vec<Point>) -> Vec<Point> {
-    let ends = (points.first().copied(), points.last().copied());
-    ends.0.into_iter().chain(kept).chain(ends.1).collect()
 }
 
 #[cfg(test)]

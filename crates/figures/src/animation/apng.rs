@@ -2,7 +2,8 @@
 
 use super::palette::Palette;
 use super::patch::{Patch, Writer};
-use crate::error::FigureError;
+use crate::error::{FigureError, unpacked};
+use crate::picture::side;
 use png::{BlendOp, DisposeOp, EncodingError, Filter};
 
 pub(super) struct Apng {
@@ -58,10 +59,6 @@ impl Writer for Apng {
     }
 
     fn finish(self: Box<Self>) -> Result<Vec<u8>, FigureError> {
-        self.written().map_err(|error| FigureError::Png(error.to_string()))
+        self.written().map_err(unpacked)
     }
-}
-
-fn side(length: usize) -> u32 {
-    u32::try_from(length).unwrap_or(u32::MAX)
 }

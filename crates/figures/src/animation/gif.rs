@@ -2,8 +2,8 @@
 
 use super::palette::Palette;
 use super::patch::{Patch, Writer};
-use crate::error::FigureError;
-use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
+use crate::error::{FigureError, unpacked};
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::borrow::Cow;
 
 pub(super) struct Gif {
@@ -16,9 +16,9 @@ impl Gif {
         (width, height): (usize, usize),
         palette: Palette,
     ) -> Result<Self, FigureError> {
-        let mut encoder = Encoder::new(vec![], side(width), side(height), &palette.bytes())
-            .map_err(|error| failed(&error))?;
-        encoder.set_repeat(Repeat::Infinite).map_err(|error| failed(&error))?;
+        let mut encoder =
+            Encoder::new(vec![], side(width), side(height), &palette.bytes()).map_err(unpacked)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(unpacked)?;
         Ok(Self { encoder, palette })
     }
 }
@@ -36,16 +36,12 @@ impl Writer for Gif {
             buffer: Cow::Owned(self.palette.indices(&patch.pixels)),
             ..Frame::default()
         };
-        self.encoder.write_frame(&frame).map_err(|error| failed(&error))
+        self.encoder.write_frame(&frame).map_err(unpacked)
     }
 
     fn finish(self: Box<Self>) -> Result<Vec<u8>, FigureError> {
-        self.encoder.into_inner().map_err(|error| FigureError::Png(error.to_string()))
+        self.encoder.into_inner().map_err(unpacked)
     }
-}
-
-fn failed(error: &EncodingError) -> FigureError {
-    FigureError::Png(error.to_string())
 }
 
 /// A length in pixels; the number of pixels of a frame is limited far below this type's range.

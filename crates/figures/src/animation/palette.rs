@@ -24,8 +24,8 @@ impl Palette {
     /// The colours of these frames: all of them, or the means of the most frequent groups of similar ones.
     pub(super) fn of(frames: &[Vec<u8>]) -> Self {
         let mut counts: HashMap<[u8; 3], u64> = HashMap::new();
-        for pixel in frames.iter().flat_map(|frame| frame.chunks_exact(3)) {
-            *counts.entry([pixel[0], pixel[1], pixel[2]]).or_default() += 1;
+        for pixel in frames.iter().flat_map(|frame| frame.as_chunks().0) {
+            *counts.entry(*pixel).or_default() += 1;
         }
         let mut colours: Vec<[u8; 3]> =
             if counts.len() <= MOST { counts.into_keys().collect() } else { means(counts) };
@@ -89,19 +89,19 @@ mod tests {
     fn few_colours_are_kept_and_many_are_met_closely() {
         let few: Vec<u8> = (0..=200).flat_map(|i| [i, 255 - i, 7]).collect();
         let mut palette = Palette::of(std::slice::from_ref(&few));
-        for colour in few.chunks_exact(3).map(|c| [c[0], c[1], c[2]]) {
-            let index = usize::from(palette.indices(&[Some(colour)])[0]);
-            assert_eq!(palette.bytes()[3 * index..3 * index + 3], colour);
+        for colour in few.as_chunks().0 {
+            let index = usize::from(palette.indices(&[Some(*colour)])[0]);
+            assert_eq!(palette.bytes()[3 * index..3 * index + 3], *colour);
         }
         assert_eq!(palette.indices(&[None]), [0]);
         let ramp: Vec<u8> =
             (0..=255_u8).flat_map(|r| (0..8).flat_map(move |g| [r, g, r])).collect();
         let mut palette = Palette::of(std::slice::from_ref(&ramp));
         assert!(palette.bytes().len() <= 3 * 256);
-        for colour in ramp.chunks_exact(3).map(|c| [c[0], c[1], c[2]]) {
-            let index = usize::from(palette.indices(&[Some(colour)])[0]);
+        for colour in ramp.as_chunks().0 {
+            let index = usize::from(palette.indices(&[Some(*colour)])[0]);
             let found = &palette.bytes()[3 * index..3 * index + 3];
-            assert!(found.iter().zip(colour).all(|(a, b)| a.abs_diff(b) <= 8), "{colour:?}");
+            assert!(found.iter().zip(colour).all(|(a, b)| a.abs_diff(*b) <= 8), "{colour:?}");
         }
     }
 }

@@ -33,20 +33,21 @@ impl Patch {
         (width, height): (usize, usize),
     ) -> Self {
         let Some(before) = before else {
-            let pixels = now.chunks_exact(3).map(|p| Some([p[0], p[1], p[2]])).collect();
+            let pixels = now.as_chunks().0.iter().copied().map(Some).collect();
             return Self { left: 0, top: 0, width, height, pixels };
         };
-        let row = |all: &[u8], y: usize| all[3 * width * y..3 * width * (y + 1)].to_vec();
+        let [(before, _), (now, _)] = [before, now].map(<[u8]>::as_chunks::<3>);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
         for y in 0..height {
-            let (a, b) = (row(before, y), row(now, y));
+            let row = width * y..width * (y + 1);
+            let (a, b) = (&before[row.clone()], &now[row]);
             if a == b {
                 continue;
             }
             (top, bottom) = (top.min(y), y + 1);
             let differs = |i: &usize| a[*i] != b[*i];
-            let first = (0..3 * width).find(differs).map_or(width, |i| i / 3);
-            let last = (0..3 * width).rev().find(differs).map_or(0, |i| i / 3 + 1);
+            let first = (0..width).find(differs).unwrap_or(width);
+            let last = (0..width).rev().find(differs).map_or(0, |i| i + 1);
             (left, right) = (left.min(first), right.max(last));
         }
         if top >= bottom {
@@ -55,11 +56,8 @@ impl Patch {
         let (left, top) = (left - left % 2, top - top % 2);
         let mut pixels = Vec::with_capacity((right - left) * (bottom - top));
         for y in top..bottom {
-            for x in left..right {
-                let i = 3 * (width * y + x);
-                let (a, b) = (&before[i..i + 3], &now[i..i + 3]);
-                pixels.push((a != b).then_some([b[0], b[1], b[2]]));
-            }
+            let places = width * y + left..width * y + right;
+            pixels.extend(places.map(|i| (before[i] != now[i]).then_some(now[i])));
         }
         Self { left, top, width: right - left, height: bottom - top, pixels }
     }

@@ -127,7 +127,7 @@ impl<'a> Stage<'a> {
         let (size, x, y) = (LABEL_SIZE, at.right - 10.0, at.top + 8.0 + 0.8 * LABEL_SIZE);
         let left = x - width(&label, size) - 4.0;
         let ground = Rect { left, right: x + 4.0, top: at.top + 4.0, bottom: y + 0.4 * size };
-        drawing.rect(ground, Paint { fill_opacity: Some(0.8), ..Paint::fill(PAPER) });
+        drawing.rect(ground, Paint::translucent(PAPER, 0.8));
         drawing.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
     }
 }

@@ -1,7 +1,8 @@
 //! WebP: lossless pictures by the crate image-webp, in the container of an animation (RFC 9649, section 2.7).
 
 use super::patch::{Patch, Writer};
-use crate::error::FigureError;
+use crate::error::{FigureError, unpacked};
+use crate::picture::side;
 use image_webp::{ColorType, EncoderParams, WebPEncoder};
 
 /// Flags of VP8X for transparency and animation.
@@ -68,15 +69,12 @@ fn encoded(
     (width, height): (usize, usize),
     is_predicted: bool,
 ) -> Result<Vec<u8>, FigureError> {
-    let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
     let mut params = EncoderParams::default();
     params.use_predictor_transform = is_predicted;
     let mut file = vec![];
     let mut encoder = WebPEncoder::new(&mut file);
     encoder.set_params(params);
-    encoder
-        .encode(pixels, side(width), side(height), ColorType::Rgba8)
-        .map_err(|error| FigureError::Png(error.to_string()))?;
+    encoder.encode(pixels, side(width), side(height), ColorType::Rgba8).map_err(unpacked)?;
     Ok(file)
 }
 
@@ -90,7 +88,7 @@ fn push(chunks: &mut Vec<u8>, name: &[u8; 4], content: &[u8]) {
 }
 
 fn four(number: usize) -> [u8; 4] {
-    u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes()
+    side(number).to_le_bytes()
 }
 
 fn three(number: usize) -> [u8; 3] {

@@ -310,9 +310,8 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
 pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
     deserializer: D,
 ) -> Result<Q, D::Error> {
-    let refused = |refused: Refused| D::Error::custom(refused.described(str::to_owned));
     match Distinct::deserialize(deserializer)? {
-        Distinct(Value::Object(values)) => question(values).map_err(refused),
+        Distinct(Value::Object(values)) => question(values).map_err(D::Error::custom),
         _ => Err(D::Error::custom("parameters are an object")),
     }
 }

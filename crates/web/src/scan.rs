@@ -74,7 +74,7 @@ fn plan(parameters: &Parameters, scan: &Scan) -> Result<Plan, Refusal> {
         kick_across: parameters.pushed_across(),
         sampling: Sampling::default(),
     };
-    Ok(question.prepared()?)
+    Ok(question.plan()?)
 }
 
 /// Scans, and calls `on_line` after each line with its number from 1, the first row that it changed, the columns and the heights.

@@ -64,7 +64,7 @@ fn of_document(
         |message: String| Failure::file("RUN.json", &arguments.run, format!("damaged: {message}"));
     let unusable = |error: Unusable| damaged(error.to_string());
     let whole = run.parameters.prepared();
-    let whole = whole.map_err(|failure| damaged(failure.described(str::to_owned)))?;
+    let whole = whole.map_err(|failure| damaged(failure.to_string()))?;
     let (scenario, memory) = (whole.along(), &run.work.memory);
     let motion = Motion::of(&run, &whole).map_err(unusable)?;
     let samples = match &motion {

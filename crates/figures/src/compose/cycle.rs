@@ -25,8 +25,7 @@ const MOST_STEPS: f64 = 1e6;
 impl Drawn for CycleDocument {
     fn figure(&self, view: &View) -> Result<FigureDocument, FigureError> {
         let question = &self.parameters;
-        let model =
-            question.model().map_err(|refused| Unusable::new(refused.described(str::to_owned)))?;
+        let model = question.model().map_err(Unusable::new)?;
         let parameters = question.model_parameters();
         let stable = if self.stable { "stable" } else { "unstable" };
         let name = model_name(&parameters);

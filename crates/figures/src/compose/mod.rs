@@ -40,7 +40,9 @@ use crate::scene::{Scene, Shot};
 #[cfg(feature = "animation")]
 use in_units::InUnits;
 use in_units::{in_units, judge_ranges, view_in_model_units};
-use stickslip::{BoundaryDocument, FigureDocument, KnownScales, PanelDocument, Tabular, Unusable};
+use stickslip::{
+    BoundaryDocument, Failure, FigureDocument, KnownScales, PanelDocument, Tabular, Unusable,
+};
 
 pub use drawn::{Drawn, View};
 pub use sweep::judge_sweep;
@@ -149,5 +151,11 @@ impl Drawn for FigureDocument {
 impl From<Unusable> for FigureError {
     fn from(error: Unusable) -> Self {
         Self::Damaged(error.to_string())
+    }
+}
+
+impl From<Failure> for FigureError {
+    fn from(failure: Failure) -> Self {
+        Unusable::from(failure).into()
     }
 }

@@ -490,17 +490,17 @@ impl Tabular for ContinueFound {
             self.branches.iter().map(of).collect()
         };
         let numbers = self.branches.iter().enumerate();
-        let numbers: Vec<f64> = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]).collect();
+        let numbers = numbers.flat_map(|(i, b)| vec![i as f64; b.alpha.len()]);
         let stable = self.branches.iter().flat_map(|b| &b.stable);
-        let stable: Vec<f64> = stable.map(|stable| f64::from(u8::from(*stable))).collect();
+        let stable = stable.map(|stable| f64::from(u8::from(*stable)));
         vec![
-            ("branch", numbers.into()),
+            ("branch", numbers.collect()),
             ("alpha", joined(|b| &b.alpha)),
             ("r", joined(|b| &b.r)),
             ("period", joined(|b| &b.period)),
             ("amplitude_x0", joined(|b| &b.amplitude_x0)),
             ("amplitude_u", joined(|b| &b.amplitude_u)),
-            ("stable", stable.into()),
+            ("stable", stable.collect()),
             ("multiplier_re", joined(|b| &b.multiplier_re)),
             ("multiplier_im", joined(|b| &b.multiplier_im)),
         ]

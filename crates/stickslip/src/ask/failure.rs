@@ -1,5 +1,6 @@
 //! Reasons why a question has no answer, in words for all interfaces.
 
+use crate::Unusable;
 use std::borrow::Cow;
 use std::fmt::{self, Display};
 use stickslip_cycles::CycleError;
@@ -13,10 +14,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Failure {
     /// A parameter is invalid.
-    #[error("{}", .0.described(str::to_owned))]
+    #[error("{0}")]
     Refused(Refused),
     /// The computation has no result, for this reason.
-    #[error("{0}")]
+    #[error("{}", named(.0, str::to_owned))]
     Failed(String),
     /// The work was cancelled: see [`Context::cancelled_by`].
     #[error("cancelled")]
@@ -100,6 +101,13 @@ impl Refused {
     }
 }
 
+/// The sentence with the names of parameters as in Python.
+impl Display for Refused {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.described(str::to_owned))
+    }
+}
+
 /// A text with each `{parameter}` replaced by `name`.
 fn named(text: &str, name: impl Fn(&str) -> String) -> String {
     let mut named = String::new();
@@ -120,8 +128,16 @@ impl Failure {
     pub fn described(&self, name: impl Fn(&str) -> String) -> String {
         match self {
             Self::Refused(refused) => refused.described(name),
-            other => named(&other.to_string(), name),
+            Self::Failed(why) => named(why, name),
+            Self::Cancelled => self.to_string(),
         }
+    }
+}
+
+impl From<Failure> for Unusable {
+    /// The reason why the question of a document has no answer.
+    fn from(failure: Failure) -> Self {
+        Self::new(failure)
     }
 }
 

@@ -606,15 +606,15 @@ impl DataFitted {
 impl Tabular for FitFound {
     /// The parameters as a table, with a row for each parameter.
     fn columns(&self) -> Vec<Named<'_>> {
-        let names = self.numbers.iter().map(|n| n.name.clone()).collect();
-        let of = |of: fn(&EstimateDocument) -> Option<f64>| -> Vec<Option<f64>> {
+        let names = self.numbers.iter().map(|n| n.name.clone());
+        let of = |of: fn(&EstimateDocument) -> Option<f64>| {
             self.numbers.iter().map(|n| of(&n.estimate)).collect()
         };
         vec![
             ("number", Column::words(names)),
-            ("value", of(|e| Some(e.value)).into()),
-            ("low", of(|e| e.low).into()),
-            ("high", of(|e| e.high).into()),
+            ("value", of(|e| Some(e.value))),
+            ("low", of(|e| e.low)),
+            ("high", of(|e| e.high)),
         ]
     }
 }

@@ -327,22 +327,19 @@ impl Ask for LoadMap {
 
 impl Tabular for LoadMapFound {
     fn columns(&self) -> Vec<Named<'_>> {
-        let of = |number: fn(&LoadPoint) -> f64| self.points.iter().map(number).collect::<Vec<_>>();
+        let of = |number: fn(&LoadPoint) -> f64| self.points.iter().map(number).collect();
         let word =
             |regime: Option<RegimeName>| regime.map_or(String::new(), |name| name.to_string());
         let critical = self.points.iter().enumerate();
         let critical = critical.map(|(n, _)| self.critical_load[n % self.velocity.len()]);
         vec![
-            ("load_nN", of(|point| point.load).into()),
-            ("velocity", of(|point| point.velocity).into()),
-            ("alpha", of(|point| point.alpha).into()),
-            ("width", of(|point| point.width).into()),
-            ("regime", Column::words(self.points.iter().map(|point| word(point.regime)).collect())),
-            (
-                "wavelength",
-                self.points.iter().map(|point| point.wavelength).collect::<Vec<_>>().into(),
-            ),
-            ("critical_load_nN", critical.collect::<Vec<_>>().into()),
+            ("load_nN", of(|point| point.load)),
+            ("velocity", of(|point| point.velocity)),
+            ("alpha", of(|point| point.alpha)),
+            ("width", of(|point| point.width)),
+            ("regime", Column::words(self.points.iter().map(|point| word(point.regime)))),
+            ("wavelength", self.points.iter().map(|point| point.wavelength).collect()),
+            ("critical_load_nN", critical.collect()),
         ]
     }
 

@@ -135,7 +135,7 @@ impl TipFields {
         let Self { name, beta, width, gaussians, layers, x, f } = self;
         let named = |name| {
             let named = NamedTip { name: Some(name), beta, width };
-            named.tip().map_err(|refused| refused.described(str::to_owned))
+            named.tip().map_err(|refused| refused.to_string())
         };
         match (name.as_deref(), gaussians, layers, x.zip(f)) {
             (None | Some("gaussians"), Some(gaussians), None, None) => {

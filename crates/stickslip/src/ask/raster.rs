@@ -108,8 +108,8 @@ impl Question for Raster {
 
     /// The height map `u`, with a row for each of `u_y` and a column for each of `u_x`.
     fn more_arrays(&self, answer: &RasterFound) -> Vec<(&'static str, Array<'static>)> {
-        let scanned = self.plan().and_then(|plan| Ok((answer.history.lines(&plan)?, plan)));
-        let Ok((lines, plan)) = scanned else { return vec![] };
+        let Ok(plan) = self.plan() else { return vec![] };
+        let Ok(lines) = answer.history.lines(&plan) else { return vec![] };
         let map = HeightMap::of(&plan, &lines);
         let u = Array { shape: vec![map.y.len(), map.x.len()], values: map.u.concat().into() };
         vec![("u_x", Array::vector(map.x)), ("u_y", Array::vector(map.y)), ("u", u)]
@@ -183,7 +183,7 @@ impl Raster {
     ///
     /// # Errors
     /// A parameter is out of its range, or contradicts another.
-    pub fn prepared(&self) -> Result<Plan, Failure> {
+    pub fn plan(&self) -> Result<Plan, Failure> {
         let model = self.indentation.model(&self.tip.0, self.law.into(), self.r)?;
         // A saved question contains the resolved values.
         let (footprint, _) = footprint(self.width_y, model.tip())?;
@@ -209,14 +209,6 @@ impl Raster {
                 Err(Refused::number("kick_across", kick, why))
             }
         }
-    }
-
-    /// The plan of a question that was read from a document and may be invalid.
-    ///
-    /// # Errors
-    /// The parameters define no raster.
-    pub fn plan(&self) -> Result<Plan, Unusable> {
-        self.prepared().map_err(|failure| Unusable::new(failure.described(str::to_owned)))
     }
 
     /// The rejection of the parameter that caused this error.
@@ -313,7 +305,7 @@ impl Ask for Raster {
         let indentation = self.indentation.resolved(&self.tip.0, self.law.into(), self.r)?;
         let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
         let question = Self { indentation, width_y, ..self };
-        let plan = question.prepared()?;
+        let plan = question.plan()?;
         let (pitch, lines, length) =
             (plan.area.pitch(plan.path), plan.lines(), plan.area.longest());
         let question = Self { pitch, lines, length, ..question };
@@ -322,7 +314,7 @@ impl Ask for Raster {
     }
 
     fn answer(&self, context: &Context) -> Result<(RasterFound, Vec<String>), Failure> {
-        let plan = self.prepared()?;
+        let plan = self.plan()?;
         let times = self.times(&plan)?;
         let failed = |error: RasterError| Failure::Failed(error.to_string());
         let mut scanning = Scanning::new(&plan).map_err(failed)?;

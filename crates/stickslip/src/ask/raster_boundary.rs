@@ -203,7 +203,7 @@ impl Tabular for RasterBoundaryFound {
         let Self { pitch, alpha, q, kappa, crest_angle, alpha_zigzag, .. } = self;
         let mut columns = columns!(pitch, alpha, q, kappa, crest_angle, alpha_zigzag);
         if let Some(ThresholdColumns { kind, ripples, bunching, snaking }) = &self.thresholds {
-            let kinds = kind.iter().map(|kind| kind.as_str().into()).collect();
+            let kinds = kind.iter().map(|kind| kind.as_str().into());
             columns.extend([
                 ("kind", Column::words(kinds)),
                 ("alpha_ripples", ripples.into()),

@@ -330,9 +330,7 @@ impl Tabular for RasterStabilityFound {
         }
         let critical = self.critical.as_slice();
         let rows = self.thresholds.as_deref().unwrap_or(critical);
-        let column = |of: fn(&RasterCriticalDocument) -> Option<f64>| {
-            Column::from(rows.iter().map(of).collect::<Vec<Option<f64>>>())
-        };
+        let column = |of: fn(&RasterCriticalDocument) -> Option<f64>| rows.iter().map(of).collect();
         let mut columns = vec![
             ("alpha", column(|at| Some(at.alpha))),
             ("q", column(|at| Some(at.q))),
@@ -343,7 +341,7 @@ impl Tabular for RasterStabilityFound {
         ];
         if self.thresholds.is_some() {
             let kinds = rows.iter().filter_map(|at| at.kind).map(RasterKindName::as_str);
-            columns.push(("kind", Column::words(kinds.map(Into::into).collect())));
+            columns.push(("kind", Column::words(kinds.map(Into::into))));
         }
         columns
     }

@@ -186,7 +186,7 @@ impl RasterSweep {
         let (pitch, alpha) = self.place(index);
         let point = RasterSweepPoint::at(index, (pitch, alpha), self.threshold(pitch));
         let scanned = || -> Result<(Plan, Vec<Line>), String> {
-            let plan = self.plan(index).map_err(|refused| refused.described(str::to_owned))?;
+            let plan = self.plan(index).map_err(|refused| refused.to_string())?;
             let mut scanning = Scanning::new(&plan).map_err(|error| error.to_string())?;
             while scanning.next_line().map_err(|error| error.to_string())?.is_some() {}
             let lines = scanning.into_lines();

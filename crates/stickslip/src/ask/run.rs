@@ -147,8 +147,7 @@ impl Document<Run> {
     /// # Errors
     /// The tip is held on its line, the parameters define no run, or the history is missing or invalid.
     pub fn trajectory_across(&self) -> Result<(PlanarScenario, planar::Trajectory), Unusable> {
-        let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
-        let RunScenario::Across(scenario) = self.parameters.prepared().map_err(unusable)? else {
+        let RunScenario::Across(scenario) = self.parameters.prepared()? else {
             return Err(Unusable::new("the tip is held on its line"));
         };
         let missing = || Unusable::new("history: it was left out; run it again with --history all");
@@ -437,11 +436,14 @@ impl Run {
 
     /// The start time of a run with a steady start.
     pub(crate) fn started_at(&self) -> Result<f64, Failure> {
-        Ok(Self { start: Some(StartName::Steady), ..self.clone() }.checked()?.start_time())
+        Ok(Self { start: Some(StartName::Steady), ..self.clone() }.scenario()?.start_time())
     }
 
     /// The scenario along the scan of a resolved question.
-    pub(super) fn checked(&self) -> Result<Scenario, Failure> {
+    ///
+    /// # Errors
+    /// A parameter is out of its range, or contradicts another.
+    pub fn scenario(&self) -> Result<Scenario, Failure> {
         let scenario = self.assembled()?;
         scenario.validate().map_err(|error| self.refused(&error))?;
         Ok(scenario)
@@ -471,21 +473,12 @@ impl Run {
         })
     }
 
-    /// The scenario along the scan of a question that was read from a document and may be invalid.
-    ///
-    /// # Errors
-    /// The parameters define no run.
-    pub fn scenario(&self) -> Result<Scenario, Unusable> {
-        let unusable = |failure: Failure| Unusable::new(failure.described(str::to_owned));
-        self.checked().map_err(unusable)
-    }
-
     /// The scenario of a resolved question.
     ///
     /// # Errors
     /// A parameter is out of its range, contradicts another, or is not available in two coordinates.
     pub fn prepared(&self) -> Result<RunScenario, Failure> {
-        let along = self.checked()?;
+        let along = self.scenario()?;
         if let Some(stiffness) = self.stiffness_across {
             return Ok(RunScenario::Across(self.across(along, stiffness)?));
         }

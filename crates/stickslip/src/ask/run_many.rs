@@ -94,7 +94,7 @@ fn begun(question: Run, context: &Context) -> Result<Result<Begun, Run>, Failure
     if question.stiffness_across.is_some() {
         return Ok(Err(question));
     }
-    let scenario = question.checked()?;
+    let scenario = question.scenario()?;
     let span = (scenario.start_time(), scenario.until);
     let times = question.sampling.times(span, "the run", true)?;
     Ok(Ok(Begun { question, scenario, times }))

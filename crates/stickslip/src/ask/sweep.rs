@@ -331,7 +331,7 @@ impl Points for SweepParameters {
                 }),
                 (Ok(model), Some(run)) => match started::scenario(model, &run, self.tolerance) {
                     Ok(scenario) => begun.push((point, scenario)),
-                    Err(failure) => take(failed(failure.described(str::to_owned))),
+                    Err(failure) => take(failed(failure.to_string())),
                 },
             }
         }

@@ -309,7 +309,7 @@ impl Tabular for UnitsDocument {
     fn columns(&self) -> Vec<Named<'_>> {
         let quantities = self.quantities();
         let words = |of: fn(&(&'static str, Option<f64>, &'static str)) -> String| {
-            Column::words(quantities.iter().map(of).collect())
+            Column::words(quantities.iter().map(of))
         };
         vec![
             ("quantity", words(|(name, _, _)| (*name).into())),

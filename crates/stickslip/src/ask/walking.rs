@@ -156,10 +156,8 @@ impl From<&Walk> for WalkDocument {
 impl Tabular for WalkingFound {
     /// The growth exponents of each speed, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        let column = |of: fn(&WalkDocument, &ComplexDocument) -> f64| {
-            let rows =
-                self.walks.iter().flat_map(|walk| walk.roots.iter().map(move |z| of(walk, z)));
-            Column::from(rows.collect::<Vec<f64>>())
+        let column = |of: fn(&WalkDocument, &ComplexDocument) -> f64| -> Column {
+            self.walks.iter().flat_map(|walk| walk.roots.iter().map(move |z| of(walk, z))).collect()
         };
         vec![
             ("speed", column(|walk, _| walk.speed)),

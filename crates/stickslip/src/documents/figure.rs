@@ -1,6 +1,6 @@
 //! `stickslip/figure`: figures as data.
 
-use crate::documents::table::{Named, Tabular};
+use crate::documents::table::Tabular;
 use crate::schema::JsonSchema;
 use crate::{FORMAT_VERSION, ModelParameters, Software};
 use serde::{Deserialize, Serialize};
@@ -67,12 +67,8 @@ impl FigureDocument {
     }
 }
 
-impl Tabular for FigureDocument {
-    /// No columns: each curve has its own numbers.
-    fn columns(&self) -> Vec<Named<'_>> {
-        vec![]
-    }
-}
+/// Not a table: each curve has its own numbers.
+impl Tabular for FigureDocument {}
 
 /// The models from which a figure was computed.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

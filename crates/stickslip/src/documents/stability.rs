@@ -1,6 +1,6 @@
 //! `stickslip/stability`.
 
-use crate::documents::table::{Column, Named, Tabular};
+use crate::documents::table::{Named, Tabular};
 use crate::schema::JsonSchema;
 use crate::twins::twins;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -251,9 +251,7 @@ impl From<&Onset> for OnsetDocument {
 impl Tabular for StabilityFound {
     /// The growth exponents as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        let column = |of: fn(&ComplexDocument) -> f64| {
-            Column::from(self.roots.iter().map(of).collect::<Vec<_>>())
-        };
+        let column = |of: fn(&ComplexDocument) -> f64| self.roots.iter().map(of).collect();
         vec![("re", column(|root| root.re)), ("im", column(|root| root.im))]
     }
 }

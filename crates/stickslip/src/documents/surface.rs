@@ -82,8 +82,8 @@ impl Tabular for SurfaceFound {
             let joined = |of: fn(&SurfaceCurve) -> &Vec<f64>| -> Column {
                 surfaces.iter().map(of).collect()
             };
-            let t: Vec<f64> = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
-            return vec![("t", t.into()), ("x", joined(|s| &s.x)), ("u", joined(|s| &s.u))];
+            let t = surfaces.iter().flat_map(|s| s.x.iter().map(|_| s.t)).collect();
+            return vec![("t", t), ("x", joined(|s| &s.x)), ("u", joined(|s| &s.u))];
         };
         let (columns, rows) = (first.x.len(), first.y.len());
         let t: Vec<f64> = images.iter().map(|image| image.t).collect();

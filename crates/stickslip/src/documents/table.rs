@@ -79,7 +79,9 @@ pub struct Array<'a> {
 /// A document that can be written as a table (CSV) or as arrays (NPZ).
 pub trait Tabular {
     /// The columns of the table; empty if the document has no table.
-    fn columns(&self) -> Vec<Named<'_>>;
+    fn columns(&self) -> Vec<Named<'_>> {
+        vec![]
+    }
 
     /// A comment below the table, for information that no column contains.
     fn note(&self) -> Option<String> {
@@ -125,8 +127,8 @@ pub(crate) fn as_arrays(
 
 impl<'a> Column<'a> {
     /// A column of words that no array contains.
-    pub fn words(words: Vec<String>) -> Self {
-        Self::Words(words.into(), None)
+    pub fn words(words: impl IntoIterator<Item = String>) -> Self {
+        Self::Words(words.into_iter().collect::<Vec<_>>().into(), None)
     }
 
     /// The column multiplied by a factor.
@@ -190,6 +192,18 @@ pub(crate) fn joined<'v>(lists: impl IntoIterator<Item = &'v Vec<f64>>) -> Vec<f
 impl From<Vec<Option<f64>>> for Column<'_> {
     fn from(values: Vec<Option<f64>>) -> Self {
         Self::Optional(values.into())
+    }
+}
+
+impl FromIterator<f64> for Column<'_> {
+    fn from_iter<I: IntoIterator<Item = f64>>(values: I) -> Self {
+        values.into_iter().collect::<Vec<_>>().into()
+    }
+}
+
+impl FromIterator<Option<f64>> for Column<'_> {
+    fn from_iter<I: IntoIterator<Item = Option<f64>>>(values: I) -> Self {
+        values.into_iter().collect::<Vec<_>>().into()
     }
 }
 

@@ -90,7 +90,7 @@ pub(super) fn question<Q: Questions>(
     }
     let refused = |failure| refusal(failure, &options.tip, &files);
     let question = question.resolved(&context(session)).map_err(refused)?;
-    let plan = question.prepared().map_err(refused)?;
+    let plan = question.plan().map_err(refused)?;
     let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
     warn_of_pulses_outside(session, pulse, &pulses, (0.0, plan.duration(0)));
     Ok((question, plan))

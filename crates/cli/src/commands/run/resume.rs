@@ -34,7 +34,7 @@ pub(super) fn resume(
     redirect(&mut head.order, checkpoint.path(), arguments)?;
     let parameters = &head.order.parameters;
     let scenario = parameters.prepared();
-    let scenario = scenario.map_err(|error| named(error.described(str::to_owned)))?;
+    let scenario = scenario.map_err(|error| named(error.to_string()))?;
     let place = Place { checkpoint, before, arguments };
     match &scenario {
         RunScenario::Along(scenario) => {

@@ -41,7 +41,7 @@ pub(crate) fn surface(session: &Session, arguments: &SurfaceArguments) -> Result
     let unusable = |error: Unusable| damaged(error.to_string());
     let model = document.parameters.model_parameters().model().map_err(unusable)?;
     let trajectory = document.trajectory().map_err(unusable)?;
-    let scenario = document.parameters.scenario().map_err(unusable)?;
+    let scenario = document.parameters.scenario().map_err(|failure| unusable(failure.into()))?;
     let initial = scenario.initial_surface().map_err(|error| damaged(error.to_string()))?;
     let places = Places::requested(arguments, &trajectory, format.most_pixels())?;
     let physical = document.physical.as_ref();

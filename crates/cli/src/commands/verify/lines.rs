@@ -71,7 +71,7 @@ fn survey(file: &File) -> Result<(RunHead, RunScenario, Extent), Flaw> {
     let head = lines.head()?;
     let damaged = |message: String| Flaw::Damaged(format!("line 1: {message}"));
     let surveyed = head.parameters.prepared();
-    let surveyed = surveyed.map_err(|error| damaged(error.described(str::to_owned)))?;
+    let surveyed = surveyed.map_err(|error| damaged(error.to_string()))?;
     let scenario = surveyed.along();
     let extent = lines.survey(&(scenario.start_time()..=scenario.until))?;
     Ok((head, surveyed, extent))

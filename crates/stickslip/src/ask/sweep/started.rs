@@ -37,7 +37,7 @@ pub(super) fn scenario(
             run.until,
         )
     };
-    question.resolved(&Context::default())?.checked()
+    question.resolved(&Context::default())?.scenario()
 }
 
 /// Number of samples of l in the second half of a run.

@@ -164,9 +164,8 @@ impl Tabular for RasterCompareFound {
         let joined =
             |of: fn(&ComparedLine) -> &Vec<f64>| -> Column { self.lines.iter().map(of).collect() };
         let rows = |(n, line): (usize, &ComparedLine)| vec![n as f64 + 1.0; line.t.len()];
-        let numbers: Vec<f64> = self.lines.iter().enumerate().flat_map(rows).collect();
         let mut columns = vec![
-            ("line", numbers.into()),
+            ("line", self.lines.iter().enumerate().flat_map(rows).collect()),
             ("t", joined(|line| &line.t)),
             ("closed", joined(|line| &line.closed_x0)),
             ("grid", joined(|line| &line.grid_x0)),

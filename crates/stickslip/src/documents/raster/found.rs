@@ -80,13 +80,13 @@ const SOME: [(&str, SomeSamples); 3] = [
 impl Tabular for RasterFound {
     /// The samples as a table, line after line.
     fn columns(&self) -> Vec<Named<'_>> {
-        let joined = |of: fn(&RasterSamples) -> &Vec<f64>| -> Column {
-            self.lines.iter().flat_map(|line| of(&line.samples)).copied().collect::<Vec<_>>().into()
+        let joined = |of: fn(&RasterSamples) -> &Vec<f64>| {
+            self.lines.iter().map(|line| of(&line.samples)).collect()
         };
         // Lines of a shape have not all as many samples.
-        let repeated = |of: &dyn Fn(usize) -> f64| -> Column {
+        let repeated = |of: &dyn Fn(usize) -> f64| {
             let rows = |(n, line): (usize, &RasterLine)| vec![of(n); line.samples.t.len()];
-            self.lines.iter().enumerate().flat_map(rows).collect::<Vec<_>>().into()
+            self.lines.iter().enumerate().flat_map(rows).collect()
         };
         let mut columns = vec![
             ("line", repeated(&|n| n as f64 + 1.0)),

@@ -68,12 +68,10 @@ impl RasterSweepPoint {
 impl Tabular for RasterSweepFound {
     /// A row for each point.
     fn columns(&self) -> Vec<Named<'_>> {
-        let of = |value: fn(&RasterSweepPoint) -> Option<f64>| -> Column {
-            self.points.iter().map(value).collect::<Vec<_>>().into()
-        };
-        let pattern = |value: fn(&PatternDocument) -> Option<f64>| -> Column {
-            let values = self.points.iter().map(|point| point.pattern.as_ref().and_then(value));
-            values.collect::<Vec<_>>().into()
+        let of =
+            |value: fn(&RasterSweepPoint) -> Option<f64>| self.points.iter().map(value).collect();
+        let pattern = |value: fn(&PatternDocument) -> Option<f64>| {
+            self.points.iter().map(|point| point.pattern.as_ref().and_then(value)).collect()
         };
         let regime = |point: &RasterSweepPoint| {
             point.regime.map_or(String::new(), |regime| regime.to_string())
@@ -82,7 +80,7 @@ impl Tabular for RasterSweepFound {
             ("pitch", of(|point| Some(point.pitch))),
             ("alpha", of(|point| Some(point.alpha))),
             ("critical_alpha", of(|point| point.critical_alpha)),
-            ("regime", Column::words(self.points.iter().map(regime).collect())),
+            ("regime", Column::words(self.points.iter().map(regime))),
             ("q", pattern(|p| p.q)),
             ("kappa", pattern(|p| p.kappa)),
             ("wavelength", pattern(|p| p.wavelength)),

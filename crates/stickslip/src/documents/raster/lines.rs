@@ -7,7 +7,7 @@ use crate::{History, Unusable};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
-use stickslip_tip::{Heights, STAGES, Step, Support, Work, nodes_and_weights, planar};
+use stickslip_tip::{Heights, STAGES, Stages, Step, Support, Work, nodes_and_weights, planar};
 
 /// Largest distance of a tip from its line in a history, in σ.
 const FARTHEST_ACROSS: f64 = 1e6;
@@ -98,21 +98,17 @@ pub struct LineHistory {
 pub struct KeptLine {
     /// Index of the line, from 0.
     pub index: usize,
-    /// Start, duration, extension and displacements of each step, bit by bit.
-    pub steps: Vec<[f64; 3 + STAGES]>,
-    /// The heights of each step, if there is a depth limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub heights: Option<Vec<Vec<f64>>>,
-    /// For each step of a tip that is free to move across: its distance from the line at the start, and the changes at
-    /// the nodes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub across: Option<Vec<[f64; 1 + STAGES]>>,
-    /// Numbers of accepted steps, rejected steps, and Newton iterations.
-    pub work: [u64; 3],
-    /// Numbers of Taylor expansions and of changes from them to collocation.
-    #[serde(default)]
-    pub series: [u64; 2],
+    /// The steps, bit by bit.
+    pub steps: Vec<KeptStep>,
+    /// Numbers of accepted steps, rejected steps, Newton iterations, Taylor expansions, and changes from them to
+    /// collocation.
+    pub work: [u64; 5],
 }
+
+/// A step of a line: its start, duration and extension; its displacements; the heights at its start and its nodes, if
+/// there is a depth limit; and for a tip that is free to move across, its distance from the line at the start, and the
+/// changes at the nodes.
+type KeptStep = ([f64; 3], Stages, Option<(f64, Stages)>, Option<(f64, Stages)>);
 
 impl RasterLine {
     /// The samples of a line at `times`, up to its end.
@@ -253,21 +249,16 @@ fn outside(line: &Line) -> f64 {
 impl KeptLine {
     /// The line with this index, from 0.
     pub fn of(index: usize, line: &Line) -> Self {
-        let Work { steps: done, rejected, newton_iterations, series, switches } = line.work();
-        let steps = line.trajectory().steps();
-        let heights = |step: &Step| step.height.map(|h| [&[h.start], &h.nodes[..]].concat());
-        let across = |step: planar::Step| {
-            let mut numbers = [step.y; 1 + STAGES];
-            numbers[1..].copy_from_slice(&step.across);
-            numbers
+        let Work { steps, rejected, newton_iterations, series, switches } = line.work();
+        let mut across = line.planar_steps().map(|step| (step.y, step.across));
+        let mut kept = |step: &Step| -> KeptStep {
+            let height = step.height.map(|height| (height.start, height.nodes));
+            ([step.t, step.h, step.extension], step.displacement, height, across.next())
         };
         Self {
             index,
-            steps: steps.iter().map(numbers).collect(),
-            heights: steps.iter().map(heights).collect(),
-            across: line.is_free().then(|| line.planar_steps().map(across).collect()),
-            work: [done, rejected, newton_iterations],
-            series: [series, switches],
+            steps: line.trajectory().steps().iter().map(&mut kept).collect(),
+            work: [steps, rejected, newton_iterations, series, switches],
         }
     }
 
@@ -276,61 +267,32 @@ impl KeptLine {
     /// # Errors
     /// The line does not belong to this plan.
     pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
-        let steps = self.steps().ok_or_else(|| {
-            Unusable::new(format!("line {} has no steps, or no heights of them", self.index + 1))
-        })?;
-        let [done, rejected, newton_iterations] = self.work;
-        let [series, switches] = self.series;
-        let work = Work { steps: done, rejected, newton_iterations, series, switches };
+        if self.steps.is_empty() {
+            return Err(Unusable::new(format!("line {} has no steps", self.index + 1)));
+        }
+        let [steps, rejected, newton_iterations, series, switches] = self.work;
+        let work = Work { steps, rejected, newton_iterations, series, switches };
         let (nodes, weights) = nodes_and_weights();
         let (track, model) = (plan.track(self.index), &plan.law.model);
-        let line =
-            match &self.across {
-                None => Line::new(track, model, steps, work),
-                Some(across) => {
-                    let pairs = steps.into_iter().zip(across);
-                    let step = |(along, [y, across @ ..]): (Step, &[f64; 1 + STAGES])| {
-                        planar::Step { along, y: *y, across: *across }
-                    };
-                    let steps: Vec<planar::Step> = pairs.map(step).collect();
-                    Line::free(track, model, &steps, work)
-                }
-            };
+        let along = self.steps.iter().map(|([t, h, extension], displacement, height, _)| Step {
+            t: *t,
+            h: *h,
+            extension: *extension,
+            displacement: *displacement,
+            height: height.map(|(start, nodes)| Heights { start, nodes }),
+        });
+        let across: Option<Vec<_>> = self.steps.iter().map(|(.., across)| *across).collect();
+        let line = match across {
+            None => Line::new(track, model, along.collect(), work),
+            Some(across) => {
+                let steps = along.zip(across);
+                let steps = steps.map(|(along, (y, across))| planar::Step { along, y, across });
+                Line::free(track, model, &steps.collect::<Vec<_>>(), work)
+            }
+        };
         LineHistory::of(&line).line((&nodes, &weights), plan, self.index, work)?;
         Ok(line)
     }
-
-    /// The steps of the line; `None` if there are none, or if the number of heights or positions across differs.
-    fn steps(&self) -> Option<Vec<Step>> {
-        let steps = self.steps.iter().map(step);
-        let steps: Vec<Step> = match &self.heights {
-            None => steps.collect(),
-            Some(heights) if heights.len() == self.steps.len() => {
-                let with = |(step, heights): (Step, &Vec<f64>)| {
-                    let (start, nodes) = heights.split_first()?;
-                    let nodes = nodes.try_into().ok()?;
-                    Some(Step { height: Some(Heights { start: *start, nodes }), ..step })
-                };
-                steps.zip(heights).map(with).collect::<Option<_>>()?
-            }
-            Some(_) => return None,
-        };
-        let is_whole = self.across.as_ref().is_none_or(|across| across.len() == steps.len());
-        (is_whole && !steps.is_empty()).then_some(steps)
-    }
-}
-
-/// All numbers of a step except its heights.
-fn numbers(step: &Step) -> [f64; 3 + STAGES] {
-    let mut numbers = [0.0; 3 + STAGES];
-    numbers[..3].copy_from_slice(&[step.t, step.h, step.extension]);
-    numbers[3..].copy_from_slice(&step.displacement);
-    numbers
-}
-
-fn step(numbers: &[f64; 3 + STAGES]) -> Step {
-    let [t, h, extension, displacement @ ..] = *numbers;
-    Step { t, h, extension, displacement, height: None }
 }
 
 twins!(LineRegime => LineRegimeName: Steady | StickSlip | StuckAtTheEdge);

@@ -32,8 +32,11 @@ pub(super) struct Embedding {
     pub(super) band: f64,
 }
 
-/// The free parameter.
+/// The continuation parameter of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "OverName"))]
 pub enum Parameter {
     /// α at fixed r.
     Alpha,

@@ -51,16 +51,19 @@ pub enum ImageError {
     Nothing,
 }
 
-/// Results for f(x,y) from an image, in the units of the image except the widths.
+/// f(x,y), fitted to all pixels of an image: each Gaussian of f(x) times exp(-y²/(2v²)).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "AcrossDocument"))]
 pub struct Across {
-    /// v of each Gaussian of the tip, in σ.
+    /// v of each of `gaussians`, in σ.
     pub widths: Vec<f64>,
-    /// y0, the centre of symmetry across the scan.
+    /// Centre of symmetry of f across the scan, in the unit of the positions.
     pub centre: f64,
-    /// Standard deviation of the residuals of all pixels.
+    /// Standard deviation of the residuals of all pixels, in the unit of the heights.
     pub residual: f64,
-    /// Standard deviation of the noise from pixel to pixel along a row.
+    /// Standard deviation of the noise from pixel to pixel along the rows, in the unit of the heights.
     pub noise: f64,
 }
 

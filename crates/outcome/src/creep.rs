@@ -22,12 +22,15 @@ use stickslip_stability::{Creep, creep};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::{InitialSurface, Model, Step, Trajectory, stop};
 
-/// The logarithmic creep x0 ~ (1/p) ln t of a trapped tip.
+/// The logarithmic creep of a trapped tip, x0 ~ (1/p) ln t.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "CreepDocument"))]
 pub struct Creeping {
-    /// p as measured at the end of the run: the rate at which 1/x0' grows in time, in 1/σ.
+    /// p at the end of the run, the rate at which 1/x0' grows with time, in 1/σ.
     pub rate: f64,
-    /// The attracting p, which the measured one approaches, in 1/σ.
+    /// The stable creep rate p that the motion approaches, in 1/σ: one of those that `stability` lists.
     pub attracting: f64,
 }
 

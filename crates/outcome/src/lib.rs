@@ -66,13 +66,19 @@ pub struct Outcome {
     pub remarks: Vec<Remark>,
 }
 
-/// The constant velocity of a tip without a spring.
+/// The velocity of a tip without a spring.
+///
+/// Its error is its distance from the velocity of the steady walk that the run approaches, plus the errors of both. Where
+/// this walk cannot be computed: twice the largest change of the velocity in the last fifth of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "DriftDocument"))]
+#[cfg_attr(feature = "schema", schemars(description = "The velocity of a tip without a spring."))]
 pub struct Drift {
-    /// x0' at the end, in kσ/Γ.
+    /// x0' at the end of the run, in kσ/Γ; negative towards smaller x.
     pub velocity: f64,
-    /// Error of this velocity, in kσ/Γ: its distance from that of the steady walk that the run approaches, plus the errors
-    /// of both. Where this walk cannot be computed: twice the largest change of the velocity in the last fifth of the run.
+    /// Error of the velocity, in kσ/Γ; the velocity of the settled motion lies within it.
     pub velocity_error: f64,
 }
 

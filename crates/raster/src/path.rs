@@ -1,11 +1,15 @@
 //! Paths of the support, line after line.
 
 /// The path of the support from one line to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PathName"))]
 pub enum Path {
     /// Every line runs in the same direction from x = 0, with the spring relaxed.
+    #[default]
     OneWay,
-    /// The support turns back at the end of a line and moves one pitch further; the tip keeps its position.
+    /// The support turns back at the end of a line and moves on by one pitch; the tip keeps its position.
     Zigzag,
     /// The same line is scanned again from x = 0, with the spring relaxed.
     Repeat,

@@ -49,12 +49,20 @@ enum Search {
 /// There may be several branches, and one of them may turn back in r. Only the lowest α at each r bounds the stable
 /// region; the others are further crossings inside the unstable one.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "BranchDocument"))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "A stretch of the curve (42), (43), evenly spaced in Ω.")
+)]
 pub struct BoundaryBranch {
-    /// Ω = ω/r, ascending.
+    /// Ω, ascending, in 1/σ.
+    #[cfg_attr(feature = "serde", serde(rename = "Omega"))]
     pub wave_number: Vec<f64>,
-    /// r of (42) at each Ω.
+    /// r, dimensionless, (42).
     pub r: Vec<f64>,
-    /// α of (43) at each Ω.
+    /// α, dimensionless, (43).
     pub alpha: Vec<f64>,
 }
 

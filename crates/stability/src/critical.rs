@@ -27,13 +27,16 @@ pub struct Critical {
     pub weight: f64,
 }
 
-/// The equation of small deviations at the onset: linear or not.
+/// Kinds of onset, by the equation of small deviations at the critical point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "OnsetKindName"))]
 pub enum OnsetKind {
-    /// A linear equation: this point is a Hopf bifurcation.
+    /// A linear equation.
     Smooth,
-    /// A non-smooth equation: the height under the steady tip is 0, on the kink of |h|. See
-    /// [`critical`](super::critical).
+    /// A piecewise linear equation with the kink of |u|: alpha is the value at which a small oscillation keeps its
+    /// amplitude.
     NonSmooth,
 }
 

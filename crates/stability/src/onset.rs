@@ -11,12 +11,15 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 use stickslip_tip::{Gaussian, TipFunction, Wider};
 
-/// On which side of the boundary the small oscillation exists.
+/// The side of the boundary on which the small oscillation exists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "CriticalityName"))]
 pub enum Criticality {
-    /// Stable and small, for α above αc.
+    /// Above the critical α, where it is stable.
     Supercritical,
-    /// Unstable, for α below αc: above αc the tip immediately changes to a large motion.
+    /// Below the critical α, where it is unstable.
     Subcritical,
 }
 

@@ -39,7 +39,6 @@ mod document;
 mod documents;
 pub mod parameter;
 pub mod schema;
-mod twins;
 
 pub use stickslip_convolution as convolution;
 pub use stickslip_cycles as cycles;
@@ -59,6 +58,29 @@ pub use documents::compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareFound, CompareParameters,
     DifferenceDocument, GridDocument, GridName, GridWork,
 };
+pub use stickslip_cycles::{End as EndName, Parameter as OverName, SpecialKind as SpecialName};
+pub use stickslip_measurement::{
+    Across as AcrossDocument, Fitted as FittedDocument, Retrace as RetraceDocument,
+    RippleProfile as RippleProfileDocument, Scan as ScanName,
+};
+pub use stickslip_outcome::{Creeping as CreepDocument, Drift as DriftDocument};
+pub use stickslip_raster::{
+    LineRegime as LineRegimeName, Path as PathName, Pattern as PatternDocument,
+    Regime as RasterRegimeName,
+};
+pub use stickslip_stability::{
+    BoundaryBranch as BranchDocument, Criticality as CriticalityName, OnsetKind as OnsetKindName,
+    RasterCertificate as RasterCertificateDocument, RasterKind as RasterKindName,
+};
+pub use stickslip_tip::friction::{
+    Hold as HoldDocument, Loop as LoopDocument, Peak as PeakDocument,
+};
+pub use stickslip_tip::{
+    Gaussian as GaussianDocument, MemoryChoice as MemoryName, Noise as NoiseParameters,
+    Pulse as PulseParameters, Work as RasterWork,
+};
+pub use stickslip_units::{Physical as PhysicalDocument, Scales as ScalesDocument};
+pub use stickslip_verify::Difference as LargestDifferenceDocument;
 
 pub use documents::figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,
@@ -71,17 +93,15 @@ pub use documents::large::{
     write_raster_sweep, write_run, write_surface, write_sweep,
 };
 pub use documents::outcome::{
-    CreepDocument, DriftDocument, OscillationDocument, RegimeName, SwingDocument,
-    TransientDocument, digits, to_its_digits,
+    OscillationDocument, RegimeName, SwingDocument, TransientDocument, digits, to_its_digits,
 };
 pub use documents::physical::{
     InUnit, Physical, arrays as arrays_in_units, columns as columns_in_units,
 };
 pub use documents::raster::{
-    ComparedLine, HeightMap, KeptLine, LineHistory, LineRegimeName, PatternDocument,
-    RasterCompareDocument, RasterCompareFound, RasterCompareParameters, RasterCompared,
-    RasterComparedWork, RasterFound, RasterHistory, RasterLine, RasterRegimeName, RasterSamples,
-    RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint, RasterWork,
+    ComparedLine, HeightMap, KeptLine, LineHistory, RasterCompareDocument, RasterCompareFound,
+    RasterCompareParameters, RasterCompared, RasterComparedWork, RasterFound, RasterHistory,
+    RasterLine, RasterSamples, RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint,
 };
 pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
 pub use documents::reproduction::{
@@ -93,8 +113,8 @@ pub use documents::schemas::derived;
 pub use documents::schemas::{SCHEMAS, schema};
 pub use documents::software::{FORMAT_VERSION, Software};
 pub use documents::stability::{
-    CertificateDocument, ComplexDocument, CriticalDocument, CriticalityName, LimitsDocument,
-    OnsetDocument, OnsetKindName, SnakingDocument, SolveFor, StabilityFound, TrappingDocument,
+    CertificateDocument, ComplexDocument, CriticalDocument, LimitsDocument, OnsetDocument,
+    SnakingDocument, SolveFor, StabilityFound, TrappingDocument,
 };
 pub use documents::surface::{
     AcrossParameters, SurfaceCurve, SurfaceDocument, SurfaceFound, SurfaceImage, SurfaceParameters,
@@ -105,9 +125,7 @@ pub use documents::sweep::{
     SweepRunParameters,
 };
 pub use documents::table::{Array, Column, Named, Rows, Tabular};
-pub use documents::verification::{
-    EndingName, LargestDifferenceDocument, LinesDocument, VerificationDocument,
-};
+pub use documents::verification::{EndingName, LinesDocument, VerificationDocument};
 pub use documents::verify::{ClaimDocument, VerifyDocument};
 
 pub use documents::work::{SteadyState, WorkDocument};

@@ -7,14 +7,17 @@ use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A Gaussian pulse A exp(-(t-T)²/(2W²)).
+/// A pulse, amplitude · exp(-(t-time)²/(2 width²)).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PulseParameters"))]
 pub struct Pulse {
-    /// Amplitude A, in kσ.
+    /// Largest force, in kσ.
     pub amplitude: f64,
-    /// Time T of the maximum, in Γ/k.
+    /// Time of the largest force, in Γ/k.
     pub time: f64,
-    /// Width W, in Γ/k.
+    /// Standard deviation in time, in Γ/k.
     pub width: f64,
 }
 

@@ -9,33 +9,42 @@ use std::sync::LazyLock;
 
 /// A closed loop of the support.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LoopDocument"))]
 pub struct Loop {
-    /// Start time, in Γ/k.
+    /// Time at which the loop begins, in Γ/k.
     pub from: f64,
-    /// End time, in Γ/k.
+    /// Time at which the loop ends, in Γ/k.
     pub to: f64,
-    /// Work ∮ (R - x0)dR, in kσ².
+    /// ∮ (R - x0)dR, the work that the support does, in kσ².
     pub work: f64,
 }
 
-/// A rest of the support.
+/// A hold: the support stops, and later moves on.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "HoldDocument"))]
 pub struct Hold {
     /// Time at which the support stops, in Γ/k.
     pub from: f64,
     /// Time at which the support moves on, in Γ/k.
     pub to: f64,
-    /// The peak of the lateral force after the rest, until the support turns or stops; `None` if the force is largest
-    /// at the end of that time.
+    /// The peak of the lateral force in the motion after the hold, up to the next turn or stop of the support; null if
+    /// the force is largest at the end of this motion.
     pub peak: Option<Peak>,
 }
 
-/// A maximum of the extension of the spring.
+/// A peak of the lateral force.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PeakDocument"))]
 pub struct Peak {
     /// Time, in Γ/k.
     pub t: f64,
-    /// R - x0, in σ; negative if the support moves backwards.
+    /// R - x0, the extension of the spring, in σ: the lateral force, in kσ; negative if the support moves backwards.
     pub lag: f64,
 }
 

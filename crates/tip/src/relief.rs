@@ -19,16 +19,47 @@ use stickslip_convolution::Field;
 #[derive(Debug, Clone)]
 pub struct Relief(Shape);
 
-/// White noise on a grid, interpolated by a cubic spline.
+/// Heights uniform in [-amplitude, amplitude] on a grid, interpolated by a cubic spline.
+///
+/// The heights follow each other, from left to right, in a stream of `ChaCha8`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "NoiseParameters"))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(
+        description = "Heights uniform in [-amplitude, amplitude] on a grid, interpolated by a cubic spline."
+    )
+)]
 pub struct Noise {
-    /// Amplitude A ≥ 0, in kσ²/a: heights are uniform in [-A, A].
+    /// Largest height, 0 or above, in kσ²/a.
     pub amplitude: f64,
-    /// Distance of the grid points, in σ. White noise has no limit for distances → 0, so that the spacing is a
-    /// parameter of the start.
+    /// Distance of the grid points, in σ; 0.1 by default. It is part of the initial condition: white noise has no
+    /// limit as the spacing goes to 0.
+    #[cfg_attr(feature = "serde", serde(default = "Noise::default_spacing"))]
     pub spacing: f64,
-    /// Seed of the `ChaCha8` stream that yields the heights, from left to right.
+    /// Seed of the random numbers; 1 by default.
+    #[cfg_attr(feature = "serde", serde(default = "Noise::default_seed"))]
     pub seed: u64,
+}
+
+impl Noise {
+    /// Default distance of the grid points, in σ.
+    pub const SPACING: f64 = 0.1;
+    /// Default seed.
+    pub const SEED: u64 = 1;
+}
+
+#[cfg(feature = "serde")]
+impl Noise {
+    fn default_spacing() -> f64 {
+        Self::SPACING
+    }
+
+    fn default_seed() -> u64 {
+        Self::SEED
+    }
 }
 
 #[derive(Debug, Clone)]

@@ -15,25 +15,33 @@ pub use quantity::Unit;
 use stickslip_tip::{Model, ModelError, TipFunction};
 use thiserror::Error;
 
-/// Measured quantities, in SI units.
+/// Measured quantities, in SI units: the friction Γ of the tip (1), spring constant k and velocity v0 of the support (3),
+/// force per slope a (4), width σ and indentation rate N (7).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PhysicalDocument"))]
+#[cfg_attr(feature = "schema", schemars(description = "SI values."))]
 pub struct Physical {
-    /// Γ in kg/s: friction of the tip, (1).
+    /// Γ in kg/s.
     pub damping: f64,
-    /// k in N/m: spring constant, (3).
+    /// k in N/m.
     pub stiffness: f64,
-    /// σ in m: width of the tip, (7).
+    /// σ in m.
     pub tip_width: f64,
-    /// N in m/s: indentation rate, (7).
+    /// N in m/s.
     pub indentation_rate: f64,
-    /// a in N: force per slope, (4).
+    /// a in N.
     pub slope_force: f64,
-    /// v0 in m/s: velocity of the support, (3).
+    /// v0 in m/s.
     pub velocity: f64,
 }
 
-/// Units of the model, in SI units.
+/// SI values of the model's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "ScalesDocument"))]
 pub struct Scales {
     /// σ in m, for x, l and x0.
     pub length: f64,
@@ -41,7 +49,7 @@ pub struct Scales {
     pub time: f64,
     /// kσ²/a in m, for the surface u.
     pub height: f64,
-    /// kσ in N, for Fext.
+    /// kσ in N, for the external force.
     pub force: f64,
 }
 

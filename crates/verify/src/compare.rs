@@ -13,14 +13,18 @@ const DIGITS_OF_SUM: f64 = 1e-13;
 /// Error of sums by FFT relative to the deepest groove, everywhere.
 const DIGITS_OF_FFT: f64 = f64::EPSILON;
 
-/// The largest difference of two runs; if limits are exceeded, the difference that is largest relative to its limit.
+/// The largest difference, relative to its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "LargestDifferenceDocument"))]
 pub struct Difference {
-    /// Absolute difference.
+    /// The difference: of l and y0 in σ, of u in kσ²/a.
     pub largest: f64,
-    /// Time or position.
+    /// Place of the largest difference: time for l and y0, in Γ/k; position for u, in σ.
     pub at: f64,
-    /// Limit of the difference, from the tolerance.
+    /// The limit at the place of the largest difference, in its unit.
     pub allowed: f64,
 }
 

@@ -100,7 +100,7 @@ pub(crate) fn from_file(file: TipFile) -> Result<TipFunction, String> {
         TipFile::Measured(measured) => {
             let sides = measured.sides.as_ref().and_then(|sides| sides.footprint.as_ref());
             let gaussians = sides.map_or(&measured.gaussians, |sides| &sides.gaussians);
-            TipFunction::asymmetric_sum(gaussians.iter().map(Gaussian::from).collect())
+            TipFunction::asymmetric_sum(gaussians.clone())
         }
         TipFile::Gaussians(entries) if entries.iter().any(is_2d) => {
             let terms: Option<Vec<Gaussian2d>> = entries.iter().map(gaussian_2d).collect();

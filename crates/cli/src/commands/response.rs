@@ -7,7 +7,7 @@ use crate::arguments::ResponseArguments;
 use crate::failure::Failure;
 use crate::session::Session;
 use serde_json::json;
-use stickslip::{PulseParameters, Response, parameter};
+use stickslip::{Response, parameter};
 
 pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Result<(), Failure> {
     let ResponseArguments { options, pulse, answer: place } = arguments;
@@ -15,7 +15,6 @@ pub(crate) fn response(session: &Session, arguments: &ResponseArguments) -> Resu
     let mut values = options.values(session)?;
     let pulses = parse_pulses(pulse)?;
     if !pulses.is_empty() {
-        let pulses: Vec<PulseParameters> = pulses.iter().copied().map(Into::into).collect();
         values.insert("pulses".into(), json!(pulses));
     }
     let question: Response = parameter::question(values)?;

@@ -67,22 +67,25 @@ pub struct Branch {
     pub end: End,
 }
 
-/// Reason for the end of a branch.
+/// The reason why a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "EndName"))]
 pub enum End {
-    /// The parameter has its last value.
+    /// The continuation parameter reached its last value.
     Reached,
     /// The period exceeds the longest one.
     LongPeriod,
-    /// The cycle has shrunk to steady motion: a Hopf bifurcation.
+    /// The cycle has shrunk to steady motion.
     Steady,
-    /// The two halves of the cycle have become equal: the branch joins the branch of half the period.
+    /// The branch has joined that of half the period.
     Halved,
-    /// The largest number of cycles is reached.
+    /// The branch has the largest number of cycles.
     ManyPoints,
-    /// No cycle was found after a step of the smallest length.
+    /// No cycle was found even with the shortest step.
     Lost,
-    /// The observer, or a request to stop, ended the continuation.
+    /// A signal stopped the computation.
     Interrupted,
 }
 
@@ -103,18 +106,22 @@ pub struct Special {
 
 /// Kinds of special points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "SpecialName"))]
 pub enum SpecialKind {
-    /// The cycle vanishes into steady motion.
+    /// Hopf point: the amplitude of the cycle goes to 0.
     Hopf,
-    /// The branch turns back in its parameter.
+    /// Fold: the branch turns back.
     Fold,
     /// A multiplier passes -1: a branch of twice the period begins.
     PeriodDoubling,
-    /// The branch joins a branch of half the period, at a period doubling of the latter.
+    /// The branch ends at the period doubling of a branch of half its period; period and amplitude are those of that
+    /// branch.
     PeriodHalving,
-    /// A second multiplier passes 1, and the branch does not turn: another branch crosses.
+    /// A second multiplier passes 1 without a fold: another branch crosses.
     BranchPoint,
-    /// A complex pair crosses the unit circle: a torus bifurcates.
+    /// A complex pair crosses the unit circle: quasi-periodic motion on a torus begins.
     Torus,
 }
 

@@ -35,7 +35,7 @@ impl Drawn for RasterDocument {
         let mut surface = PanelDocument::new(&heading(self), MAP);
         let wave = self.pattern.as_ref().and_then(|p| p.q.zip(p.kappa));
         if let Some(wave) = wave {
-            let is_lines = parameters.plan()?.area.pitch(parameters.path.into()).is_some();
+            let is_lines = parameters.plan()?.area.pitch(parameters.path).is_some();
             surface.curves.extend(is_lines.then(|| crests(&map, wave)).flatten());
         }
         if parameters.stiffness_across.is_some() {

@@ -30,8 +30,11 @@ impl Track {
     }
 }
 
-/// Direction in which the tip moved along the positions of a track.
+/// Direction of the scan along the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "ScanName"))]
 pub enum Scan {
     /// Towards larger positions.
     Right,

@@ -120,14 +120,18 @@ pub struct Ripples {
     pub retrace: Option<Retrace>,
 }
 
-/// The mean of all ripples over one wavelength, perpendicular to the crests; columns of equal length.
+/// The mean ripple; columns of equal length.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "RippleProfileDocument"))]
 pub struct RippleProfile {
-    /// Distance from the crest, ascending, in the direction of the wave vector.
+    /// Distance from the crest, perpendicular to it, in the direction of the wave vector.
     pub distance: Vec<f64>,
     /// Mean height.
     pub height: Vec<f64>,
-    /// Standard deviation of the mean height.
+    /// Standard deviation of `height`.
     pub error: Vec<f64>,
     /// Height of the model.
     pub model: Vec<f64>,

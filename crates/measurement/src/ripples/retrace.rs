@@ -10,13 +10,15 @@ use std::f64::consts::PI;
 
 /// Comparison of the retrace with the trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "RetraceDocument"))]
 pub struct Retrace {
-    /// Distance along the lines by which ripples of the retrace are ahead of those of the trace, less than half a
-    /// wavelength.
+    /// Shift of the retrace along the lines relative to the trace, in the unit of the image; the fit removes it.
     pub shift: f64,
-    /// Amplitude of the first harmonic of the retrace, over that of the trace.
+    /// Amplitude of the first harmonic of the retrace over that of the trace.
     pub ratio: f64,
-    /// Probability that noise makes an equally large difference between the two.
+    /// Probability that noise alone makes an equally large difference, beyond the shift.
     pub agreement: f64,
 }
 

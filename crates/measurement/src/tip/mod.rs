@@ -80,15 +80,25 @@ pub struct MeasuredTip {
     pub fitted: Fitted,
 }
 
-/// Columns of equal length, by ascending position.
+/// Columns of equal length, by ascending position, in the units of the data.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "FittedDocument"))]
 pub struct Fitted {
-    /// Position.
+    /// Positions.
     pub x: Vec<f64>,
     /// Measured heights.
     pub f: Vec<f64>,
     /// Fitted heights, including the background.
     pub fit: Vec<f64>,
+}
+
+impl Fitted {
+    /// The residuals of the fit.
+    pub fn residuals(&self) -> Vec<f64> {
+        self.f.iter().zip(&self.fit).map(|(f, fit)| f - fit).collect()
+    }
 }
 
 /// The reason why there is no footprint.

@@ -40,34 +40,49 @@ pub struct Written {
     pub doubts: Vec<Doubt>,
 }
 
-/// The strongest ripple e^{i(qx + κy)} of the surface. Lengths in σ, heights in kσ²/a. Errors are halves of 95 %
-/// intervals, from half of the resolution of the window and from the scatter among its quarters. A number that these
-/// lines do not determine is `None`.
+/// The strongest ripple e^{i(qx + κy)}, the highest maximum of the power spectrum of the last half of the lines.
+///
+/// Errors are halves of 95 % intervals, from half of the resolution of the window and from the scatter among its quarters.
+/// A wavelength is reported if its error is at most 25 % and the wave neither grows nor decays; a crest angle if its error
+/// is at most 15° and κ is not ±π/d within its error, where d is the distance of the lines. The coherence is
+/// |Σ ψ_n* ψ_{n+1}| over √(Σ|ψ_n|² Σ|ψ_{n+1}|²), with ψ the local complex amplitude of the groove of each line alone: 1 if
+/// all shifts are equal. Around a defect the phase of ψ turns once.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "PatternDocument"))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(
+        description = "The strongest ripple e^{i(qx + κy)}, the highest maximum of the power spectrum of the last half of the lines.\nErrors are halves of 95 % intervals. A number that these lines do not determine is null, with the reason in\n`remarks`."
+    )
+)]
 pub struct Pattern {
-    /// Wave number along the lines, 0 or above; `None` if the wavelength is `None`.
+    /// Wave number along the lines, in 1/σ, 0 for trenches along the scan; null if several waves have about the same power.
     pub q: Option<f64>,
-    /// Wave number across the lines, between -π/d and π/d; `None` if the wavelength or the crest angle is `None`.
+    /// Wave number κ across the lines, in 1/σ; null if q is, and at ±π/pitch, where its sign is undefined.
     pub kappa: Option<f64>,
-    /// Wavelength, 2π/√(q² + κ²); `None` if its error is above 25 %, or if the wave still grows or decays.
+    /// 2π/√(q² + κ²), in σ; null also if ripples still grow or decay from line to line.
     pub wavelength: Option<f64>,
-    /// Error of the wavelength.
+    /// Error of the wavelength (95 %), in σ.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub wavelength_error: Option<f64>,
-    /// Angle between crests and scan axis, in degrees: atan(q/|κ|). `None` if its error is above 15°, or if κ is ±π/d
-    /// within its error, so that its sign is undefined.
+    /// Angle between crests and scan axis, atan(q/|κ|), in degrees.
     pub crest_angle: Option<f64>,
-    /// Error of the crest angle, in degrees.
+    /// Error of the crest angle (95 %), in degrees.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub crest_angle_error: Option<f64>,
-    /// Coherence |Σ ψ_n* ψ_{n+1}| over √(Σ|ψ_n|² Σ|ψ_{n+1}|²), with ψ the local complex amplitude of the groove of
-    /// each line alone: the correlation of each line with the one before, after a shift; 1 if all shifts are equal.
+    /// Correlation of each line with the one before, shifted by the same distance for all lines; at most 1.
     pub coherence: f64,
-    /// Error of the coherence.
-    pub coherence_error: f64,
-    /// Coherence of each line with the one two lines later, on a zigzag: lines in the same direction.
+    /// Error of the coherence (95 %).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub coherence_error: Option<f64>,
+    /// Coherence of successive lines in the same direction, on a zigzag.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub coherence_same_way: Option<f64>,
-    /// Half peak-to-peak of the surface.
+    /// Half peak-to-peak of the surface, in kσ²/a.
     pub amplitude: f64,
-    /// Number of places at which a crest begins or ends: around them the phase of ψ turns once.
+    /// Number of places at which a crest begins or ends.
     pub defects: usize,
 }
 
@@ -88,12 +103,35 @@ impl Pattern {
             crest_angle: angle.map(|of| of.value),
             crest_angle_error: angle.map(|of| of.error),
             coherence: coherence.value,
-            coherence_error: coherence.error,
+            coherence_error: Some(coherence.error),
             coherence_same_way: same_way.map(|of| of.value),
             amplitude,
             defects,
         }
     }
+}
+
+impl Pattern {
+    /// Wavelength and crest angle, such as "4.57 ± 0.33 σ" and "46 ± 3°"; `None` if unknown.
+    pub fn in_words(&self) -> [Option<String>; 2] {
+        let of = |value: Option<f64>, error: Option<f64>, unit: &str| {
+            let value = value?;
+            Some(match error.filter(|error| *error > 0.0) {
+                Some(error) => format!("{}{unit}", with_error(value, error)),
+                None => format!("{value:.3}{unit}"),
+            })
+        };
+        [
+            of(self.wavelength, self.wavelength_error, " σ"),
+            of(self.crest_angle, self.crest_angle_error, "°"),
+        ]
+    }
+}
+
+/// A value with its error, rounded so that the error has two digits.
+fn with_error(value: f64, error: f64) -> String {
+    let places = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.places$} ± {error:.places$}")
 }
 
 /// The larger of these changes of a wave, if it has not settled.
@@ -103,14 +141,17 @@ fn changing(changes: [f64; 2]) -> Option<Doubt> {
     most.filter(|_| is_changing).map(Doubt::Changing)
 }
 
-/// The regime of one line.
+/// Regimes of motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LineRegimeName"))]
 pub enum LineRegime {
-    /// The lag is nearly constant in the middle of the line.
+    /// The lag changes by less than 2 % between 20 % and 85 % of the line.
     Steady,
-    /// The lag varies.
+    /// The lag changes by 2 % or more between 20 % and 85 % of the line.
     StickSlip,
-    /// The tip stayed in the pit at one end of the line.
+    /// The tip covered less than half of the line: it stayed in a pit at one of its ends.
     StuckAtTheEdge,
 }
 

@@ -5,12 +5,16 @@ use std::fmt;
 
 /// Regimes of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "RasterRegimeName"))]
 pub enum Regime {
-    /// No ripples: a uniform depth, except close to the edges at which lines begin.
+    /// No ripples, except those that decay from the edges at which lines begin.
     Steady,
     /// Crests that repeat from line to line; on a zigzag from each line to the next one in the same direction.
     Ripples,
-    /// Lines that fell into grooves of earlier lines: trenches along the scan, or pairs of lines.
+    /// Lines that fell into grooves of earlier lines, if the tip is free to move across: trenches along the scan, or
+    /// pairs of lines.
     Bunched,
     /// Crests broken into pits; neighbouring lines are still correlated.
     Pits,
@@ -18,7 +22,8 @@ pub enum Regime {
     Disordered,
     /// On most lines the tip did not leave the pit at one end.
     StuckAtTheEdge,
-    /// Too few or too short lines for a regime.
+    /// Too few or too short lines for a regime, or one line scanned repeatedly; `remarks` state how many lines would
+    /// be sufficient.
     Unknown,
 }
 
@@ -31,7 +36,7 @@ impl fmt::Display for Regime {
             Self::Pits => "pits",
             Self::Disordered => "disordered",
             Self::StuckAtTheEdge => "stuck at the edge",
-            Self::Unknown => "unknown",
+            Self::Unknown => "regime unknown",
         })
     }
 }

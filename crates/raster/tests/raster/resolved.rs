@@ -228,7 +228,7 @@ fn in_words(written: &Written) -> String {
             of(p.wavelength, p.wavelength_error),
             of(p.crest_angle, p.crest_angle_error),
             p.coherence_same_way.unwrap_or(p.coherence),
-            p.coherence_error
+            p.coherence_error.unwrap()
         )
     });
     let doubts: Vec<String> = written.doubts.iter().map(|doubt| format!("{doubt:?}")).collect();

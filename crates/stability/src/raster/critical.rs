@@ -9,16 +9,30 @@ pub enum RasterPath {
     Zigzag,
 }
 
-/// Kinds of waves of a raster.
+/// Kinds of waves of the scan lines of a raster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "RasterKindName"))]
 pub enum RasterKind {
-    /// Ripples: crests perpendicular or oblique to the lines, at an angle of 22.5° or more.
+    /// Crests across the lines or oblique, at 22.5° or more to them.
     Ripples,
-    /// Bunching: crests nearly along the lines, which fall into the grooves of earlier ones. Trenches along the scan,
-    /// or pairs of lines.
+    /// Crests nearly along the lines: lines move into the grooves of earlier ones and form trenches along the scan, or
+    /// pairs of lines.
     Bunching,
-    /// Snaking: deviations across the lines, mainly caused by the groove of each line itself.
+    /// Deviations across the lines, caused mainly by each line's own groove.
     Snaking,
+}
+
+impl RasterKind {
+    /// The name in documents.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Ripples => "ripples",
+            Self::Bunching => "bunching",
+            Self::Snaking => "snaking",
+        }
+    }
 }
 
 /// The threshold above which waves grow from line to line. Lengths in σ.
@@ -51,16 +65,27 @@ pub struct RasterCritical {
 /// numbers and phases excludes zeros on the circle, and with them any growth, for all α below the threshold by more than
 /// `tolerance`. It uses floating-point arithmetic with bounds of the truncation errors, not interval arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "RasterCertificateDocument"))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(
+        description = "Evidence that no ripple grows below a threshold, and that one grows above."
+    )
+)]
 pub struct RasterCertificate {
-    /// No other threshold is lower than this one by more than this fraction.
+    /// Relative tolerance of the search over all wave numbers and phases: it rules out a threshold lower by more than
+    /// this.
     pub tolerance: f64,
-    /// Number of cells of wave numbers and phases examined.
+    /// Number of cells of wave numbers and phases that the search examined.
     pub cells: usize,
-    /// Relative distance from the threshold of the two α at which waves of its q were counted.
+    /// Relative distance from the threshold of the two values of α at which growing waves of this q were counted.
     pub margin: f64,
-    /// Number of growing waves at the lower α; `None` if they cannot be counted, for lines that hardly affect each
-    /// other.
+    /// Number of waves that grow below the threshold (pairs ±z for a zigzag); null if the lines interact too weakly
+    /// for a count.
     pub growing_below: Option<usize>,
-    /// Number of growing waves at the higher α.
+    /// Number of waves that grow above the threshold; null if `growing_below` is.
     pub growing_above: Option<usize>,
 }

@@ -3,16 +3,16 @@
 use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
-    Ask, Context, CriticalityName, Document, Failure, Indentation, Law, ModelParameters,
-    OnsetKindName, Question, Refused, Tip, Typed,
+    Ask, Context, Document, Failure, Indentation, Law, ModelParameters, Question, Refused, Tip,
+    Typed,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::fmt::Display;
 use stickslip_stability::{
-    self as stability, BoundaryBranch, Critical, OnsetKind, StabilityError, memory_length, onset_at,
+    self as stability, BoundaryBranch, Critical, Criticality, OnsetKind, StabilityError,
+    memory_length, onset_at,
 };
 use stickslip_tip::{TipFunction, Wider};
 
@@ -62,10 +62,10 @@ pub struct BoundaryFound {
     /// The whole curve (42), (43) within the range of r, in stretches with contiguous Ω. If there are several, or if
     /// one turns back in r, the parts above αc(r) are crossings of further pairs of roots. Empty for the extended
     /// model.
-    pub branches: Vec<BranchDocument>,
+    pub branches: Vec<BoundaryBranch>,
     /// Extended model only: the kind of onset at each r.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub kind: Vec<OnsetKindName>,
+    pub kind: Vec<OnsetKind>,
     /// Extended model only: conditions under which steady motion is stable at every α.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitColumns>,
@@ -129,10 +129,7 @@ impl Boundary {
             onset.push(tip, at);
             context.counted(self.points + n + 1, steps, "steps")?;
         }
-        let found = BoundaryFound {
-            branches: branches.into_iter().map(Into::into).collect(),
-            ..BoundaryFound::through(along.iter(), onset)
-        };
+        let found = BoundaryFound { branches, ..BoundaryFound::through(along.iter(), onset) };
         Ok((found, left_out_remark(&left_out).into_iter().collect()))
     }
 
@@ -161,7 +158,7 @@ impl Boundary {
             context.counted(n + 1, self.points, "steps")?;
         }
         let found = BoundaryFound {
-            kind: along.iter().map(|at| at.kind.into()).collect(),
+            kind: along.iter().map(|at| at.kind).collect(),
             limits: Some(LimitColumns {
                 r: values,
                 least_depth_limit: least,
@@ -307,26 +304,13 @@ pub struct LimitColumns {
 pub struct OnsetColumns {
     /// Whether the oscillation starts with amplitude 0 beyond αc (supercritical) or exists already below it
     /// (subcritical).
-    pub criticality: Vec<Option<CriticalityName>>,
+    pub criticality: Vec<Option<Criticality>>,
     /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: Vec<Option<f64>>,
     /// dT/dα of the period T along the branch of cycles, in Γ/k.
     pub period_slope: Vec<Option<f64>>,
     /// First Lyapunov coefficient, in k/(Γσ²).
     pub lyapunov: Vec<Option<f64>>,
-}
-
-/// A stretch of the curve (42), (43), evenly spaced in Ω.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BranchDocument {
-    /// Ω, ascending, in 1/σ.
-    #[serde(rename = "Omega")]
-    pub wave_number: Vec<f64>,
-    /// r, dimensionless, (42).
-    pub r: Vec<f64>,
-    /// α, dimensionless, (43).
-    pub alpha: Vec<f64>,
 }
 
 impl OnsetColumns {
@@ -343,14 +327,12 @@ impl OnsetColumns {
     /// Appends the small oscillation at a point of the boundary.
     pub fn push(&mut self, tip: &TipFunction, at: &Critical) {
         let onset = onset_at(tip, *at).ok();
-        self.criticality.push(onset.map(|o| o.criticality.into()));
+        self.criticality.push(onset.map(|o| o.criticality));
         self.amplitude_squared_slope.push(onset.map(|o| o.amplitude_squared_slope));
         self.period_slope.push(onset.map(|o| o.period_slope));
         self.lyapunov.push(onset.map(|o| o.lyapunov));
     }
 }
-
-twins!(BoundaryBranch => BranchDocument { wave_number, r, alpha });
 
 impl Tabular for BoundaryFound {
     /// The boundary as a table, with a row for each r.

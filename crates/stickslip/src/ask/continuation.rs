@@ -3,7 +3,6 @@
 use crate::documents::table::{Array, Column, Named, Tabular, as_arrays};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
     Ask, Context, Cycle, CycleDocument, Document, Failure, Indentation, Law, ModelParameters,
     Question, Refused, Tip, Unusable, digits,
@@ -58,7 +57,7 @@ pub struct Continue {
     pub law: Law,
     /// The continuation parameter.
     #[schemars(extend("x-option" = option("NAME", "Branch", 20)))]
-    pub over: OverName,
+    pub over: Parameter,
     /// Last value of the continuation parameter; by default the branch ends by another criterion.
     #[schemars(extend("x-option" = option("V", "Branch", 21)))]
     #[serde(default)]
@@ -125,8 +124,8 @@ impl Continue {
     fn first(&self) -> Result<Option<Cycle>, Failure> {
         let alpha = self.indentation != Indentation::default();
         let is_there = match self.over {
-            OverName::Alpha => alpha,
-            OverName::R => self.r.is_some(),
+            Parameter::Alpha => alpha,
+            Parameter::R => self.r.is_some(),
         };
         let Some(r) = self.r.filter(|_| is_there) else {
             return match is_there {
@@ -142,8 +141,8 @@ impl Continue {
     /// The value of the fixed parameter, for a branch that begins at onset.
     fn other(&self) -> Result<f64, Refused> {
         let (name, value) = match self.over {
-            OverName::Alpha => ("r", self.r),
-            OverName::R => ("alpha", self.indentation.alpha),
+            Parameter::Alpha => ("r", self.r),
+            Parameter::R => ("alpha", self.indentation.alpha),
         };
         let varies = if name == "r" { "α" } else { "r" };
         let why = || format!("missing: give {{{name}}}, at which {varies} varies");
@@ -153,14 +152,14 @@ impl Continue {
     fn settings(&self) -> Result<Continuation, Refused> {
         let positive = Refused::positive;
         let nowhere = match self.over {
-            OverName::Alpha => f64::INFINITY,
-            OverName::R => 0.0,
+            Parameter::Alpha => f64::INFINITY,
+            Parameter::R => 0.0,
         };
         if self.most_points == 0 {
             return Err(Refused::number("most_points", 0.0, "must be 1 or more"));
         }
         Ok(Continuation {
-            over: self.over.into(),
+            over: self.over,
             to: self.to.map_or(Ok(nowhere), |to| positive("to", to))?,
             tolerance: self.tolerance,
             longest_period: positive("longest_period", self.longest_period)?,
@@ -172,10 +171,10 @@ impl Continue {
     fn branches(&self, context: &Context) -> Result<(Vec<Found>, Vec<String>), Failure> {
         let settings = self.settings()?;
         let (mut remarks, mut count) = (vec![], 0);
-        let name = if self.over == OverName::Alpha { "α" } else { "r" };
+        let name = if self.over == Parameter::Alpha { "α" } else { "r" };
         let mut observe = |cycle: &cycles::Cycle| {
             let model = cycle.model();
-            let at = if self.over == OverName::Alpha { model.alpha() } else { model.r() };
+            let at = if self.over == Parameter::Alpha { model.alpha() } else { model.r() };
             count += 1;
             // The length of a branch, and whether it turns back, is unknown in advance.
             match context.reached(None, &format!("{count} cycles, {name} = {}", digits(at, 6))) {
@@ -214,17 +213,17 @@ impl Continue {
 
     fn explained(&self, error: &CycleError) -> Failure {
         match (error, self.over) {
-            (CycleError::Stability(error), OverName::Alpha) => {
+            (CycleError::Stability(error), Parameter::Alpha) => {
                 Refused::number("r", self.r.unwrap_or_default(), error).into()
             }
-            (CycleError::Stability(error), OverName::R) => {
+            (CycleError::Stability(error), Parameter::R) => {
                 Refused::number("alpha", self.indentation.alpha.unwrap_or_default(), error).into()
             }
             // There is no nearer one that it could start from.
             (CycleError::NotConverged { alpha, r }, over) if self.start.is_none() => {
                 let further = match over {
-                    OverName::Alpha => format!("{{alpha}} {}", digits(1.05 * alpha, 4)),
-                    OverName::R => format!("{{r}} {}", digits(0.95 * r, 4)),
+                    Parameter::Alpha => format!("{{alpha}} {}", digits(1.05 * alpha, 4)),
+                    Parameter::R => format!("{{r}} {}", digits(0.95 * r, 4)),
                 };
                 Failure::Failed(format!(
                     "no cycle was reached where the branch begins, at alpha = {alpha:?}, r = {r:?}: begin further \
@@ -254,8 +253,8 @@ impl Continue {
         let law: stickslip_tip::Wider = self.law.into();
         let ratio = trapping_alpha(&self.tip.0, 1.0).ok().filter(|_| law.traps());
         let trapping = ratio.map(|ratio| match self.over {
-            OverName::Alpha => ratio * first.r,
-            OverName::R => first.alpha / ratio,
+            Parameter::Alpha => ratio * first.r,
+            Parameter::R => first.alpha / ratio,
         });
         let branches = found.iter().map(|f| CycleBranch::of(&f.branch, from(f))).collect();
         ContinueFound { branches, special: special.collect(), trapping, interrupted }
@@ -302,7 +301,7 @@ impl Ask for Continue {
     }
 
     fn support_velocity(&self) -> Option<f64> {
-        self.r.filter(|_| self.over == OverName::Alpha)
+        self.r.filter(|_| self.over == Parameter::Alpha)
     }
 }
 
@@ -347,16 +346,6 @@ fn is_end_of(doubling: &Special, found: &[Found]) -> bool {
     })
 }
 
-/// The continuation parameter of a branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum OverName {
-    /// α at fixed r.
-    Alpha,
-    /// r at fixed α.
-    R,
-}
-
 /// Cycles in the order in which they were found; columns of equal length.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -382,27 +371,7 @@ pub struct CycleBranch {
     /// Imaginary part of the multiplier with the real part `multiplier_re`.
     pub multiplier_im: Vec<f64>,
     /// The reason why the branch ends.
-    pub end: EndName,
-}
-
-/// The reason why a branch ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum EndName {
-    /// The continuation parameter reached its last value.
-    Reached,
-    /// The period exceeds the longest one.
-    LongPeriod,
-    /// The cycle has shrunk to steady motion.
-    Steady,
-    /// The branch has joined that of half the period.
-    Halved,
-    /// The branch has the largest number of cycles.
-    ManyPoints,
-    /// No cycle was found even with the shortest step.
-    Lost,
-    /// A signal stopped the computation.
-    Interrupted,
+    pub end: End,
 }
 
 /// A special point of a branch, such as a fold or a period doubling.
@@ -410,7 +379,7 @@ pub enum EndName {
 #[serde(deny_unknown_fields)]
 pub struct SpecialDocument {
     /// The kind of special point.
-    pub kind: SpecialName,
+    pub kind: SpecialKind,
     /// Index of the branch in `branches`.
     pub branch: usize,
     /// α at the point, dimensionless (13).
@@ -421,25 +390,6 @@ pub struct SpecialDocument {
     pub period: f64,
     /// Half peak-to-peak of l of the cycle at the point, in σ; 0 at a Hopf point.
     pub amplitude_x0: f64,
-}
-
-/// Kinds of special points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SpecialName {
-    /// Hopf point: the amplitude of the cycle goes to 0.
-    Hopf,
-    /// Fold: the branch turns back.
-    Fold,
-    /// A multiplier passes -1: a branch of twice the period begins.
-    PeriodDoubling,
-    /// The branch ends at the period doubling of a branch of half its period; period and amplitude are those of that
-    /// branch.
-    PeriodHalving,
-    /// A second multiplier passes 1 without a fold: another branch crosses.
-    BranchPoint,
-    /// A complex pair crosses the unit circle: quasi-periodic motion on a torus begins.
-    Torus,
 }
 
 impl CycleBranch {
@@ -457,7 +407,7 @@ impl CycleBranch {
             stable: points.iter().map(|p| p.stable).collect(),
             multiplier_re: column(|p| p.leading.re),
             multiplier_im: column(|p| p.leading.im),
-            end: branch.end.into(),
+            end: branch.end,
         }
     }
 }
@@ -466,7 +416,7 @@ impl SpecialDocument {
     /// A special point of the branch with this index.
     pub fn of(branch: usize, special: &Special) -> Self {
         Self {
-            kind: special.kind.into(),
+            kind: special.kind,
             branch,
             alpha: special.alpha,
             r: special.r,
@@ -475,13 +425,6 @@ impl SpecialDocument {
         }
     }
 }
-
-twins!(OverName => Parameter: Alpha | R);
-twins!(End => EndName: Reached | LongPeriod | Steady | Halved | ManyPoints | Lost | Interrupted);
-twins!(
-    SpecialKind => SpecialName:
-    Hopf | Fold | PeriodDoubling | PeriodHalving | BranchPoint | Torus
-);
 
 impl Tabular for ContinueFound {
     /// The cycles of all branches, in one table.

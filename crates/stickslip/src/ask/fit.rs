@@ -3,10 +3,7 @@
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
-use crate::{
-    Ask, Context, Document, EstimateDocument, Failure, GaussianDocument, Question, Refused, Tip,
-};
+use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused, Tip};
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
     self as measurement, Alternative, Data, FitError, FitRequest, FittedNumber, Name, Part, Scan,
@@ -102,7 +99,7 @@ pub struct Fit {
     pub unit: Option<String>,
     /// Direction in which the tip moved along the positions of ripples and traces; both are tried by default.
     #[schemars(extend("x-option" = option("DIRECTION", "Data", 13)))]
-    pub scan: Option<ScanName>,
+    pub scan: Option<Scan>,
     /// Number of footprints used to propagate the error of a measured footprint.
     pub footprints: usize,
     /// Known parameters in documents of older versions.
@@ -110,7 +107,7 @@ pub struct Fit {
     pub known: Vec<NumberHeld>,
     /// Footprints drawn within the error of a measured one, each a sum of Gaussians with lengths in σ.
     #[serde(skip_serializing)]
-    pub draws: Vec<Vec<GaussianDocument>>,
+    pub draws: Vec<Vec<Gaussian>>,
     /// The measured data sets, at least one. Documents contain them in the answer instead.
     #[serde(skip_serializing)]
     pub data: Vec<Measured>,
@@ -128,16 +125,6 @@ pub enum FreeName {
     HealingTime,
     /// Inertia M.
     Inertia,
-}
-
-/// Direction of the scan along the positions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ScanName {
-    /// Towards larger positions.
-    Right,
-    /// Towards smaller positions.
-    Left,
 }
 
 /// A measured data set, with the name of its source, such as that of a file.
@@ -246,9 +233,16 @@ impl Measured {
     }
 }
 
-twins!(FreeName => Name: Beta | DepthLimit | HealingTime | Inertia);
-twins!(ScanName => Scan: Right | Left);
-
+impl From<FreeName> for Name {
+    fn from(name: FreeName) -> Self {
+        match name {
+            FreeName::Beta => Self::Beta,
+            FreeName::DepthLimit => Self::DepthLimit,
+            FreeName::HealingTime => Self::HealingTime,
+            FreeName::Inertia => Self::Inertia,
+        }
+    }
+}
 /// A warning about a fit without a given footprint.
 const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
 
@@ -330,10 +324,10 @@ impl Fit {
             (Shape::Triple, vec![])
         } else {
             let refused = |error| Refused::whole("draws", error);
-            let draws = self.draws.iter().map(|draw| {
-                TipFunction::gaussian_sum(draw.iter().map(Gaussian::from).collect())
-                    .map_err(refused)
-            });
+            let draws = self
+                .draws
+                .iter()
+                .map(|draw| TipFunction::gaussian_sum(draw.clone()).map_err(refused));
             let tip = self.tip.clone().unwrap_or_default().0;
             (Shape::Known(tip), draws.collect::<Result<_, _>>()?)
         };
@@ -342,7 +336,7 @@ impl Fit {
             known: self.all_known()?,
             free: self.free.iter().copied().map(Into::into).collect(),
             robust: self.robust,
-            scan: self.scan.map(Into::into),
+            scan: self.scan,
             footprints,
         })
     }

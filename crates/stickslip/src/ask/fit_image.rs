@@ -4,14 +4,12 @@ use super::lines::footprint;
 use crate::documents::table::{Array, Named, Tabular, as_arrays, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
-    Ask, Context, Document, EstimateDocument, Failure, MeasuredImage, Question, Refused, ScanName,
-    Tip,
+    Ask, Context, Document, EstimateDocument, Failure, MeasuredImage, Question, Refused, Tip,
 };
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples,
+    Estimate, Image, Lateral, Retrace, RippleError, RippleProfile, RippleRequest, Ripples, Scan,
     has_lines_along_y, ripples,
 };
 use stickslip_stability::{Raster, RasterPath};
@@ -46,7 +44,7 @@ pub struct FitImageFound {
     /// α at which a wave with the wave vector (`q`, `kappa`) neither grows nor decays at the fitted r, dimensionless.
     pub neutral_alpha: f64,
     /// Direction in which the tip moved along the lines when it made the ripples.
-    pub scan: ScanName,
+    pub scan: Scan,
     /// Direction in which the lines followed each other.
     pub slow_scan: SlowScanName,
     /// The part of the image in which the ripples have settled, and which gives all numbers; null if the whole image
@@ -73,9 +71,9 @@ pub struct FitImageFound {
     pub lateral: Option<LateralDocument>,
     /// Comparison of the retrace with the trace; null without `retrace_image`.
     #[serde(default)]
-    pub retrace: Option<RetraceDocument>,
+    pub retrace: Option<Retrace>,
     /// The mean ripple, perpendicular to the crests.
-    pub profile: RippleProfileDocument,
+    pub profile: RippleProfile,
     /// The image without offsets and slopes of its lines, averaged to at most 128 × 128 pixels.
     pub levelled: MeasuredImage,
 }
@@ -134,7 +132,7 @@ pub struct FitImage {
     pub height_unit: Option<String>,
     /// Direction in which the tip moved along the lines when it made the ripples; both are tried by default.
     #[schemars(extend("x-option" = option("DIRECTION", "Data", 13)))]
-    pub scan: Option<ScanName>,
+    pub scan: Option<Scan>,
     /// Direction in which the lines of an image followed each other; both are tried by default.
     #[schemars(extend("x-option" = option("DIRECTION", "Data", 14)))]
     pub slow_scan: Option<SlowScanName>,
@@ -172,18 +170,6 @@ pub struct LateralDocument {
     pub shift_error: f64,
 }
 
-/// Comparison of the retrace with the trace.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RetraceDocument {
-    /// Shift of the retrace along the lines relative to the trace, in the unit of the image; the fit removes it.
-    pub shift: f64,
-    /// Amplitude of the first harmonic of the retrace over that of the trace.
-    pub ratio: f64,
-    /// Probability that noise alone makes an equally large difference, beyond the shift.
-    pub agreement: f64,
-}
-
 /// A direction across the lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -202,20 +188,6 @@ pub struct SettledPart {
     pub x: [f64; 2],
     /// Across the lines.
     pub y: [f64; 2],
-}
-
-/// The mean ripple; columns of equal length.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RippleProfileDocument {
-    /// Distance from the crest, perpendicular to it, in the direction of the wave vector.
-    pub distance: Vec<f64>,
-    /// Mean height.
-    pub height: Vec<f64>,
-    /// Standard deviation of `height`.
-    pub error: Vec<f64>,
-    /// Height of the model.
-    pub model: Vec<f64>,
 }
 
 /// Largest number of rows and columns of the levelled image.
@@ -331,7 +303,7 @@ impl FitImage {
             frees_stiffness: self.free_stiffness_across,
             known: [one("alpha", self.alpha)?, one("r", self.r)?],
             lateral: self.lateral()?,
-            forward: self.scan.map(|scan| scan == ScanName::Right),
+            forward: self.scan.map(|scan| scan == Scan::Right),
             upward: self.slow_scan.map(|scan| scan == SlowScanName::Up),
             retrace: self
                 .retrace_image
@@ -446,7 +418,7 @@ impl FitImageFound {
             height_gain: found.height_gain,
             critical_alpha,
             neutral_alpha: found.neutral_alpha,
-            scan: if found.forward { ScanName::Right } else { ScanName::Left },
+            scan: if found.forward { Scan::Right } else { Scan::Left },
             slow_scan: if found.upward { SlowScanName::Up } else { SlowScanName::Down },
             settled_part: found.part.map(|[x, y]| SettledPart { x, y }),
             explained,
@@ -465,12 +437,8 @@ impl FitImageFound {
                 shift: lateral.shift,
                 shift_error: lateral.shift_error,
             }),
-            retrace: found.retrace.map(|Retrace { shift, ratio, agreement }| RetraceDocument {
-                shift,
-                ratio,
-                agreement,
-            }),
-            profile: found.profile.clone().into(),
+            retrace: found.retrace,
+            profile: found.profile.clone(),
             levelled: MeasuredImage {
                 x: levelled.x().to_vec(),
                 y: levelled.y().to_vec(),
@@ -480,12 +448,10 @@ impl FitImageFound {
     }
 }
 
-twins!(RippleProfile => RippleProfileDocument { distance, height, error, model });
-
 impl Tabular for FitImageFound {
     /// The mean ripple.
     fn columns(&self) -> Vec<Named<'_>> {
-        let RippleProfileDocument { distance, height, error, model } = &self.profile;
+        let RippleProfile { distance, height, error, model } = &self.profile;
         columns!(distance, height, error, model)
     }
 

@@ -3,11 +3,11 @@
 use crate::documents::table::{Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::{Ask, Context, Document, Failure, GaussianDocument, Question, Refused};
+use crate::{Ask, Context, Document, Failure, Question, Refused};
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{
-    Across, Candidate, Estimate, Image, MeasuredTip as Measured, Profile, Request, Sides, TipError,
-    sides, tip,
+    Across, Candidate, Estimate, Fitted, Image, MeasuredTip as Measured, Profile, Request, Sides,
+    TipError, sides, tip,
 };
 use stickslip_tip::Gaussian;
 
@@ -17,7 +17,7 @@ use stickslip_tip::Gaussian;
 #[serde(deny_unknown_fields)]
 pub struct MeasuredTipFound {
     /// f as a sum of Gaussians, with f(0) = 1 and lengths in σ.
-    pub gaussians: Vec<GaussianDocument>,
+    pub gaussians: Vec<Gaussian>,
     /// σ in the unit of the positions: the width of the Gaussian with the same full width at half of f(0), unless it
     /// was given.
     pub sigma: EstimateDocument,
@@ -51,13 +51,13 @@ pub struct MeasuredTipFound {
     /// Trapping threshold αt at the r of the parameters, dimensionless; null if there is none.
     pub trapping_alpha: Option<EstimateDocument>,
     /// Rows of the profile, and the fit.
-    pub profile: FittedDocument,
+    pub profile: Fitted,
     /// Footprints compatible with the noise, drawn at random: `fit` uses them to propagate the error of the shape.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub draws: Vec<Vec<GaussianDocument>>,
+    pub draws: Vec<Vec<Gaussian>>,
     /// Results for f(x,y) from an image, in addition to the profile through its middle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub image: Option<AcrossDocument>,
+    pub image: Option<Across>,
     /// The footprint of each direction of motion; present if both sides were fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sides: Option<SidesDocument>,
@@ -257,8 +257,8 @@ impl Ask for MeasuredTip {
         let across = across.map_err(|error| Refused::whole(named, error))?;
         remarks.extend(across.as_ref().and_then(unexplained));
         let answer = MeasuredTipFound::of(&found, self.metres()?);
-        let (image, sides) = (across.as_ref().map(Into::into), two.as_ref().map(Into::into));
-        Ok((MeasuredTipFound { image, sides, ..answer }, remarks))
+        let sides = two.as_ref().map(Into::into);
+        Ok((MeasuredTipFound { image: across, sides, ..answer }, remarks))
     }
 }
 
@@ -296,7 +296,7 @@ pub struct SidesDocument {
 #[serde(deny_unknown_fields)]
 pub struct GaussianSumDocument {
     /// f as a sum of Gaussians.
-    pub gaussians: Vec<GaussianDocument>,
+    pub gaussians: Vec<Gaussian>,
 }
 
 /// The footprint of one direction of motion, an even function.
@@ -320,9 +320,7 @@ pub struct SideDocument {
 impl From<&Sides> for SidesDocument {
     fn from(sides: &Sides) -> Self {
         let (trace, retrace) = ((&sides.forward).into(), (&sides.backward).into());
-        let gaussians = |terms: Vec<Gaussian>| terms.iter().map(GaussianDocument::from).collect();
-        let footprint = sides.footprint().map(gaussians);
-        let footprint = footprint.map(|gaussians| GaussianSumDocument { gaussians });
+        let footprint = sides.footprint().map(|gaussians| GaussianSumDocument { gaussians });
         Self { apex: sides.apex, trace, retrace, asymmetry: sides.asymmetry(), footprint }
     }
 }
@@ -330,9 +328,8 @@ impl From<&Sides> for SidesDocument {
 impl From<&Measured> for SideDocument {
     fn from(side: &Measured) -> Self {
         let trapping = side.trapping_alpha;
-        let gaussians = side.gaussians.iter().map(GaussianDocument::from).collect();
         Self {
-            footprint: GaussianSumDocument { gaussians },
+            footprint: GaussianSumDocument { gaussians: side.gaussians.clone() },
             apex: side.apex,
             residual: side.residual,
             critical_alpha: side.critical_alpha.into(),
@@ -351,27 +348,6 @@ fn unexplained(across: &Across) -> Option<String> {
             across.residual, across.noise
         )
     })
-}
-
-/// f(x,y), fitted to all pixels of an image: each Gaussian of f(x) times exp(-y²/(2v²)).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct AcrossDocument {
-    /// v of each of `gaussians`, in σ.
-    pub widths: Vec<f64>,
-    /// Centre of symmetry of f across the scan, in the unit of the positions.
-    pub centre: f64,
-    /// Standard deviation of the residuals of all pixels, in the unit of the heights.
-    pub residual: f64,
-    /// Standard deviation of the noise from pixel to pixel along the rows, in the unit of the heights.
-    pub noise: f64,
-}
-
-impl From<&Across> for AcrossDocument {
-    fn from(across: &Across) -> Self {
-        let Across { widths, centre, residual, noise } = across;
-        Self { widths: widths.clone(), centre: *centre, residual: *residual, noise: *noise }
-    }
 }
 
 /// A value with its 95 % interval.
@@ -403,18 +379,6 @@ pub struct CandidateDocument {
     pub critical_alpha: Option<f64>,
 }
 
-/// Columns of equal length, by ascending position, in the units of the data.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct FittedDocument {
-    /// Positions.
-    pub x: Vec<f64>,
-    /// Measured heights.
-    pub f: Vec<f64>,
-    /// Fitted heights, including the background.
-    pub fit: Vec<f64>,
-}
-
 impl From<Estimate> for EstimateDocument {
     fn from(estimate: Estimate) -> Self {
         let finite = |v: f64| v.is_finite().then_some(v);
@@ -436,7 +400,7 @@ impl MeasuredTipFound {
         };
         let trapping = found.trapping_alpha;
         Self {
-            gaussians: found.gaussians.iter().map(GaussianDocument::from).collect(),
+            gaussians: found.gaussians.clone(),
             sigma: found.sigma.into(),
             sigma_metres: metres.map(|metres| found.sigma.value * metres),
             apex: found.apex,
@@ -452,16 +416,8 @@ impl MeasuredTipFound {
             critical_alpha: found.critical_alpha.into(),
             critical_omega: found.critical_omega.into(),
             trapping_alpha: trapping.value.is_finite().then(|| trapping.into()),
-            profile: FittedDocument {
-                x: found.fitted.x.clone(),
-                f: found.fitted.f.clone(),
-                fit: found.fitted.fit.clone(),
-            },
-            draws: found
-                .draws
-                .iter()
-                .map(|draw| draw.iter().map(GaussianDocument::from).collect())
-                .collect(),
+            profile: found.fitted.clone(),
+            draws: found.draws.clone(),
             image: None,
             sides: None,
         }
@@ -479,17 +435,10 @@ impl MeasuredTipFound {
     }
 }
 
-impl FittedDocument {
-    /// The residuals of the fit.
-    pub fn residuals(&self) -> Vec<f64> {
-        self.f.iter().zip(&self.fit).map(|(f, fit)| f - fit).collect()
-    }
-}
-
 impl Tabular for MeasuredTipFound {
     /// The profile, the fit and the residuals, as a table.
     fn columns(&self) -> Vec<Named<'_>> {
-        let FittedDocument { x, f, fit } = &self.profile;
+        let Fitted { x, f, fit } = &self.profile;
         let residual = self.profile.residuals();
         columns!(x, f, fit, residual)
     }

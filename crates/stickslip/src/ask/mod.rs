@@ -50,55 +50,43 @@ pub(crate) mod walker_motion;
 pub(crate) mod walking;
 
 pub use boundary::{
-    Boundary, BoundaryDocument, BoundaryFound, BranchDocument, LimitColumns, OnsetColumns,
-    SpacingName,
+    Boundary, BoundaryDocument, BoundaryFound, LimitColumns, OnsetColumns, SpacingName,
 };
 pub use context::Context;
-pub use continuation::{
-    Continue, ContinueDocument, ContinueFound, CycleBranch, EndName, OverName, SpecialDocument,
-    SpecialName,
-};
+pub use continuation::{Continue, ContinueDocument, ContinueFound, CycleBranch, SpecialDocument};
 pub use cycle::{Cycle, CycleDocument, CycleFound, CycleProfile, CycleWork};
 pub use failure::{Failure, Refused, Typed};
 pub use fit::{
     AlternativeDocument, DataFitted, Fit, FitDocument, FitFound, FreeName, Measured, NumberFitted,
-    NumberHeld, ScanName,
+    NumberHeld,
 };
-pub use fit_image::{
-    FitImage, FitImageDocument, FitImageFound, LateralDocument, RetraceDocument,
-    RippleProfileDocument, SlowScanName,
-};
+pub use fit_image::{FitImage, FitImageDocument, FitImageFound, LateralDocument, SlowScanName};
 pub use force_tracks::RunForces;
 pub use friction::{ForceTrack, Friction, FrictionDocument, FrictionFound, LoopColumns};
 pub use load_map::{LoadMap, LoadMapDocument, LoadMapFound, LoadPoint, LoadWidths};
 pub use measured_tip::{
-    AcrossDocument, CandidateDocument, EstimateDocument, FittedDocument, GaussianSumDocument,
-    MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, MeasuredTipFound,
-    SideDocument, SidesDocument,
+    CandidateDocument, EstimateDocument, GaussianSumDocument, MeasuredImage, MeasuredProfile,
+    MeasuredTip, MeasuredTipDocument, MeasuredTipFound, SideDocument, SidesDocument,
 };
-pub use model::{
-    GaussianDocument, Law, LayerDocument, ModelParameters, TipDocument, judge_details,
-};
+pub use model::{Law, LayerDocument, ModelParameters, TipDocument, judge_details};
 pub use moving::{Moved, Moving};
 pub use points::{Points, each_point, on_threads};
 pub use question::{Indentation, NamedTip, Tip, TipName};
-pub use raster::{AreaDocument, PathName, Raster, RasterDocument};
+pub use raster::{AreaDocument, Raster, RasterDocument};
 pub use raster_boundary::{
     RasterBoundary, RasterBoundaryDocument, RasterBoundaryFound, ThresholdColumns,
 };
 pub use raster_stability::{
-    RasterCertificateDocument, RasterCriticalDocument, RasterGrowth, RasterKindName,
-    RasterStability, RasterStabilityDocument, RasterStabilityFound,
+    RasterCriticalDocument, RasterGrowth, RasterStability, RasterStabilityDocument,
+    RasterStabilityFound,
 };
 pub use raster_sweep::{RasterSweep, RasterSweepDocument};
 pub use response::{ModeDocument, Response, ResponseDocument, ResponseFound, ResponseSamples};
 pub use run::{
-    ForceTable, MemoryName, NoiseParameters, Profile, PulseParameters, Run, RunDocument,
-    RunScenario, StartName, SupportPathParameters, SurfaceTable,
+    ForceTable, Profile, Run, RunDocument, RunScenario, StartName, SupportPathParameters,
+    SurfaceTable,
 };
-pub use run_found::{
-    HoldDocument, LoopDocument, PeakDocument, RunEnd, RunFound, SampleLine, Samples,
-};
+pub use run_found::{RunEnd, RunFound, SampleLine, Samples};
 pub use run_many::ask_runs;
 pub use sampling::{Sampling, Times};
 pub use snaking_boundary::{
@@ -106,9 +94,7 @@ pub use snaking_boundary::{
 };
 pub use stability::{Stability, StabilityDocument};
 pub use sweep::Sweep;
-pub use units::{
-    CriticalUnits, LagDocument, PhysicalDocument, ScalesDocument, Units, UnitsDocument,
-};
+pub use units::{CriticalUnits, LagDocument, Units, UnitsDocument};
 pub use walker::{OrbitDocument, Walker, WalkerDocument, WalkerFound, WalkerWork};
 pub use walker_motion::{CircleDocument, WalkerRegime};
 pub use walking::{WalkDocument, Walking, WalkingDocument, WalkingFound};

@@ -2,7 +2,6 @@
 
 use crate::parameter::{NOTHING_DRAGS, option};
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{Refused, Unusable};
 use serde::{Deserialize, Serialize};
 use stickslip_tip::{
@@ -16,7 +15,7 @@ pub enum TipDocument {
     /// A sum of a exp(-(x-c)²/(2w²)): the triple Gaussian (48), a Gaussian, or a tip from a file.
     Gaussians {
         /// The terms of the sum.
-        gaussians: Vec<GaussianDocument>,
+        gaussians: Vec<Gaussian>,
     },
     /// J0(x).
     Bessel {},
@@ -39,23 +38,8 @@ pub struct LayerDocument {
     /// v, in σ
     pub width_y: f64,
     /// g, a sum of Gaussians.
-    pub gaussians: Vec<GaussianDocument>,
+    pub gaussians: Vec<Gaussian>,
 }
-
-/// One Gaussian, a exp(-(x-c)²/(2w²)).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GaussianDocument {
-    /// a, dimensionless.
-    pub amplitude: f64,
-    /// c, in σ
-    pub center: f64,
-    /// w, in σ
-    pub width: f64,
-}
-
-twins!(&GaussianDocument => Gaussian { amplitude, center, width });
-twins!(&Gaussian => GaussianDocument { amplitude, center, width });
 
 impl From<&TipFunction> for TipDocument {
     fn from(tip: &TipFunction) -> Self {
@@ -70,9 +54,9 @@ impl From<&TipFunction> for TipDocument {
     }
 }
 
-fn gaussian_documents(tip: &TipFunction) -> Vec<GaussianDocument> {
+fn gaussian_documents(tip: &TipFunction) -> Vec<Gaussian> {
     match tip {
-        TipFunction::Gaussians(sum) => sum.terms().iter().map(GaussianDocument::from).collect(),
+        TipFunction::Gaussians(sum) => sum.terms().to_vec(),
         TipFunction::Bessel | TipFunction::Cosine => vec![],
     }
 }
@@ -132,8 +116,8 @@ pub fn judge_details(tip: &TipFunction) -> Result<(), Unusable> {
     ))
 }
 
-fn sum_of(gaussians: &[GaussianDocument]) -> Result<TipFunction, TipFunctionError> {
-    TipFunction::asymmetric_sum(gaussians.iter().map(Gaussian::from).collect())
+fn sum_of(gaussians: &[Gaussian]) -> Result<TipFunction, TipFunctionError> {
+    TipFunction::asymmetric_sum(gaussians.to_vec())
 }
 
 /// Extensions of the basic model. Without any, a question is about the basic model.

@@ -2,14 +2,11 @@
 
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::{
-    GaussianDocument, Law, LayerDocument, ModelParameters, Refused, TipDocument, Typed,
-    judge_details,
-};
+use crate::{Law, LayerDocument, ModelParameters, Refused, TipDocument, Typed, judge_details};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use stickslip_stability as stability;
-use stickslip_tip::{Model, ModelError, TipFunction, Wider};
+use stickslip_tip::{Gaussian, Model, ModelError, TipFunction, Wider};
 
 /// A footprint in a question, written as [`TipDocument`]. It is read from this form, from a name with `beta` and
 /// `width`, or from a table with the columns `x` and `f`.
@@ -118,7 +115,7 @@ struct TipFields {
     /// Width of gaussian or triple-gaussian, in σ; default 1.
     width: Option<f64>,
     /// Terms of a sum of Gaussians.
-    gaussians: Option<Vec<GaussianDocument>>,
+    gaussians: Option<Vec<Gaussian>>,
     /// Terms g(x)h(y) of a footprint in three dimensions.
     layers: Option<Vec<LayerDocument>>,
     /// Positions x ≥ 0 of a table, in σ, ascending from 0.

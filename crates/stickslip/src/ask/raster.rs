@@ -4,33 +4,19 @@ use super::lines::footprint;
 use crate::documents::table::Array;
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
-    Ask, Context, Document, Failure, HeightMap, Indentation, Law, MemoryName, ModelParameters,
-    PulseParameters, Question, RasterFound, Refused, Sampling, Tip, Typed, Unusable,
+    Ask, Context, Document, Failure, HeightMap, Indentation, Law, ModelParameters, Question,
+    RasterFound, Refused, Sampling, Tip, Typed, Unusable,
 };
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, AreaLine, Free, Line, Path, Plan, RasterError, Scanning};
 use stickslip_tip::planar::PlanarError;
-use stickslip_tip::{Force, Pulse, RunError, Scenario};
+use stickslip_tip::{Force, MemoryChoice, Pulse, RunError, Scenario};
 
 /// Default distance that the support moves between samples, in widths of the tip.
 const SAMPLE: f64 = 0.25;
 /// Largest number of samples of all lines together: their columns then take less than a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
-
-/// The path of the support from one line to the next.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PathName {
-    /// Every line runs in the same direction from x = 0, with the spring relaxed.
-    #[default]
-    OneWay,
-    /// The support turns back at the end of a line and moves on by one pitch; the tip keeps its position.
-    Zigzag,
-    /// The same line is scanned again from x = 0, with the spring relaxed.
-    Repeat,
-}
 
 /// Everything that defines a raster.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -56,7 +42,7 @@ pub struct Raster {
     /// The path of the support from one line to the next.
     #[schemars(extend("x-option" = option("PATH", "Scan", 43)))]
     #[serde(default)]
-    pub path: PathName,
+    pub path: Path,
     /// Distance of the lines, in σ; null if all lines coincide or are unevenly spaced.
     #[schemars(extend("x-option" = option("D", "Scan", 40)))]
     #[serde(default)]
@@ -75,7 +61,7 @@ pub struct Raster {
     pub area: Option<AreaDocument>,
     /// Gaussian pulses of external force on the first line; their times count from its start.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub pulses: Vec<PulseParameters>,
+    pub pulses: Vec<Pulse>,
     /// Target for the error of x0 on each line, in σ; from 1e-13 to 1e-2.
     #[schemars(extend("x-option" = option("E", "Accuracy", 51)))]
     #[serde(default = "super::run::default_tolerance")]
@@ -83,7 +69,7 @@ pub struct Raster {
     /// Memory: the algorithm for the history of a line. All memories give the same motion within the tolerance.
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
-    pub memory: MemoryName,
+    pub memory: MemoryChoice,
     /// κ_y, the spring constant across the lines over that along them; above 0. Without it the tip cannot leave its
     /// line.
     #[schemars(extend("x-option" = option("K", "Across the scan", 30)))]
@@ -166,8 +152,8 @@ impl Raster {
             return area.area().map_err(|error| Refused::whole("area", error));
         }
         let pitch = match (self.path, self.pitch) {
-            (PathName::Repeat, None) => 0.0,
-            (PathName::Repeat, Some(pitch)) => {
+            (Path::Repeat, None) => 0.0,
+            (Path::Repeat, Some(pitch)) => {
                 let why = "has no meaning with {path} repeat, whose lines are all the same: leave one of them out";
                 return Err(Refused::number("pitch", pitch, why));
             }
@@ -187,12 +173,11 @@ impl Raster {
         let model = self.indentation.model(&self.tip.0, self.law.into(), self.r)?;
         // A saved question contains the resolved values.
         let (footprint, _) = footprint(self.width_y, model.tip())?;
-        let mut plan = Plan::over(footprint, model, Path::from(self.path), self.area()?);
-        let pulses: Vec<Pulse> = self.pulses.iter().map(Into::into).collect();
-        let force = Force::new(pulses, None);
+        let mut plan = Plan::over(footprint, model, self.path, self.area()?);
+        let force = Force::new(self.pulses.clone(), None);
         plan.disturbance = force.map_err(|error| Refused::whole("pulses", error))?;
         plan.free = self.free()?;
-        plan.law = Scenario { tolerance: self.tolerance, memory: self.memory.into(), ..plan.law };
+        plan.law = Scenario { tolerance: self.tolerance, memory: self.memory, ..plan.law };
         plan.validate().map_err(|error| self.refused(&error))?;
         Ok(plan)
     }
@@ -360,5 +345,3 @@ impl Document<Raster> {
         Ok(HeightMap::of(&plan, &lines))
     }
 }
-
-twins!(PathName => Path: OneWay | Zigzag | Repeat);

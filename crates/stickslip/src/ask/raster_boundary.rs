@@ -6,11 +6,9 @@ use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::{
-    Ask, Context, Document, Failure, Law, Question, RasterKindName, Refused, SpacingName, Tip,
-};
+use crate::{Ask, Context, Document, Failure, Law, Question, Refused, SpacingName, Tip};
 use serde::{Deserialize, Serialize};
-use stickslip_stability::{RasterCritical, RasterPath, StabilityError};
+use stickslip_stability::{RasterCritical, RasterKind, RasterPath, StabilityError};
 use stickslip_tip::{Footprint, Wider};
 
 /// The critical α of rasters over a range of pitches.
@@ -161,7 +159,7 @@ pub struct RasterBoundaryFound {
 #[serde(deny_unknown_fields)]
 pub struct ThresholdColumns {
     /// Kind of the lowest threshold.
-    pub kind: Vec<RasterKindName>,
+    pub kind: Vec<RasterKind>,
     /// Critical α of ripples.
     pub ripples: Vec<Option<f64>>,
     /// Critical α of bunching lines.
@@ -180,21 +178,21 @@ impl RasterBoundaryFound {
         self.crest_angle.push(first.crest_angle.unwrap_or(90.0));
         self.alpha_zigzag.push(zigzag);
         if let Some(thresholds) = &mut self.thresholds {
-            thresholds.push(first.kind.into(), one_way);
+            thresholds.push(first.kind, one_way);
         }
     }
 }
 
 impl ThresholdColumns {
-    fn push(&mut self, first: RasterKindName, all: &[RasterCritical]) {
-        let of = |kind: RasterKindName| {
-            let at = all.iter().find(|at| RasterKindName::from(at.kind) == kind);
+    fn push(&mut self, first: RasterKind, all: &[RasterCritical]) {
+        let of = |kind: RasterKind| {
+            let at = all.iter().find(|at| at.kind == kind);
             at.map(|at| at.alpha)
         };
         self.kind.push(first);
-        self.ripples.push(of(RasterKindName::Ripples));
-        self.bunching.push(of(RasterKindName::Bunching));
-        self.snaking.push(of(RasterKindName::Snaking));
+        self.ripples.push(of(RasterKind::Ripples));
+        self.bunching.push(of(RasterKind::Bunching));
+        self.snaking.push(of(RasterKind::Snaking));
     }
 }
 

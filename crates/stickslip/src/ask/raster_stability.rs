@@ -5,7 +5,6 @@ use super::lines::{footprint, left, raster, refused};
 use crate::documents::table::{Column, Named, Tabular, columns};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
     Ask, Context, Document, Failure, Indentation, Law, ModelParameters, PathName, Question,
     Refused, Tip,
@@ -225,26 +224,13 @@ impl RasterGrowth {
     }
 }
 
-/// Kinds of waves of the scan lines of a raster.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RasterKindName {
-    /// Crests across the lines or oblique, at 22.5° or more to them.
-    Ripples,
-    /// Crests nearly along the lines: lines move into the grooves of earlier ones and form trenches along the scan, or
-    /// pairs of lines.
-    Bunching,
-    /// Deviations across the lines, caused mainly by each line's own groove.
-    Snaking,
-}
-
 /// The critical ripple: at a slightly larger α it grows.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RasterCriticalDocument {
     /// With a spring across the scan: the kind of wave that grows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub kind: Option<RasterKindName>,
+    pub kind: Option<RasterKind>,
     /// The critical α.
     pub alpha: f64,
     /// r, dimensionless.
@@ -261,25 +247,7 @@ pub struct RasterCriticalDocument {
     pub phase_per_line: f64,
     /// Evidence for the threshold; missing in documents of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub certificate: Option<RasterCertificateDocument>,
-}
-
-/// Evidence that no ripple grows below a threshold, and that one grows above.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterCertificateDocument {
-    /// Relative tolerance of the search over all wave numbers and phases: it rules out a threshold lower by more than
-    /// this.
-    pub tolerance: f64,
-    /// Number of cells of wave numbers and phases that the search examined.
-    pub cells: usize,
-    /// Relative distance from the threshold of the two values of α at which growing waves of this q were counted.
-    pub margin: f64,
-    /// Number of waves that grow below the threshold (pairs ±z for a zigzag); null if the lines interact too weakly
-    /// for a count.
-    pub growing_below: Option<usize>,
-    /// Number of waves that grow above the threshold; null if `growing_below` is.
-    pub growing_above: Option<usize>,
+    pub certificate: Option<RasterCertificate>,
 }
 
 /// Growth of ripples against their wave number along the lines.
@@ -299,28 +267,12 @@ impl RasterCriticalDocument {
     /// A threshold, with its kind if there are several kinds.
     pub fn of(critical: &RasterCritical, has_kind: bool) -> Self {
         let RasterCritical { alpha, r, q, phase_per_line, kappa, crest_angle, .. } = *critical;
-        let kind = has_kind.then(|| critical.kind.into());
+        let kind = has_kind.then_some(critical.kind);
         let wavelength_x = Some(critical.wavelength_x).filter(|length| length.is_finite());
-        let certificate = Some((&critical.certificate).into());
+        let certificate = Some(critical.certificate);
         Self { kind, alpha, r, q, kappa, crest_angle, wavelength_x, phase_per_line, certificate }
     }
 }
-
-impl RasterKindName {
-    /// The name in documents.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Ripples => "ripples",
-            Self::Bunching => "bunching",
-            Self::Snaking => "snaking",
-        }
-    }
-}
-
-twins!(RasterKind => RasterKindName: Ripples | Bunching | Snaking);
-twins!(
-    &RasterCertificate => RasterCertificateDocument { tolerance, cells, margin, growing_below, growing_above }
-);
 
 impl Tabular for RasterStabilityFound {
     /// The growth as a table over wave numbers; without α the critical ripple, or the thresholds of all kinds.
@@ -340,7 +292,7 @@ impl Tabular for RasterStabilityFound {
             ("phase_per_line", column(|at| Some(at.phase_per_line))),
         ];
         if self.thresholds.is_some() {
-            let kinds = rows.iter().filter_map(|at| at.kind).map(RasterKindName::as_str);
+            let kinds = rows.iter().filter_map(|at| at.kind).map(RasterKind::as_str);
             columns.push(("kind", Column::words(kinds.map(Into::into))));
         }
         columns

@@ -5,8 +5,8 @@ use super::points::{Points, all_points};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
-    Ask, Context, Document, Failure, Law, PathName, Question, RasterSweepFound, RasterSweepPoint,
-    Refused, ShardDocument, Tip, Typed,
+    Ask, Context, Document, Failure, Law, Question, RasterSweepFound, RasterSweepPoint, Refused,
+    ShardDocument, Tip, Typed,
 };
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{
@@ -44,7 +44,7 @@ pub struct RasterSweep {
     /// The path of the support from one line to the next.
     #[schemars(extend("x-option" = option("PATH", "Scan", 43)))]
     #[serde(default)]
-    pub path: PathName,
+    pub path: Path,
     /// Distances of the lines, in σ.
     #[schemars(extend("x-option" = option("RANGE", "Scan", 40)))]
     pub pitch: Vec<f64>,
@@ -86,7 +86,7 @@ impl Ask for RasterSweep {
 
     fn resolved(self, _: &Context) -> Result<Self, Failure> {
         let (_, width_y) = footprint(self.width_y, &self.tip.0)?;
-        if self.path == PathName::Repeat {
+        if self.path == Path::Repeat {
             let why = "a repeated line has no pitch: take one-way or zigzag";
             return Err(Refused::word("path", "repeat", why).into());
         }
@@ -157,8 +157,7 @@ impl RasterSweep {
         }
         let model = Model::under(self.law.into(), self.tip.0.clone(), alpha, self.r)?;
         let (footprint, _) = footprint(self.width_y, &self.tip.0)?;
-        let mut plan =
-            Plan::new(footprint, model, Path::from(self.path), pitch, self.lines, self.length);
+        let mut plan = Plan::new(footprint, model, self.path, pitch, self.lines, self.length);
         plan.free = self.stiffness_across.map(Free::new);
         plan.law.tolerance = self.tolerance;
         plan.validate().map_err(|error| match (&error, self.stiffness_across) {
@@ -205,8 +204,7 @@ impl RasterSweep {
 
     /// αc for growth from line to line, if linear theory has one.
     fn threshold(&self, pitch: f64) -> Option<f64> {
-        let path =
-            if self.path == PathName::Zigzag { RasterPath::Zigzag } else { RasterPath::OneWay };
+        let path = if self.path == Path::Zigzag { RasterPath::Zigzag } else { RasterPath::OneWay };
         let law: Wider = self.law.into();
         let left = law.left_after(self.length / self.r);
         let (footprint, _) = footprint(self.width_y, &self.tip.0).ok()?;

@@ -6,7 +6,7 @@ use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
     Ask, CertificateDocument, ComplexDocument, Context, Document, Failure, Indentation, Law,
-    ModelParameters, PulseParameters, Question, Refused, Run, Sampling, SteadyState, Tip,
+    ModelParameters, Question, Refused, Run, Sampling, SteadyState, Tip,
 };
 use serde::{Deserialize, Serialize};
 use stickslip_stability::{self as theory, ResponseMode};
@@ -60,7 +60,7 @@ pub struct Response {
     #[serde(flatten)]
     pub law: Law,
     /// Gaussian pulses of external force.
-    pub pulses: Vec<PulseParameters>,
+    pub pulses: Vec<Pulse>,
     /// Least number of modes in the list. It has all modes to the right of a vertical line in the complex plane.
     #[schemars(extend("x-option" = option("N", "Accuracy", 50)))]
     #[serde(default = "default_modes")]
@@ -168,7 +168,7 @@ impl Pulsed {
     fn of(question: &Response) -> Result<Self, Refused> {
         let law = question.law.dragged(&question.tip.0)?;
         let model = question.indentation.model(&question.tip.0, law, question.r)?;
-        let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
+        let pulses = question.pulses.clone();
         let origin = pulses.iter().map(|p| p.time).fold(f64::NEG_INFINITY, f64::max);
         Ok(Self { model, pulses, origin })
     }

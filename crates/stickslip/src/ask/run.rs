@@ -5,7 +5,6 @@ use super::moving;
 use super::run_found::RunFound;
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
     Ask, Context, Document, FARTHEST, Failure, History, Indentation, Law, ModelParameters,
     Question, Refused, RunEnd, Samples, Sampling, SteadyState, Tip, Typed, Unusable,
@@ -61,13 +60,13 @@ pub struct Run {
     pub start_velocity: Option<f64>,
     /// Noise added to the initial surface.
     #[serde(default)]
-    pub noise: Option<NoiseParameters>,
+    pub noise: Option<Noise>,
     /// Profile added to the initial surface.
     #[serde(default)]
     pub initial_surface: Option<Profile>,
     /// Gaussian pulses of external force.
     #[serde(default)]
-    pub pulses: Vec<PulseParameters>,
+    pub pulses: Vec<Pulse>,
     /// Tabulated external force.
     #[serde(default)]
     pub force: Option<ForceTable>,
@@ -82,7 +81,7 @@ pub struct Run {
     /// Memory: the algorithm for the history integral. All memories give the same motion within the tolerance.
     #[schemars(extend("x-option" = option("MEMORY", "Accuracy", 50)))]
     #[serde(default)]
-    pub memory: MemoryName,
+    pub memory: MemoryChoice,
     /// κ_y, the spring constant across the scan over that along it; above 0. Without it the tip cannot leave its
     /// line.
     #[schemars(extend("x-option" = option("K", "Across the scan", 30)))]
@@ -183,38 +182,8 @@ impl RunScenario {
     }
 }
 
-/// Heights uniform in [-amplitude, amplitude] on a grid, interpolated by a cubic spline.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct NoiseParameters {
-    /// Largest height, 0 or above, in kσ²/a.
-    pub amplitude: f64,
-    /// Distance of the grid points, in σ; 0.1 by default. It is part of the initial condition: white noise has no
-    /// limit as the spacing goes to 0.
-    #[serde(default = "default_spacing")]
-    pub spacing: f64,
-    /// Seed of the random numbers; 1 by default.
-    #[serde(default = "default_seed")]
-    pub seed: u64,
-}
-
-impl NoiseParameters {
-    /// Default distance of the grid points, in σ.
-    pub const SPACING: f64 = 0.1;
-    /// Default seed.
-    pub const SEED: u64 = 1;
-}
-
-fn default_spacing() -> f64 {
-    NoiseParameters::SPACING
-}
-
-fn default_seed() -> u64 {
-    NoiseParameters::SEED
-}
-
 /// The noise of the paper's simulations, but on a grid that resolves its slope.
-const PAPERS_NOISE: NoiseParameters = NoiseParameters { amplitude: 1e-4, spacing: 0.05, seed: 1 };
+const PAPERS_NOISE: Noise = Noise { amplitude: 1e-4, spacing: 0.05, seed: 1 };
 
 /// Knots of the piecewise linear path of the support.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -250,18 +219,6 @@ pub struct SurfaceTable {
     pub u: Vec<Vec<f64>>,
 }
 
-/// A pulse, amplitude · exp(-(t-time)²/(2 width²)).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PulseParameters {
-    /// Largest force, in kσ.
-    pub amplitude: f64,
-    /// Time of the largest force, in Γ/k.
-    pub time: f64,
-    /// Standard deviation in time, in Γ/k.
-    pub width: f64,
-}
-
 /// External force as a function of time.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -286,23 +243,6 @@ pub enum StartName {
     Paper,
 }
 
-/// The memory: the algorithm for the history integral.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum MemoryName {
-    /// The cheapest memory: direct while few points lie within reach of the tip, then modes, or fft if no
-    /// exponentials fit.
-    #[default]
-    Auto,
-    /// A sum over the history within reach: the definition, slow for long histories.
-    Direct,
-    /// FFT convolution with the residence density: the same cost for any history.
-    Fft,
-    /// A sum of few exponentials, for tip functions that decay: the cost of a step stays constant and is below that
-    /// of fft.
-    Modes,
-}
-
 impl Run {
     /// A run from steady motion to a given time, for the basic model.
     pub fn new(tip: Tip, indentation: Indentation, r: f64, until: f64) -> Self {
@@ -323,7 +263,7 @@ impl Run {
             force: None,
             until,
             tolerance: default_tolerance(),
-            memory: MemoryName::Auto,
+            memory: MemoryChoice::Auto,
             stiffness_across: None,
             kick_across: None,
             width_y: None,
@@ -451,9 +391,8 @@ impl Run {
 
     /// The scenario, without a check that it can be run.
     fn assembled(&self) -> Result<Scenario, Refused> {
-        let pulses = self.pulses.iter().map(Into::into).collect();
         let table = self.force.clone().map(|table| (table.t, table.force));
-        let force = Force::new(pulses, table).map_err(|error| match error {
+        let force = Force::new(self.pulses.clone(), table).map_err(|error| match error {
             ForceError::Table(error) => Refused::whole("force", error),
             error => Refused::whole("pulses", error),
         })?;
@@ -464,11 +403,11 @@ impl Run {
             kick: self.kick,
             path: path.map_err(|error| Refused::whole("support_path", error))?,
             start_velocity: self.start_velocity,
-            noise: self.noise.as_ref().map(Into::into),
+            noise: self.noise,
             profile: self.initial_surface.clone().map(|profile| (profile.x, profile.u)),
             force,
             tolerance: self.tolerance,
-            memory: self.memory.into(),
+            memory: self.memory,
             ..Scenario::new(self.model()?, self.until)
         })
     }
@@ -641,8 +580,8 @@ impl From<&RunDocument> for RunEnd {
             regime: found.regime,
             oscillation: found.oscillation.clone(),
             snaking: found.snaking.clone(),
-            creep: found.creep.clone(),
-            drifting: found.drifting.clone(),
+            creep: found.creep,
+            drifting: found.drifting,
             transient: found.transient.clone(),
             remarks: document.remarks.clone(),
             interrupted: found.interrupted,
@@ -717,10 +656,6 @@ impl SurfaceTable {
     }
 }
 
-twins!(Pulse => PulseParameters { amplitude, time, width });
-twins!(&PulseParameters => Pulse { amplitude, time, width });
-twins!(&NoiseParameters => Noise { amplitude, spacing, seed });
-
 impl From<StartName> for Start {
     fn from(name: StartName) -> Self {
         match name {
@@ -730,5 +665,3 @@ impl From<StartName> for Start {
         }
     }
 }
-
-twins!(MemoryName => MemoryChoice: Auto | Direct | Fft | Modes);

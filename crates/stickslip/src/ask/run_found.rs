@@ -2,15 +2,14 @@
 
 use crate::documents::table::{Array, Named, Tabular, as_arrays};
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{
-    CreepDocument, DriftDocument, Failure, History, OscillationDocument, RegimeName, SteadyState,
-    SwingDocument, TransientDocument, VerificationDocument, WorkDocument,
+    Failure, History, OscillationDocument, RegimeName, SteadyState, SwingDocument,
+    TransientDocument, VerificationDocument, WorkDocument,
 };
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Observer, Outcome, judge};
+use stickslip_outcome::{Creeping, Drift, Observer, Outcome, judge};
 use stickslip_surface::{Surface, ripple_behind};
-use stickslip_tip::friction::{Hold, Loop, Peak, holds, loops};
+use stickslip_tip::friction::{Hold, Loop, holds, loops};
 use stickslip_tip::{InitialSurface, Scenario, Support, Trajectory};
 
 /// The motion of a tip, and its regime. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a.
@@ -32,17 +31,17 @@ pub struct RunFound {
     pub snaking: Option<SwingDocument>,
     /// The closed loops of a support that follows a path; null without a path, or if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub loops: Option<Vec<LoopDocument>>,
+    pub loops: Option<Vec<Loop>>,
     /// The holds of a support that follows a path, and the peak of the lateral force after each; null without holds, or
     /// if the history is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub holds: Option<Vec<HoldDocument>>,
+    pub holds: Option<Vec<Hold>>,
     /// The rate of creep, if the regime is trapped.
     #[serde(default)]
-    pub creep: Option<CreepDocument>,
+    pub creep: Option<Creeping>,
     /// The velocity, if the regime is drifting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub drifting: Option<DriftDocument>,
+    pub drifting: Option<Drift>,
     /// The predicted regime, if the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
@@ -89,15 +88,12 @@ impl RunFound {
     }
 
     /// The closed loops and the holds of a support that follows a path; `None` without them.
-    pub fn of_path(
-        trajectory: &Trajectory,
-    ) -> (Option<Vec<LoopDocument>>, Option<Vec<HoldDocument>>) {
+    pub fn of_path(trajectory: &Trajectory) -> (Option<Vec<Loop>>, Option<Vec<Hold>>) {
         if !matches!(trajectory.support(), Support::Path(_)) {
             return (None, None);
         }
-        let loops = loops(trajectory).into_iter().map(Into::into).collect();
-        let holds: Vec<_> = holds(trajectory).into_iter().map(Into::into).collect();
-        (Some(loops), (!holds.is_empty()).then_some(holds))
+        let holds = holds(trajectory);
+        (Some(loops(trajectory)), (!holds.is_empty()).then_some(holds))
     }
 }
 
@@ -166,10 +162,10 @@ pub struct RunEnd {
     pub snaking: Option<SwingDocument>,
     /// The rate of creep, if the regime is trapped.
     #[serde(default)]
-    pub creep: Option<CreepDocument>,
+    pub creep: Option<Creeping>,
     /// The velocity, if the regime is drifting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub drifting: Option<DriftDocument>,
+    pub drifting: Option<Drift>,
     /// The predicted regime, if the regime is transient.
     #[serde(default)]
     pub transient: Option<TransientDocument>,
@@ -196,56 +192,13 @@ impl RunEnd {
             regime: outcome.regime.into(),
             oscillation,
             snaking: None,
-            creep: outcome.creep.map(Into::into),
-            drifting: outcome.drifting.map(Into::into),
+            creep: outcome.creep,
+            drifting: outcome.drifting,
             transient: outcome.prospect.map(Into::into),
             remarks: outcome.remarks.iter().map(ToString::to_string).collect(),
             interrupted: false,
             work,
         }
-    }
-}
-
-/// A closed loop of the support.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LoopDocument {
-    /// Time at which the loop begins, in Γ/k.
-    pub from: f64,
-    /// Time at which the loop ends, in Γ/k.
-    pub to: f64,
-    /// ∮ (R - x0)dR, the work that the support does, in kσ².
-    pub work: f64,
-}
-
-twins!(Loop => LoopDocument { from, to, work });
-
-/// A hold: the support stops, and later moves on.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HoldDocument {
-    /// Time at which the support stops, in Γ/k.
-    pub from: f64,
-    /// Time at which the support moves on, in Γ/k.
-    pub to: f64,
-    /// The peak of the lateral force in the motion after the hold, up to the next turn or stop of the support; null if
-    /// the force is largest at the end of this motion.
-    pub peak: Option<PeakDocument>,
-}
-
-/// A peak of the lateral force.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PeakDocument {
-    /// Time, in Γ/k.
-    pub t: f64,
-    /// R - x0, the extension of the spring, in σ: the lateral force, in kσ; negative if the support moves backwards.
-    pub lag: f64,
-}
-
-impl From<Hold> for HoldDocument {
-    fn from(Hold { from, to, peak }: Hold) -> Self {
-        Self { from, to, peak: peak.map(|Peak { t, lag }| PeakDocument { t, lag }) }
     }
 }
 

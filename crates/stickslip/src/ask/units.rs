@@ -6,7 +6,6 @@ use super::exponents::failed;
 use crate::documents::table::{Column, Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{FORMAT_VERSION, Failure, Indentation, Refused, Software, Tip};
 use serde::{Deserialize, Serialize};
 use solve::{Given, INDENTATION_RATE, QUANTITIES, QUANTITIES_TOGETHER, is_allowed};
@@ -164,11 +163,11 @@ pub struct UnitsDocument {
     /// r = Γ v0/(kσ), dimensionless, (12).
     pub r: f64,
     /// All six quantities.
-    pub physical: PhysicalDocument,
+    pub physical: Physical,
     /// Steady lag of the tip behind the support.
     pub lag: LagDocument,
     /// Units of the model in SI.
-    pub scales: ScalesDocument,
+    pub scales: Scales,
     /// Onset of stick-slip.
     pub critical: CriticalUnits,
     /// Whether steady motion is stable.
@@ -201,31 +200,13 @@ impl UnitsDocument {
                 metres: physical.lag(model.tip()),
                 dimensionless: model.steady_lag(),
             },
-            scales: physical.scales().into(),
-            physical: physical.into(),
+            scales: physical.scales(),
+            physical: *physical,
             critical,
             stable,
             remarks,
         }
     }
-}
-
-/// SI values.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PhysicalDocument {
-    /// Γ in kg/s.
-    pub damping: f64,
-    /// k in N/m.
-    pub stiffness: f64,
-    /// σ in m.
-    pub tip_width: f64,
-    /// N in m/s.
-    pub indentation_rate: f64,
-    /// a in N.
-    pub slope_force: f64,
-    /// v0 in m/s.
-    pub velocity: f64,
 }
 
 /// The steady lag D of (23).
@@ -236,20 +217,6 @@ pub struct LagDocument {
     pub metres: f64,
     /// r + α f(0)/r, in σ.
     pub dimensionless: f64,
-}
-
-/// SI values of the model's units.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ScalesDocument {
-    /// σ in m, for x, l and x0.
-    pub length: f64,
-    /// Γ/k in s.
-    pub time: f64,
-    /// kσ²/a in m, for the surface u.
-    pub height: f64,
-    /// kσ in N, for the external force.
-    pub force: f64,
 }
 
 /// The onset of stick-slip if one quantity is varied and all others are fixed. A field is null if there is no onset.
@@ -269,11 +236,6 @@ pub struct CriticalUnits {
     /// v0 in m/s below which there is stick-slip.
     pub velocity: Option<f64>,
 }
-
-twins!(
-    &Physical => PhysicalDocument { damping, stiffness, tip_width, indentation_rate, slope_force, velocity }
-);
-twins!(Scales => ScalesDocument { length, time, height, force });
 
 impl UnitsDocument {
     /// All quantities: name, value if there is one, and unit.

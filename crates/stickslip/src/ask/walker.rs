@@ -6,16 +6,16 @@ use crate::documents::table::{Named, Tabular};
 use crate::parameter::option;
 use crate::schema::JsonSchema;
 use crate::{
-    Ask, ComplexDocument, Context, Document, Failure, PulseParameters, Question, Refused,
-    SampleLine, Samples, Sampling, StartName,
+    Ask, ComplexDocument, Context, Document, Failure, Question, Refused, SampleLine, Samples,
+    Sampling, StartName,
 };
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use stickslip_stability::{self as theory};
-use stickslip_tip::Force;
 use stickslip_tip::walker::{
     WalkerError, WalkerPast, WalkerScenario, WalkerTrajectory, run_observed,
 };
+use stickslip_tip::{Force, Pulse};
 
 /// A particle in the plane, driven by the field Q of J0 that it leaves: M x'' + x' = α ∇Q - Ω ẑ × x' - K x + F. Here Q
 /// = ∫ J0(|x - x(t')|) exp(-(t-t')/T) dt'. The particle starts at t = 0.
@@ -69,7 +69,7 @@ pub struct Walker {
     pub start_velocity: Option<f64>,
     /// Gaussian pulses of external force along x.
     #[serde(default)]
-    pub pulses: Vec<PulseParameters>,
+    pub pulses: Vec<Pulse>,
     /// Time at which the run ends, in Γ/k; it starts at 0.
     #[schemars(extend("x-option" = option("T", "Model", 5)))]
     pub until: f64,
@@ -170,8 +170,8 @@ impl Walker {
     }
 
     fn on_flat_field(&self) -> Result<WalkerScenario, Refused> {
-        let pulses = self.pulses.iter().map(Into::into).collect();
-        let force = Force::new(pulses, None).map_err(|error| Refused::whole("pulses", error))?;
+        let force = Force::new(self.pulses.clone(), None)
+            .map_err(|error| Refused::whole("pulses", error))?;
         let scenario = WalkerScenario {
             inertia: self.inertia,
             rotation: self.rotation.unwrap_or_default(),

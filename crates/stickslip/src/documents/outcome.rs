@@ -1,9 +1,8 @@
 //! The regime at the end of a run, as stored in documents.
 
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use serde::{Deserialize, Serialize};
-use stickslip_outcome::{Creeping, Drift, Oscillation, Prospect, Regime, Snaking};
+use stickslip_outcome::{Oscillation, Prospect, Regime, Snaking};
 use stickslip_surface::Ripple;
 
 /// Regimes of motion.
@@ -24,7 +23,17 @@ pub enum RegimeName {
     Transient,
 }
 
-twins!(Regime => RegimeName: Steady | StickSlip | Trapped | Drifting | Transient);
+impl From<Regime> for RegimeName {
+    fn from(regime: Regime) -> Self {
+        match regime {
+            Regime::Steady => Self::Steady,
+            Regime::StickSlip => Self::StickSlip,
+            Regime::Trapped => Self::Trapped,
+            Regime::Drifting => Self::Drifting,
+            Regime::Transient => Self::Transient,
+        }
+    }
+}
 
 /// The word in documents.
 impl std::fmt::Display for RegimeName {
@@ -84,30 +93,6 @@ impl OscillationDocument {
         }
     }
 }
-
-/// The logarithmic creep of a trapped tip, x0 ~ (1/p) ln t.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CreepDocument {
-    /// p at the end of the run, the rate at which 1/x0' grows with time, in 1/σ.
-    pub rate: f64,
-    /// The stable creep rate p that the motion approaches, in 1/σ: one of those that `stability` lists.
-    pub attracting: f64,
-}
-
-twins!(Creeping => CreepDocument { rate, attracting });
-
-/// The velocity of a tip without a spring.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DriftDocument {
-    /// x0' at the end of the run, in kσ/Γ; negative towards smaller x.
-    pub velocity: f64,
-    /// Error of the velocity, in kσ/Γ; the velocity of the settled motion lies within it.
-    pub velocity_error: f64,
-}
-
-twins!(Drift => DriftDocument { velocity, velocity_error });
 
 /// The periodic motion of a tip that oscillates across the scan. Amplitudes are half peak-to-peak. Period and amplitudes of the
 /// settled motion lie within the errors, provided that changes from period to period decay geometrically.

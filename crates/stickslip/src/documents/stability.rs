@@ -2,7 +2,6 @@
 
 use crate::documents::table::{Named, Tabular};
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use serde::{Deserialize, Deserializer, Serialize};
 use stickslip_stability::{
     Certificate, Creep, Critical, Criticality, Onset, OnsetKind, SnakingCritical,
@@ -88,7 +87,7 @@ pub struct CriticalDocument {
     pub wavelength: f64,
     /// Extended model only: the kind of onset at this point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub kind: Option<OnsetKindName>,
+    pub kind: Option<OnsetKind>,
 }
 
 /// Depth limit and memory length below which steady motion is stable at every α.
@@ -102,17 +101,6 @@ pub struct LimitsDocument {
     /// The product of r and healing time, in σ, below which steady motion is stable at every α and r without a depth
     /// limit. Null if there is none.
     pub memory_length: Option<f64>,
-}
-
-/// Kinds of onset, by the equation of small deviations at the critical point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum OnsetKindName {
-    /// A linear equation.
-    Smooth,
-    /// A piecewise linear equation with the kink of |u|: alpha is the value at which a small oscillation keeps its
-    /// amplitude.
-    NonSmooth,
 }
 
 /// Permanent creep, x0 ~ (1/p) ln t.
@@ -154,23 +142,13 @@ pub struct CertificateDocument {
     pub largest_error: f64,
 }
 
-/// The side of the boundary on which the small oscillation exists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CriticalityName {
-    /// Above the critical α, where it is stable.
-    Supercritical,
-    /// Below the critical α, where it is unstable.
-    Subcritical,
-}
-
 /// The small oscillation near the critical point, to leading order in α - αc.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OnsetDocument {
     /// Whether the oscillation starts with amplitude 0 beyond αc (supercritical) or exists already below it
     /// (subcritical).
-    pub criticality: CriticalityName,
+    pub criticality: Criticality,
     /// d(a²)/dα, with a = half the peak-to-peak of l, in σ².
     pub amplitude_squared_slope: f64,
     /// dT/dα of the period T along the branch of cycles, in Γ/k.
@@ -211,11 +189,9 @@ impl CriticalDocument {
     /// A critical point, with its kind in an extended model.
     pub fn of(critical: &Critical, kind: Option<OnsetKind>) -> Self {
         let Critical { alpha, r, omega, period, wavelength, .. } = *critical;
-        Self { alpha, r, omega, period, wavelength, kind: kind.map(OnsetKindName::from) }
+        Self { alpha, r, omega, period, wavelength, kind }
     }
 }
-
-twins!(OnsetKind => OnsetKindName: Smooth | NonSmooth);
 
 impl From<&Certificate> for CertificateDocument {
     fn from(certificate: &Certificate) -> Self {
@@ -232,13 +208,16 @@ impl From<&Certificate> for CertificateDocument {
     }
 }
 
-twins!(Criticality => CriticalityName: Supercritical | Subcritical);
-twins!(SnakingCritical => SnakingDocument { alpha, omega, wavelength });
+impl From<SnakingCritical> for SnakingDocument {
+    fn from(SnakingCritical { alpha, omega, wavelength, .. }: SnakingCritical) -> Self {
+        Self { alpha, omega, wavelength }
+    }
+}
 
 impl From<&Onset> for OnsetDocument {
     fn from(onset: &Onset) -> Self {
         Self {
-            criticality: onset.criticality.into(),
+            criticality: onset.criticality,
             amplitude_squared_slope: onset.amplitude_squared_slope,
             period_slope: onset.period_slope,
             omega_slope: onset.omega_slope,

@@ -1,7 +1,6 @@
 //! Comparison of a run with a repetition.
 
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use serde::{Deserialize, Serialize};
 use stickslip_verify::{Difference, Verification};
 
@@ -17,13 +16,13 @@ pub struct VerificationDocument {
     pub tolerance: f64,
     /// Difference of l over the whole run; ten tolerances are allowed. Without the history of the run, the largest
     /// difference of l and x0 at its samples.
-    pub l: LargestDifferenceDocument,
+    pub l: Difference,
     /// Difference of y0, with the limit of `l`, if the tip is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub y0: Option<LargestDifferenceDocument>,
+    pub y0: Option<Difference>,
     /// Difference of the surface at the end; null for a run without its history, and in two coordinates. The limit is the effect of an
     /// allowed error of x0.
-    pub u: Option<LargestDifferenceDocument>,
+    pub u: Option<Difference>,
     /// The first time, in Γ/k, at which the difference of l or y0 exceeds its limit; null if it never does.
     pub trusted_until: Option<f64>,
     /// Largest amplification of a small initial error during the run.
@@ -31,18 +30,6 @@ pub struct VerificationDocument {
     /// Estimate of the leading Lyapunov exponent from this run, in k/Γ: small errors grow (or decay) like
     /// exp(exponent t). Null if the run is too short for an estimate.
     pub lyapunov_exponent: Option<f64>,
-}
-
-/// The largest difference, relative to its limit.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LargestDifferenceDocument {
-    /// The difference: of l and y0 in σ, of u in kσ²/a.
-    pub largest: f64,
-    /// Place of the largest difference: time for l and y0, in Γ/k; position for u, in σ.
-    pub at: f64,
-    /// The limit at the place of the largest difference, in its unit.
-    pub allowed: f64,
 }
 
 /// Number of samples in a run written as lines, and the lines with differences.
@@ -82,14 +69,12 @@ impl From<&Verification> for VerificationDocument {
             kept: found.is_kept(),
             memory: found.memory.into(),
             tolerance: found.tolerance,
-            l: (&found.l).into(),
-            y0: found.y.as_ref().map(Into::into),
-            u: found.u.as_ref().map(Into::into),
+            l: found.l,
+            y0: found.y,
+            u: found.u,
             trusted_until: found.trusted_until,
             amplification: found.growth.amplification,
             lyapunov_exponent: found.growth.exponent,
         }
     }
 }
-
-twins!(&Difference => LargestDifferenceDocument { largest, at, allowed });

@@ -31,16 +31,25 @@ pub(crate) use taylor::{BeginBeside, EndedBeside, SideBySide};
 
 /// Numbers of steps, iterations and series, which do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "RasterWork"))]
+#[cfg_attr(
+    feature = "schema",
+    schemars(description = "Counts over all lines, which depend on the input alone.")
+)]
 pub struct Work {
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
-    /// Steps repeated with a smaller length.
+    /// Number of steps repeated with a smaller length.
     pub rejected: u64,
-    /// Newton iterations, each with one evaluation of the groove at all stages.
+    /// Number of Newton iterations in all steps.
     pub newton_iterations: u64,
-    /// Taylor series; each yields one or several steps, without an iteration.
+    /// Number of Taylor expansions; each makes one or several steps without iteration.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub series: u64,
-    /// Number of changes from series to collocation.
+    /// Number of changes from Taylor steps to collocation.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub switches: u64,
 }
 

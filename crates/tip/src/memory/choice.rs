@@ -1,16 +1,21 @@
 //! Choice of the memory, and the limits up to which `direct` is the cheapest.
 
-/// Choice of the algorithm for the history integral.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The memory: the algorithm for the history integral.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MemoryName"))]
 pub enum MemoryChoice {
-    /// The cheapest: `direct` while few nodes lie within reach of the tip and few steps have been made; then `modes`
-    /// if exponentials fit f' to the required accuracy, else `fft`.
+    /// The cheapest memory: direct while few points lie within reach of the tip, then modes, or fft if no
+    /// exponentials fit.
+    #[default]
     Auto,
-    /// The definition: a sum over all nodes within reach. Its cost is proportional to their number.
+    /// A sum over the history within reach: the definition, slow for long histories.
     Direct,
-    /// A convolution with the residence density of the tip.
+    /// FFT convolution with the residence density: the same cost for any history.
     Fft,
-    /// A sum of few exponentials; `fft` replaces it while the tip has retreated beyond its range of validity.
+    /// A sum of few exponentials, for tip functions that decay: the cost of a step stays constant and is below that
+    /// of fft.
     Modes,
 }
 

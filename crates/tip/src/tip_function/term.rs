@@ -4,13 +4,16 @@
 /// factors of x, are below round-off there too.
 pub(super) const WIDTHS_OF_REACH: f64 = 8.8;
 
-/// One term a exp(-(x-c)²/(2w²)). Lengths in units of σ.
+/// One Gaussian, a exp(-(x-c)²/(2w²)).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "GaussianDocument"))]
 pub struct Gaussian {
-    /// Amplitude a.
+    /// a, dimensionless.
     pub amplitude: f64,
-    /// Center c.
+    /// c, in σ
     pub center: f64,
-    /// Width w.
+    /// w, in σ
     pub width: f64,
 }

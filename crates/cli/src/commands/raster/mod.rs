@@ -20,7 +20,6 @@ use stickslip::{
     parameter,
 };
 use stickslip_raster::Plan;
-use stickslip_tip::Pulse;
 
 pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;
@@ -86,13 +85,12 @@ pub(super) fn question<Q: Questions>(
         question.area = Some(AreaDocument::of(&read_area(session, "--area", file, scales)?));
     }
     if !pulse.is_empty() {
-        question.pulses = parse_pulses(pulse)?.into_iter().map(Into::into).collect();
+        question.pulses = parse_pulses(pulse)?;
     }
     let refused = |failure| refusal(failure, &options.tip, &files);
     let question = question.resolved(&context(session)).map_err(refused)?;
     let plan = question.plan().map_err(refused)?;
-    let pulses: Vec<Pulse> = question.pulses.iter().map(Into::into).collect();
-    warn_of_pulses_outside(session, pulse, &pulses, (0.0, plan.duration(0)));
+    warn_of_pulses_outside(session, pulse, &question.pulses, (0.0, plan.duration(0)));
     Ok((question, plan))
 }
 

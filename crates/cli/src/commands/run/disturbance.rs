@@ -51,7 +51,7 @@ fn with_files(
         run.support_path = Some(SupportPathParameters { t, displacement });
     }
     if !arguments.pulse.is_empty() {
-        run.pulses = parse_pulses(&arguments.pulse)?.into_iter().map(Into::into).collect();
+        run.pulses = parse_pulses(&arguments.pulse)?;
     }
     if let Some(amplitude) = arguments.noise {
         let spacing = arguments.noise_spacing.unwrap_or(NoiseParameters::SPACING);
@@ -86,8 +86,7 @@ const WIDTHS_CUT: f64 = 3.09;
 /// Warns of each force that ends before the motion begins, begins after it has ended, or has begun already when the
 /// motion begins. It is not an error, because runs of several lengths may share their forces.
 fn warn_of_idle(session: &Session, arguments: &DisturbanceArguments, run: &Run, span: (f64, f64)) {
-    let pulses: Vec<Pulse> = run.pulses.iter().map(Into::into).collect();
-    warn_of_pulses_outside(session, &arguments.pulse, &pulses, span);
+    warn_of_pulses_outside(session, &arguments.pulse, &run.pulses, span);
     let (Some(path), Some(table)) = (&arguments.force_file, &run.force) else { return };
     let (Some(first), Some(last)) = (table.t.first(), table.t.last()) else { return };
     let mut rows = table.t.iter().zip(&table.force);

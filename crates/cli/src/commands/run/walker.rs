@@ -28,7 +28,7 @@ pub(super) fn run(
     if !typed.is_empty() {
         let pulses = parse_pulses(typed)?;
         warn_of_pulses_outside(session, typed, &pulses, (0.0, question.until));
-        question.pulses = pulses.into_iter().map(Into::into).collect();
+        question.pulses = pulses;
     }
     let scales = scales(session, &arguments.in_units, None, None)?;
     let (output, plot) = (arguments.output(), arguments.plot.as_deref());

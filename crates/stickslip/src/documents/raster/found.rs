@@ -2,10 +2,11 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::schema::JsonSchema;
-use crate::{PatternDocument, RasterHistory, RasterLine, RasterRegimeName, RasterSamples};
+use crate::{PatternDocument, RasterHistory, RasterLine, RasterSamples};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use stickslip_raster::{Line, Plan, Written, pattern, volume};
+use stickslip_raster::{Line, Plan, Regime, Written, pattern, volume};
+use stickslip_tip::Work;
 
 /// Neighbouring scan lines on one surface. Lengths in σ, times in Γ/k, forces in kσ, heights in kσ²/a; times count
 /// from the start of each line.
@@ -15,7 +16,7 @@ pub struct RasterFound {
     /// The lines in the order in which they were scanned.
     pub lines: Vec<RasterLine>,
     /// The regime of the surface.
-    pub regime: RasterRegimeName,
+    pub regime: Regime,
     /// The ripple; null where there is none.
     pub pattern: Option<PatternDocument>,
     /// ∫∫ u dx dy, in kσ⁴/a; in the basic model -α (X/r) ∫∫f for each line.
@@ -23,25 +24,7 @@ pub struct RasterFound {
     /// The dense history of all lines, from which `surface` is computed.
     pub history: RasterHistory,
     /// Cost of the raster.
-    pub work: RasterWork,
-}
-
-/// Counts over all lines, which depend on the input alone.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RasterWork {
-    /// Number of accepted steps.
-    pub steps: u64,
-    /// Number of steps repeated with a smaller length.
-    pub rejected: u64,
-    /// Number of Newton iterations in all steps.
-    pub newton_iterations: u64,
-    /// Number of Taylor expansions; each makes one or several steps without iteration.
-    #[serde(default)]
-    pub series: u64,
-    /// Number of changes from Taylor steps to collocation.
-    #[serde(default)]
-    pub switches: u64,
+    pub work: Work,
 }
 
 impl RasterFound {
@@ -51,11 +34,11 @@ impl RasterFound {
         let total = |count: fn(&Line) -> u64| lines.iter().map(count).sum();
         let found = Self {
             lines: lines.par_iter().map(|line| RasterLine::of(plan, line, times)).collect(),
-            regime: regime.into(),
-            pattern: found.map(Into::into),
+            regime,
+            pattern: found,
             volume: volume(plan, lines),
             history: RasterHistory::of(lines),
-            work: RasterWork {
+            work: Work {
                 steps: total(|line| line.work().steps),
                 rejected: total(|line| line.work().rejected),
                 newton_iterations: total(|line| line.work().newton_iterations),

@@ -2,7 +2,6 @@
 
 use crate::documents::table::{Array, joined};
 use crate::schema::JsonSchema;
-use crate::twins::twins;
 use crate::{History, Unusable};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -21,19 +20,7 @@ pub struct RasterLine {
     /// The motion at the sample times.
     pub samples: RasterSamples,
     /// The regime of the motion.
-    pub regime: LineRegimeName,
-}
-
-/// Regimes of motion along a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LineRegimeName {
-    /// The lag changes by less than 2 % between 20 % and 85 % of the line.
-    Steady,
-    /// The lag changes by 2 % or more between 20 % and 85 % of the line.
-    StickSlip,
-    /// The tip covered less than half of the line: it stayed in a pit at one of its ends.
-    StuckAtTheEdge,
+    pub regime: LineRegime,
 }
 
 /// Columns of equal length, in the frame of the surface: on a line towards smaller x, x0 decreases and lags are
@@ -131,7 +118,7 @@ impl RasterLine {
             y0: line.is_free().then(|| column(&|t| line.y0(t))),
             velocity_y: line.is_free().then(|| column(&|t| line.velocity_y(t))),
         };
-        Self { y: line.track().y, samples, regime: line_regime(plan, line).into() }
+        Self { y: line.track().y, samples, regime: line_regime(plan, line) }
     }
 }
 
@@ -294,5 +281,3 @@ impl KeptLine {
         Ok(line)
     }
 }
-
-twins!(LineRegime => LineRegimeName: Steady | StickSlip | StuckAtTheEdge);

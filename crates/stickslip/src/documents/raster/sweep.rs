@@ -1,9 +1,8 @@
 //! `stickslip/raster-sweep`.
 
-use super::RasterRegimeName;
-use crate::PatternDocument;
 use crate::documents::table::{Column, Named, Tabular};
 use crate::schema::JsonSchema;
+use crate::{PatternDocument, RasterRegimeName};
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;
 
@@ -56,8 +55,8 @@ impl RasterSweepPoint {
     #[must_use]
     pub fn written(self, found: &Written, stuck: usize) -> Self {
         Self {
-            regime: Some(found.regime.into()),
-            pattern: found.pattern.map(Into::into),
+            regime: Some(found.regime),
+            pattern: found.pattern,
             stuck_lines: Some(stuck),
             remarks: found.doubts.iter().map(ToString::to_string).collect(),
             ..self

@@ -86,7 +86,7 @@ pub struct MeasuredTip {
     /// Also fit each side of the profile: a moving tip meets the surface with its front side only, so that trace and
     /// retrace have different footprints.
     #[schemars(extend("x-option" = option("", "Data", 8)))]
-    #[serde(skip_serializing_if = "is_off")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub both_sides: bool,
     /// σ, in the unit of the positions; computed by default.
     pub sigma: Option<f64>,
@@ -112,31 +112,22 @@ pub struct MeasuredTip {
 
 impl Default for MeasuredTip {
     fn default() -> Self {
-        let (source, profile, image) = (String::new(), MeasuredProfile::default(), None);
-        let (unit, height_unit, half, centre) = (None, None, None, None);
-        let (sigma, terms) = (None, None);
-        let (both_sides, r, resamples, seed) = (false, 1.0, 400, 0);
         Self {
-            source,
-            unit,
-            height_unit,
-            half,
-            centre,
-            both_sides,
-            sigma,
-            terms,
-            r,
-            resamples,
-            seed,
-            profile,
-            image,
+            source: String::new(),
+            unit: None,
+            height_unit: None,
+            half: None,
+            centre: None,
+            both_sides: false,
+            sigma: None,
+            terms: None,
+            r: 1.0,
+            resamples: 400,
+            seed: 0,
+            profile: MeasuredProfile::default(),
+            image: None,
         }
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
-fn is_off(switch: &bool) -> bool {
-    !switch
 }
 
 /// Measured heights along a line, in rows of any order.

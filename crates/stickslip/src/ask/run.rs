@@ -127,9 +127,7 @@ impl Document<Run> {
             let why = "the tip moves in two coordinates: results of motion along a line are not available";
             return Err(Unusable::new(why));
         }
-        let missing = || Unusable::new("history: it was left out; run it again with --history all");
-        let history = self.history.as_ref().ok_or_else(missing)?;
-        let parameters = &self.parameters;
+        let (history, parameters) = (self.kept_history()?, &self.parameters);
         if let (None, false, Some(r)) =
             (&parameters.support_path, parameters.law.no_spring, parameters.r)
         {
@@ -138,9 +136,7 @@ impl Document<Run> {
         let scenario = parameters.scenario()?;
         history.under(*scenario.model.wider(), scenario.support())
     }
-}
 
-impl Document<Run> {
     /// The scenario and the motion of a tip that is free to move across the scan.
     ///
     /// # Errors
@@ -149,11 +145,15 @@ impl Document<Run> {
         let RunScenario::Across(scenario) = self.parameters.prepared()? else {
             return Err(Unusable::new("the tip is held on its line"));
         };
-        let missing = || Unusable::new("history: it was left out; run it again with --history all");
-        let history = self.history.as_ref().ok_or_else(missing)?;
+        let history = self.kept_history()?;
         let along = &scenario.along;
         let trajectory = history.across(*along.model.wider(), along.support())?;
         Ok((scenario, trajectory))
+    }
+
+    fn kept_history(&self) -> Result<&History, Unusable> {
+        let missing = || Unusable::new("history: it was left out; run it again with --history all");
+        self.history.as_ref().ok_or_else(missing)
     }
 }
 

@@ -38,33 +38,28 @@ pub enum AxisName {
 }
 
 impl AxisName {
-    /// The name of the column: that of the option, with underscores.
-    pub fn column(self) -> &'static str {
+    /// The name of the column, that of the option with underscores; and the label, with its unit.
+    fn names(self) -> (&'static str, &'static str) {
         match self {
-            Self::DepthLimit => "depth_limit",
-            Self::HealingTime => "healing_time",
-            Self::Inertia => "inertia",
-            Self::StartPosition => "start_position",
-            Self::Kick => "kick",
-            Self::StartVelocity => "start_velocity",
-            Self::Noise => "noise",
-            Self::NoiseSpacing => "noise_spacing",
-            Self::Seed => "seed",
+            Self::DepthLimit => ("depth_limit", "depth limit b (kσ²/a)"),
+            Self::HealingTime => ("healing_time", "healing time T (Γ/k)"),
+            Self::Inertia => ("inertia", "inertia M (Γ²/k)"),
+            Self::StartPosition => ("start_position", "start position (σ)"),
+            Self::Kick => ("kick", "kick (σ)"),
+            Self::StartVelocity => ("start_velocity", "start velocity (kσ/Γ)"),
+            Self::Noise => ("noise", "noise (kσ²/a)"),
+            Self::NoiseSpacing => ("noise_spacing", "spacing of the noise (σ)"),
+            Self::Seed => ("seed", "seed"),
         }
+    }
+
+    /// The name of the column.
+    pub fn column(self) -> &'static str {
+        self.names().0
     }
 
     /// The label, with its unit.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::DepthLimit => "depth limit b (kσ²/a)",
-            Self::HealingTime => "healing time T (Γ/k)",
-            Self::Inertia => "inertia M (Γ²/k)",
-            Self::StartPosition => "start position (σ)",
-            Self::Kick => "kick (σ)",
-            Self::StartVelocity => "start velocity (kσ/Γ)",
-            Self::Noise => "noise (kσ²/a)",
-            Self::NoiseSpacing => "spacing of the noise (σ)",
-            Self::Seed => "seed",
-        }
+        self.names().1
     }
 }

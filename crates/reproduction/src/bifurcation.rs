@@ -1,6 +1,6 @@
 //! The bifurcation diagram: the branches of cycles with their period doublings, and the settled motion of runs.
 
-use super::parts::{Failed, curve, failed, figure as empty, finished, panel, spaced};
+use super::parts::{Failed, curve, failed, figure as empty, finished, spaced};
 use super::tips::{Tip, beta_1};
 use std::ops::ControlFlow;
 use stickslip::{FigureDocument, PanelDocument, StyleName};
@@ -53,7 +53,7 @@ fn amplitudes(
     doubled: Option<&Branch>,
     runs: &Runs,
 ) -> PanelDocument {
-    let mut panel = panel("", ("α", "amplitude of x₀ (σ)"));
+    let mut panel = PanelDocument::new("", ("α", "amplitude of x₀ (σ)"));
     // Steady motion is the branch of amplitude 0.
     panel.curves = vec![
         curve(StyleName::Line, "stable", &[FIRST, critical], &[0.0; 2]),
@@ -84,7 +84,7 @@ fn amplitudes(
 }
 
 fn maxima(runs: &Runs) -> PanelDocument {
-    let mut panel = panel("", ("α", "maxima of l (σ)"));
+    let mut panel = PanelDocument::new("", ("α", "maxima of l (σ)"));
     let (alpha, steady): (Vec<f64>, Vec<f64>) = runs.steady.iter().copied().unzip();
     panel.curves = vec![
         curve(StyleName::Points, "maxima of l in runs", &runs.alpha_of_maxima, &runs.maxima),

@@ -1,8 +1,8 @@
 //! Figures along the stability boundary: Fig. 6, and the criticality of the onset.
 
-use super::parts::{Failed, curve, panel, spaced};
+use super::parts::{Failed, curve, spaced};
 use super::tips::figure_of_both;
-use stickslip::{FigureDocument, ScaleName, StyleName};
+use stickslip::{FigureDocument, PanelDocument, ScaleName, StyleName};
 use stickslip_stability::{Boundary, onset_at};
 use stickslip_tip::Wider;
 
@@ -24,7 +24,7 @@ pub(super) fn fig6() -> Result<FigureDocument, Failed> {
         let along = spaced(0.01, LAST, 0.01).into_iter().filter_map(at);
         // αc falls in proportion to r in the end.
         let (r, alpha): (Vec<f64>, Vec<f64>) = std::iter::once((0.0, 0.0)).chain(along).unzip();
-        let mut panel = panel(tip.name, ("r", "α"));
+        let mut panel = PanelDocument::new(tip.name, ("r", "α"));
         panel.curves.push(curve(StyleName::Boundary, "α_c(r)", &r, &alpha));
         if tip.name == tips[0].name {
             let ends = [0.0, LAST];
@@ -61,7 +61,7 @@ pub(super) fn criticality() -> Result<FigureDocument, Failed> {
         let found: Vec<(f64, f64)> =
             spaced(RANGE.0, RANGE.1, 0.01).into_iter().filter_map(excess).collect();
         let (r, excess): (Vec<f64>, Vec<f64>) = found.into_iter().unzip();
-        let mut panel = panel(tip.name, ("r", "d ln α/d(a²) (σ⁻²)"));
+        let mut panel = PanelDocument::new(tip.name, ("r", "d ln α/d(a²) (σ⁻²)"));
         panel.x_scale = ScaleName::Logarithmic;
         let ends = [RANGE.0, RANGE.1].map(|log| 10f64.powf(log));
         panel.x_range = Some(ends);

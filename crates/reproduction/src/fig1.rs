@@ -1,8 +1,8 @@
 //! Fig. 1: the surface at t = 457 below and above onset, and the tip's velocity above.
 
-use super::parts::{Failed, curve, figure as figure_with, finished, heights, panel, spaced};
+use super::parts::{Failed, curve, figure as figure_with, finished, heights, spaced};
 use super::tips::beta_1;
-use stickslip::{FigureDocument, StyleName};
+use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_tip::{Model, Noise, Scenario, Start};
 
 const END: f64 = 457.0;
@@ -45,13 +45,13 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
         let scenario = scenario(model.clone());
         let run = finished(&scenario)?;
         let u = heights(&scenario, &run, END, &x)?;
-        let mut surface = panel(heading, ("x (σ)", "u(x, t = 457) (kσ²/a)"));
+        let mut surface = PanelDocument::new(heading, ("x (σ)", "u(x, t = 457) (kσ²/a)"));
         surface.curves.push(curve(StyleName::Line, "", &x, &u));
         document.panels.push(surface);
         if heading == headings[1] {
             let t = spaced(scenario.start_time(), END, 0.1);
             let velocity: Vec<f64> = t.iter().map(|t| run.trajectory.velocity(*t)).collect();
-            let mut panel = panel(heading, ("t (Γ/k)", "ẋ₀ (kσ/Γ)"));
+            let mut panel = PanelDocument::new(heading, ("t (Γ/k)", "ẋ₀ (kσ/Γ)"));
             panel.curves.push(curve(StyleName::Line, "ẋ₀(t)", &t, &velocity));
             let ends = [t[0], END];
             panel.curves.push(curve(StyleName::Dashed, "r", &ends, &[1.0; 2]));

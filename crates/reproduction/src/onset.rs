@@ -1,6 +1,6 @@
 //! Figures of oscillations slightly beyond onset, which are limit cycles here; the paper simulates until transients decay.
 
-use super::parts::{Failed, curve, failed, figure as empty, line_of_best_fit, panel, spaced};
+use super::parts::{Failed, curve, failed, figure as empty, line_of_best_fit, spaced};
 use super::tips::{Tip, beta_1, figure_of_both};
 use stickslip::{FigureDocument, PanelDocument, StyleName};
 use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, cycle};
@@ -98,7 +98,7 @@ pub(super) fn amplitudes(
     found: &Onset,
     steady: &[f64],
 ) -> PanelDocument {
-    let mut panel = panel(heading, (x_label, "amplitude²"));
+    let mut panel = PanelDocument::new(heading, (x_label, "amplitude²"));
     let zeros = vec![0.0; steady.len()];
     let all_x: Vec<f64> = steady.iter().chain(&found.distance).copied().collect();
     let columns = [
@@ -128,7 +128,7 @@ pub(super) fn fig3() -> Result<FigureDocument, Failed> {
         let (intercept, slope) = found.fit(&found.wavelength);
         let ends = [0.0, found.distance[found.distance.len() - 1]];
         let heading = format!("{}, α_c = {:.3}, 2πr/ω = {:.4}", tip.name, at.alpha, at.wavelength);
-        let mut panel = panel(&heading, ("α − α_c", "L (σ)"));
+        let mut panel = PanelDocument::new(&heading, ("α − α_c", "L (σ)"));
         panel.curves = vec![
             curve(StyleName::Dots, "L", &found.distance, &found.wavelength),
             curve(

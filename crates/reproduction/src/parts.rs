@@ -1,7 +1,7 @@
 //! Building blocks of figures.
 
 use std::fmt::Display;
-use stickslip::{CurveDocument, FigureDocument, ModelParameters, PanelDocument, StyleName};
+use stickslip::{CurveDocument, FigureDocument, ModelParameters, StyleName};
 use stickslip_surface::Surface;
 use stickslip_tip::{Model, Run, Scenario, run};
 use thiserror::Error;
@@ -10,11 +10,6 @@ use thiserror::Error;
 pub(super) fn figure(name: &str, title: &str, models: &[Model]) -> FigureDocument {
     let models = models.iter().map(|model| ModelParameters::of(model, None)).collect();
     FigureDocument::new(name, title, models, vec![])
-}
-
-/// Axes without curves.
-pub(super) fn panel(heading: &str, labels: (&str, &str)) -> PanelDocument {
-    PanelDocument::new(heading, labels)
 }
 
 /// A curve; an empty name keeps it out of the legend.

@@ -1,9 +1,9 @@
 //! Figures of surfaces: Figs. 4 and 7, and a kymograph.
 
-use super::parts::{Failed, curve, failed, figure as empty, finished, heights, panel, spaced};
+use super::parts::{Failed, curve, failed, figure as empty, finished, heights, spaced};
 use super::tips::{BETA_0, beta_0, beta_1};
 use std::sync::LazyLock;
-use stickslip::{ColoursName, FigureDocument, MapDocument, StyleName};
+use stickslip::{ColoursName, FigureDocument, MapDocument, PanelDocument, StyleName};
 use stickslip_surface::Surface;
 use stickslip_tip::{Footprint, Noise, Run, Scenario};
 
@@ -39,7 +39,7 @@ pub(super) fn fig4() -> Result<FigureDocument, Failed> {
          is the seed (docs/findings/corrections.md, 10)"
             .into(),
     ];
-    let mut panel = panel("", ("x (σ)", "u (kσ²/a)"));
+    let mut panel = PanelDocument::new("", ("x (σ)", "u (kσ²/a)"));
     let start = run.trajectory.start();
     panel.curves = vec![
         curve(StyleName::Line, "u(x, t = 460)", &x, &heights(scenario, run, END, &x)?),
@@ -66,7 +66,7 @@ pub(super) fn fig7() -> Result<FigureDocument, Failed> {
         "h(y) = exp(-y²/2) as printed in (60); the round tip that goes with exp(-x²) would have exp(-y²)"
             .into(),
     ];
-    let mut panel = panel("", ("x (σ)", "y (σ)"));
+    let mut panel = PanelDocument::new("", ("x (σ)", "y (σ)"));
     let z_label = "u (kσ²/a)".into();
     panel.map = Some(MapDocument { x, y, z, z_label, colours: ColoursName::Grey, z_range: None });
     document.panels.push(panel);
@@ -87,7 +87,7 @@ pub(super) fn kymograph() -> Result<FigureDocument, Failed> {
         t.iter().map(|t| heights(&scenario, &run, *t, &x)).collect::<Result<_, _>>()?;
     let title = "Kymograph: u(x, t), β = 1, r = 1, α = 1.4";
     let mut document = empty("kymograph", title, std::slice::from_ref(&scenario.model));
-    let mut panel = panel("", ("x (σ)", "t (Γ/k)"));
+    let mut panel = PanelDocument::new("", ("x (σ)", "t (Γ/k)"));
     let z_label = "u (kσ²/a)".into();
     panel.map =
         Some(MapDocument { x, y: t, z, z_label, colours: ColoursName::BlueRed, z_range: None });

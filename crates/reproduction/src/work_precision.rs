@@ -1,9 +1,9 @@
 //! Time against error. Times vary between measurements; therefore the figure uses the saved results of `make
 //! work-precision`.
 
-use super::parts::{Failed, curve, failed, figure as empty, panel};
+use super::parts::{Failed, curve, failed, figure as empty};
 use serde::Deserialize;
-use stickslip::{FigureDocument, ScaleName, StyleName};
+use stickslip::{FigureDocument, PanelDocument, ScaleName, StyleName};
 use stickslip_tip::{Model, TipFunction};
 
 /// Results of benches/work_precision.
@@ -60,7 +60,7 @@ pub(super) fn figure() -> Result<FigureDocument, Failed> {
         let Case { name, beta, alpha, r, until } = case;
         let alpha = (alpha * 1e4).round() / 1e4;
         let heading = format!("{name}: β = {beta}, α = {alpha}, r = {r}, t ≤ {until}");
-        let mut panel = panel(&heading, ("largest error of l (σ)", "time (ms)"));
+        let mut panel = PanelDocument::new(&heading, ("largest error of l (σ)", "time (ms)"));
         (panel.x_scale, panel.y_scale) = (ScaleName::Logarithmic, ScaleName::Logarithmic);
         for (method, style, name) in METHODS {
             let here =

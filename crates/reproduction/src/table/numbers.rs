@@ -1,8 +1,7 @@
 //! Critical points, and numbers from formulas.
 
-use super::printed::Printed;
-use crate::parts::Failed;
-use crate::parts::failed;
+use super::printed::number;
+use crate::parts::{Failed, failed};
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;
 use stickslip_stability::{critical, unstable_count};
@@ -13,7 +12,6 @@ const OTHER_TIP: &str = "the printed number is that of exp(-x²)";
 /// Section V: αc, ω and L of both tips, rc and related numbers.
 pub(super) fn stability() -> Result<Vec<NumberDocument>, Failed> {
     let case = "β = 1, r = 1";
-    let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let at = beta_1()?.critical(1.0)?;
     let mut all = vec![
         number("αc", case, "V, Fig. 1, VII", "1.069").beside(at.alpha),
@@ -44,7 +42,6 @@ pub(super) fn stability() -> Result<Vec<NumberDocument>, Failed> {
 
 /// The numbers for β = 0: with the tip for which they are correct, and with the tip that the paper names.
 fn beta_zero() -> Result<Vec<NumberDocument>, Failed> {
-    let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let narrow = beta_0()?;
     let at = narrow.critical(1.0)?;
     let case = "exp(-x²), r = 1";
@@ -87,7 +84,6 @@ fn first_unstable(tip: &Tip, critical: f64) -> Result<f64, Failed> {
 /// Numbers that follow from formulas of the paper.
 pub(super) fn formulas() -> Result<Vec<NumberDocument>, Failed> {
     let tip = beta_1()?;
-    let number = |quantity, case, place, text| Printed { quantity, case, place, text };
     let volume_rate = TipFunction::gaussian(1.0).map_err(failed("the tip"))?;
     let model = tip.model(1.0, 1.0)?;
     let mut all = vec![
@@ -132,13 +128,12 @@ fn bessel() -> Result<Vec<NumberDocument>, Failed> {
         let at = critical(&Wider::default(), &TipFunction::Bessel, r)
             .map_err(failed("the critical point"))?;
         let case = format!("f = J0, r = {r}");
-        let number = |quantity, place, text| Printed { quantity, case: &case, place, text };
-        all.push(number("αc = r²", "IV.C", alpha).beside(at.alpha));
-        all.push(number("Ω by (47)", "(47)", omega).beside(at.omega / r));
+        all.push(number("αc = r²", &case, "IV.C", alpha).beside(at.alpha));
+        all.push(number("Ω by (47)", &case, "(47)", omega).beside(at.omega / r));
         // At r = 1 the two are the same.
         if r > 1.0 {
             let why = "(47) gives Ω = ω/r";
-            all.push(number("ω by (47)", "(46), (47)", omega).corrected(at.omega, 6, why));
+            all.push(number("ω by (47)", &case, "(46), (47)", omega).corrected(at.omega, 6, why));
         }
     }
     Ok(all)

@@ -1,9 +1,8 @@
 //! The paper's statements on the oscillations, as numbers.
 
-use super::printed::Printed;
+use super::printed::number;
 use crate::onset::{Onset, solved};
-use crate::parts::Failed;
-use crate::parts::line_of_best_fit;
+use crate::parts::{Failed, line_of_best_fit};
 use crate::tips::{Tip, beta_0, beta_1};
 use stickslip::NumberDocument;
 
@@ -24,12 +23,7 @@ pub(super) fn oscillations() -> Result<Vec<NumberDocument>, Failed> {
     let cycle = solved(&tip.model(tip.critical(1.0)?.alpha + 0.01, 1.0)?)?;
     let motion = cycle.motion();
     let way = motion.x0(motion.end()) - motion.x0(motion.start());
-    let mean = Printed {
-        quantity: "mean of ẋ0",
-        case: "β = 1, r = 1, α = αc + 0.01",
-        place: "V, Fig. 1",
-        text: "1",
-    };
+    let mean = number("mean of ẋ0", "β = 1, r = 1, α = αc + 0.01", "V, Fig. 1", "1");
     all.push(mean.beside(way / cycle.period()));
     let case = "β = 1, α = 1";
     let critical = tip.critical_r(1.0)?;
@@ -47,10 +41,7 @@ fn at_onset(
     let near = Onset::above(tip, &NEAR)?;
     let mut all = exponents(&near, case, "V, Fig. 2");
     let (limit, _) = line_of_best_fit(&near.distance, &near.wavelength);
-    let printed =
-        Printed {
-            quantity: "L of the ripple at α → αc", case, place: "Fig. 3", text: wavelength
-        };
+    let printed = number("L of the ripple at α → αc", case, "Fig. 3", wavelength);
     all.push(match rounded {
         None => printed.beside(limit),
         Some(why) => printed.corrected(limit, 4, why),
@@ -63,9 +54,9 @@ fn exponents(near: &Onset, case: &str, place: &str) -> Vec<NumberDocument> {
     let exponent = |squared: &[f64]| {
         0.5 * (squared[1] / squared[0]).ln() / (near.distance[1] / near.distance[0]).ln()
     };
-    let number = |quantity| Printed { quantity, case, place, text: "1/2" };
+    let half = |quantity| number(quantity, case, place, "1/2");
     vec![
-        number("exponent of the amplitude of u").beside(exponent(&near.u_squared)),
-        number("exponent of the amplitude of x0").beside(exponent(&near.x0_squared)),
+        half("exponent of the amplitude of u").beside(exponent(&near.u_squared)),
+        half("exponent of the amplitude of x0").beside(exponent(&near.x0_squared)),
     ]
 }

@@ -12,6 +12,16 @@ pub(super) struct Printed<'a> {
     pub(super) text: &'a str,
 }
 
+/// A number printed as `text` at this place of the paper.
+pub(super) fn number<'a>(
+    quantity: &'a str,
+    case: &'a str,
+    place: &'a str,
+    text: &'a str,
+) -> Printed<'a> {
+    Printed { quantity, case, place, text }
+}
+
 impl Printed<'_> {
     /// The comparison with our value.
     pub(super) fn beside(&self, ours: f64) -> NumberDocument {
@@ -71,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_printed_number_is_as_precise_as_its_digits() {
-        let printed = |text| Printed { quantity: "αc", case: "", place: "", text };
+        let printed = |text| number("αc", "", "", text);
         assert!(printed("1.069").beside(1.0694).agrees);
         assert!(!printed("1.069").beside(1.0696).agrees);
         assert!(printed("0.96").beside(0.9649).agrees);

@@ -10,9 +10,8 @@ use super::certificate::{Certificate, Region, Spectrum, with_conjugates};
 use super::characteristic::Characteristic;
 use super::half_plane::HalfPlane;
 use super::law::Law;
-use super::newton::{polish, simultaneous};
+use super::newton::simultaneous;
 use super::one_sided::OneSided;
-use super::transform::Scaled;
 use num_complex::Complex64;
 use stickslip_tip::roots::bisected;
 use stickslip_tip::{Model, TipFunction};
@@ -63,34 +62,35 @@ pub fn creep(model: &Model) -> Result<Creep, StabilityError> {
     Ok(Creep { roots, slopes, certificate })
 }
 
-/// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp. Squared, this is
-/// 2κp³ - (κ²+1)p² + 2κp - 1 = 0, whose roots on the other sheet of s are left out.
+/// Roots for f = J0, κ = α/r: G = -p/(s(s+p)) with s = √(p²+1), so that s(s + p) = κp. With s = κ(1 + κ/z) this is
+/// p = -(z + κ)²/z and z³ + 4κz² + (5κ²+1)z + 2κ³ = 0. Roots with Re s < 0 are on the other sheet. If κ is small, a pair lies
+/// as close as κ³ to the imaginary axis and as κ² to the branch points ±i, where the cubic in p does not resolve it.
 fn bessel(kappa: f64) -> Spectrum {
-    let footprint = OneSided::new(&TipFunction::Bessel);
-    let h = |p: Complex64| {
-        let (g, slope) = footprint.plain(p).curvature;
-        Scaled { value: g * kappa + 1.0, derivative: slope * kappa, log_scale: 0.0 }
-    };
-    let size = |p: Complex64| 1.0 + kappa * footprint.plain(p).curvature.0.norm();
-    let is_root = |p: &Complex64| h(*p).value.norm() < 1e-11 * size(*p);
     let real = |z: Complex64| if z.im.abs() < 1e-9 * z.norm() { z.re.into() } else { z };
-    let candidates = simultaneous([(kappa * kappa + 1.0) / (-2.0 * kappa), 1.0, -0.5 / kappa]);
-    let mut upper: Vec<Complex64> = vec![];
-    for p in candidates.map(real).into_iter().filter(|p| p.im >= 0.0 && p.re > 0.0) {
-        let p = real(polish(h, p));
-        if is_root(&p) && upper.iter().all(|known| (known - p).norm() > 1e-9 * p.norm()) {
-            upper.push(p);
+    let mut upper: Vec<(Complex64, Complex64)> = vec![];
+    for z in simultaneous([4.0 * kappa, 5.0 * kappa * kappa + 1.0, 2.0 * kappa.powi(3)]).map(real) {
+        let u = kappa / z + 1.0;
+        let (mut p, s) = (-u * u * z, u * kappa);
+        if p.im.abs() > 0.0 {
+            // p² = s² - 1, without the difference of nearly equal numbers in the real part.
+            p.re = s.re * s.im / p.im;
+        }
+        let is_new = upper.iter().all(|(known, _)| (known - p).norm() > 1e-9 * p.norm());
+        if p.im >= 0.0 && p.re > 0.0 && s.re > 0.0 && is_new {
+            upper.push((p, s));
         }
     }
-    let roots = with_conjugates(&upper, 1.0);
-    let largest = |f: &dyn Fn(Complex64) -> f64| roots.iter().map(|p| f(*p)).fold(0.0, f64::max);
+    let largest =
+        |f: &dyn Fn(&(Complex64, Complex64)) -> f64| upper.iter().map(f).fold(0.0, f64::max);
+    let residual = |(p, s): &(Complex64, Complex64)| (1.0 - p * kappa / (s * (s + p))).norm() / 2.0;
     let far = 2.0 + 2.0 * kappa;
+    let roots = with_conjugates(&upper.iter().map(|(p, _)| *p).collect::<Vec<_>>(), 1.0);
     let certificate = Certificate {
         region: Region { re_min: 0.0, re_max: far, im_max: far },
         counted: roots.len(),
         found: roots.len(),
-        largest_residual: largest(&|p| h(p).value.norm() / size(p)),
-        largest_error: largest(&|p| 4.0 * f64::EPSILON * size(p) / h(p).derivative.norm()),
+        largest_residual: largest(&residual),
+        largest_error: largest(&|(p, _)| 4.0 * f64::EPSILON * p.norm()),
     };
     Spectrum { roots, certificate }
 }

@@ -4,6 +4,8 @@
 //! paper's closed forms for J0, and by counting unstable roots, which shares only G with what it judges.
 
 use crate::tables::records;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use stickslip_stability::{
     Boundary, StabilityError, creep, critical, critical_r, trapping_alpha, unstable_count,
 };
@@ -171,6 +173,47 @@ fn creep_rates_solve_their_equation_above_the_threshold_only() {
         for p in [slow, fast] {
             assert_close(0.7 / (1.3 * threshold), push(&tip, p), 1e-7);
         }
+    }
+}
+
+/// Oracle: the winding number of s(s + p) - κp, s = √(p²+1), round the right half of a disc. At small κ = α/r a pair lies at
+/// ±i(1 - κ²/2) + κ³, by expansion at the branch points; it was missed, with a certificate that nothing was.
+#[test]
+fn all_rates_of_creep_of_j0_are_found_close_to_its_branch_points_too() {
+    let count = |kappa: f64| {
+        let value = |p: Complex64| {
+            let s = (p * p + 1.0).sqrt();
+            s * (s + p) - p * kappa
+        };
+        let near = (0..=4000).map(|i| 10_f64.powf(-14.0 * f64::from(i) / 4000.0));
+        let near: Vec<f64> = near.collect();
+        let far = 3.0 + 2.0 * kappa;
+        // Up the imaginary axis by distances from the branch points, back along the arc.
+        let up =
+            near.iter().map(|d| 1.0 - d).chain(near.iter().rev().map(|d| 1.0 + d * (far - 1.0)));
+        let up: Vec<f64> = up.collect();
+        let axis = up.iter().rev().map(|y| -y).chain(up.iter().copied());
+        let axis = axis.map(|y| Complex64::new(0.0, y));
+        let arc = (0..=4000).map(|i| {
+            let angle = FRAC_PI_2 * (1.0 - f64::from(i) / 2000.0);
+            Complex64::from_polar(far, angle)
+        });
+        let path: Vec<Complex64> = axis.chain(arc).map(value).collect();
+        let turned: f64 = path.windows(2).map(|pair| (pair[1] / pair[0]).arg()).sum();
+        -turned / TAU
+    };
+    for kappa in [1e-3, 0.02, 0.1, 0.3, 0.7, 1.0, 1.7, 3.0, 3.4, 5.0, 40.0] {
+        let found = creep(&Model::new(TipFunction::Bessel, 0.7 * kappa, 0.7).unwrap()).unwrap();
+        assert!((count(kappa) - found.roots.len() as f64).abs() < 1e-6, "{kappa} {found:?}");
+        let residual = found.certificate.largest_residual;
+        assert!(residual < 1e-13 && found.certificate.is_complete(), "{kappa} {residual}");
+    }
+    for kappa in [1e-6, 1e-4, 1e-3] {
+        let found = creep(&Model::new(TipFunction::Bessel, kappa, 1.0).unwrap()).unwrap();
+        let [first, second] = found.roots[..] else { panic!("{kappa} {found:?}") };
+        assert_eq!(first, second.conj());
+        assert_close(first.re, kappa.powi(3), 10.0 * kappa * kappa + 1e-9);
+        assert_close(first.im, 1.0 - 0.5 * kappa * kappa, kappa.powi(3) + 1e-15);
     }
 }
 

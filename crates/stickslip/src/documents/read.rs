@@ -70,16 +70,25 @@ pub fn read_from<D: DeserializeOwned>(mut source: impl Read, wanted: &str) -> Re
 fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Result<D, Unusable> {
     let (kind, mut whole) = identified(source, wanted)?;
     kind.judge(wanted)?;
-    // From memory JSON is read in two thirds of the time that it takes byte by byte from a stream.
+    // From memory JSON is read in two thirds of the time that it takes byte by byte from a stream. Damage is found within
+    // 16 times its distance from the beginning, also in a stream without end.
     let mut text = vec![];
-    whole.read_to_end(&mut text).map_err(unreadable)?;
-    serde_json::from_slice(&text).map_err(|error| {
-        if error.is_data() {
-            Unusable(format!("damaged: {error}"))
-        } else {
-            Unusable(format!("damaged, or {}", no_document(&error, wanted)))
+    let mut most = BLOCK;
+    loop {
+        (&mut whole).take((most - text.len()) as u64).read_to_end(&mut text).map_err(unreadable)?;
+        let found: serde_json::Result<D> = serde_json::from_slice(&text);
+        if text.len() == most && found.as_ref().err().is_none_or(serde_json::Error::is_eof) {
+            most *= 16;
+            continue;
         }
-    })
+        return found.map_err(|error| {
+            if error.is_data() {
+                Unusable(format!("damaged: {error}"))
+            } else {
+                Unusable(format!("damaged, or {}", no_document(&error, wanted)))
+            }
+        });
+    }
 }
 
 /// The kind of document in a stream, and the stream again from its beginning.

@@ -2,7 +2,7 @@
 
 use crate::elementary::exp;
 use crate::series::checked;
-use crate::spline::{CubicSpline, Ends};
+use crate::spline::{CubicSpline, Ends, next_knot};
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
@@ -175,7 +175,7 @@ impl Force {
     /// end of a pulse, or a knot of the table.
     pub(crate) fn next_break(&self, t: f64) -> f64 {
         let edges = self.pulses.iter().flat_map(|p| [p.begins(), p.ends()]);
-        let knot = self.table.as_ref().map_or(f64::INFINITY, |table| table.next_knot(t));
+        let knot = self.table.as_ref().map_or(f64::INFINITY, |table| next_knot(table.knots(), t));
         edges.filter(|edge| *edge > t).fold(knot, f64::min)
     }
 

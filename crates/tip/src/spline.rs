@@ -68,19 +68,19 @@ impl CubicSpline {
     }
 
     /// The knots at both ends of a piece.
-    pub(crate) fn ends_of(&self, piece: usize) -> (f64, f64) {
+    fn ends_of(&self, piece: usize) -> (f64, f64) {
         (self.x[piece], self.x[piece + 1])
-    }
-
-    /// The first knot above x, or infinity.
-    pub(crate) fn next_knot(&self, x: f64) -> f64 {
-        self.x.get(self.x.partition_point(|knot| *knot <= x)).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 /// The piece between knots that contains x, or the nearest one.
 pub(crate) fn piece_of(knots: &[f64], x: f64) -> usize {
     knots.partition_point(|knot| *knot <= x).clamp(1, knots.len() - 1) - 1
+}
+
+/// The first knot above x, or infinity.
+pub(crate) fn next_knot(knots: &[f64], x: f64) -> f64 {
+    knots.get(knots.partition_point(|knot| *knot <= x)).copied().unwrap_or(f64::INFINITY)
 }
 
 /// The derivative that vanishes at both ends.

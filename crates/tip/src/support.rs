@@ -1,6 +1,7 @@
 //! Position R(t) of the support of the spring.
 
 use crate::series::{SeriesError, checked};
+use crate::spline::{next_knot, piece_of};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -73,19 +74,16 @@ impl SupportPath {
         (&self.t, &self.displacement)
     }
 
-    /// Number of the piece that contains t; at a knot, that of the piece after it.
-    fn piece(&self, t: f64) -> usize {
-        self.t.partition_point(|knot| *knot <= t).clamp(1, self.t.len() - 1) - 1
-    }
-
-    fn slope(&self, piece: usize) -> f64 {
+    /// Velocity on the piece that contains t; at a knot, on the piece after it.
+    fn velocity(&self, t: f64) -> f64 {
+        let piece = piece_of(&self.t, t);
         let [from, to] = [piece, piece + 1].map(|i| (self.t[i], self.displacement[i]));
         (to.1 - from.1) / (to.0 - from.0)
     }
 
     fn displacement(&self, t: f64) -> f64 {
-        let piece = self.piece(t);
-        self.displacement[piece] + self.slope(piece) * (t - self.t[piece])
+        let piece = piece_of(&self.t, t);
+        self.displacement[piece] + self.velocity(t) * (t - self.t[piece])
     }
 }
 
@@ -101,18 +99,14 @@ impl Support {
 
     /// Advance R(t + dt) - R(t), for dt ≥ 0 within the piece that contains t or begins there.
     pub fn advance(&self, t: f64, dt: f64) -> f64 {
-        match self {
-            Self::Moving(r) => r * dt,
-            Self::Path(path) => path.slope(path.piece(t)) * dt,
-            Self::None => 0.0,
-        }
+        self.velocity(t) * dt
     }
 
     /// Velocity R'(t); at a knot, the velocity after the knot.
     pub fn velocity(&self, t: f64) -> f64 {
         match self {
             Self::Moving(r) => *r,
-            Self::Path(path) => path.slope(path.piece(t)),
+            Self::Path(path) => path.velocity(t),
             Self::None => 0.0,
         }
     }
@@ -120,10 +114,7 @@ impl Support {
     /// The next time after t at which a step must end.
     pub(crate) fn next_break(&self, t: f64) -> f64 {
         match self {
-            Self::Path(path) => {
-                let next = path.t.partition_point(|knot| *knot <= t);
-                path.t.get(next).copied().unwrap_or(f64::INFINITY)
-            }
+            Self::Path(path) => next_knot(&path.t, t),
             Self::Moving(_) | Self::None => f64::INFINITY,
         }
     }

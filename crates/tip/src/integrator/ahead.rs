@@ -1,15 +1,18 @@
 //! Prediction of a step: its displacements, and limits on its length.
 
 use super::Integrator;
+use super::corner::Corner;
 use super::stage_equations::Unknowns;
-use crate::collocation::{RADAU, Stages};
+use crate::collocation::{RADAU, STAGES, Stages};
 use crate::step;
 
 impl Integrator<'_> {
     /// Predicts a step of length h: the last polynomials, extrapolated where this is reliable, otherwise straight
     /// lines.
     pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
-        Unknowns { displacement: self.way_ahead(h, longest), height: self.heights_ahead(h) }
+        let ahead = |corner: Corner| corner.ahead(self.last.as_ref(), h);
+        let height = self.corner.map_or([0.0; STAGES], ahead);
+        Unknowns { displacement: self.way_ahead(h, longest), height }
     }
 
     fn way_ahead(&self, h: f64, longest: f64) -> Stages {

@@ -1,11 +1,13 @@
 //! The kink of |h| with a depth limit: a step stays on one side of it, and ends where h = 0.
 
-use super::{Integrator, Retry, Solution};
+use super::Retry;
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::elementary::exp;
 use crate::history::Heights;
 use crate::roots::zero_to;
 use crate::state::{Damaged, Reader, State};
-use crate::{Model, Step, step};
+use crate::step::{self, Depth};
+use crate::{Model, Step};
 
 /// The height under the tip, and the side of the kink on which the next step lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,8 +21,9 @@ pub(crate) struct Corner {
     slack: f64,
     /// Round-off of a height.
     round_off: f64,
-    /// Error of the displacement per error of h in the step.
-    weight: f64,
+    /// Depth limit b, and indentation rate α.
+    limit: f64,
+    alpha: f64,
 }
 
 /// Accuracy of the end time of a step, in roundings of t.
@@ -44,8 +47,22 @@ impl Corner {
         let round_off = ROUND_OFF * size;
         let slack = (SHARE * target * limit / size).max(round_off);
         let side = if height > slack { 1.0 } else { -1.0 };
-        let weight = 1.0 + model.alpha() / limit;
-        Some(Self { height, side, turned: false, slack, round_off, weight })
+        Some(Self { height, side, turned: false, slack, round_off, limit, alpha: model.alpha() })
+    }
+
+    /// The depth limit on the side of the next step.
+    pub(crate) fn depth(&self) -> Depth {
+        Depth { limit: self.limit, side: self.side }
+    }
+
+    /// Largest change of a velocity per change of h: |α/b|.
+    pub(crate) fn strength(&self) -> f64 {
+        (self.alpha / self.limit).abs()
+    }
+
+    /// Heights in a step from here.
+    pub(crate) fn heights(&self, nodes: Stages) -> Heights {
+        Heights { start: self.height, nodes }
     }
 
     /// Largest |height| that counts as 0 in a step of length h from t; it allows for the rounding of t.
@@ -85,12 +102,13 @@ impl Corner {
         (before.map_or(0.0, |i| RADAU.c[i]), RADAU.c[after])
     }
 
-    /// Sets the height under the tip, as evaluated by its memory.
-    pub(crate) fn stand_at(&mut self, height: f64) {
+    /// Sets the height under the tip, as evaluated by its memory. Returns w there, and σ/b on this side of the kink.
+    pub(crate) fn stand_at(&mut self, height: f64) -> (f64, f64) {
         self.height = height;
         if self.side * height < -self.slack {
             self.side = -self.side;
         }
+        (exp(-self.side * height / self.limit), self.side / self.limit)
     }
 
     pub(crate) fn save(&self, state: &mut State) {
@@ -105,10 +123,11 @@ impl Corner {
         if self.side.abs() < 1.0 { Err(Damaged::OutOfRange) } else { Ok(()) }
     }
 
-    /// Updates the side after a step of length h from t has been accepted.
-    pub(crate) fn arrive(&mut self, heights: &Heights, (t, h): (f64, f64)) {
+    /// Updates height and side after a step has been accepted.
+    pub(crate) fn arrive(&mut self, step: &Step) {
+        let Some(heights) = &step.height else { return };
         self.height = heights.nodes[STAGES - 1];
-        let slack = self.slack(heights, (t, h));
+        let slack = self.slack(heights, (step.t, step.h));
         // A height that stays where it is, as in steady motion, goes to no side: its rate is round-off.
         let rate = (self.height.abs() <= slack).then(|| RADAU.slope(&heights.rise(), 1.0));
         let turns = rate.filter(|rate| rate.abs() > slack);
@@ -144,26 +163,8 @@ impl Corner {
         let error = step::interpolation_error(&heights.rise(), h, (&before.rise(), last.h));
         let error = (error - self.round_off).max(0.0);
         let depth = heights.nodes[STAGES - 1].abs().max(1.0);
-        SHARE_OF_DENSE * error * self.weight.min(1.0).max(self.weight / depth) / depth
-    }
-}
-
-impl Integrator<'_> {
-    pub(super) fn turn(&mut self) -> bool {
-        self.corner.as_mut().is_some_and(Corner::turn)
-    }
-
-    pub(super) fn heights(&self, solution: &Solution) -> Option<Heights> {
-        let (corner, nodes) = self.corner.as_ref().zip(solution.height)?;
-        Some(Heights { start: corner.height, nodes })
-    }
-
-    pub(super) fn heights_ahead(&self, h: f64) -> Stages {
-        self.corner.map_or([0.0; STAGES], |corner| corner.ahead(self.last.as_ref(), h))
-    }
-
-    pub(super) fn error_of_heights(&self, heights: Option<&Heights>, h: f64) -> f64 {
-        let known = self.corner.as_ref().zip(heights);
-        known.map_or(0.0, |(corner, heights)| corner.error(heights, self.last.as_ref(), h))
+        // Error of the displacement per error of h in the step.
+        let weight = 1.0 + self.alpha / self.limit;
+        SHARE_OF_DENSE * error * weight.min(1.0).max(weight / depth) / depth
     }
 }

@@ -110,7 +110,7 @@ impl<'a> Integrator<'a> {
             model,
             apex: OnceCell::new(),
             corner: None,
-            taylor: Taylor::new(model, control.target()),
+            taylor: Taylor::new(model, tolerance),
             surface,
             force,
             support,
@@ -222,15 +222,8 @@ impl<'a> Integrator<'a> {
             h = self.landing(h, end).ok_or(self.too_small(h))?;
             match self.attempt(h) {
                 Ok(()) => return Ok(()),
-                Err(Retry::Shorter(shorter)) => {
-                    self.work.rejected += 1;
-                    h = shorter;
-                }
-                // Once: where both sides end at once, the step was too long to tell.
-                Err(Retry::OtherSide) => h *= if self.turn() { 1.0 } else { 0.3 },
-                // A step that round-off keeps from becoming shorter would be tried indefinitely.
-                Err(Retry::ToKnot(shorter)) => {
-                    h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
+                Err(retry) => {
+                    h = retry.length((self.t, h), self.corner.as_mut(), &mut self.work);
                 }
             }
         }
@@ -279,14 +272,15 @@ impl<'a> Integrator<'a> {
         if let Some(tau) = self.leaves(&RADAU.c, &displacement, at) {
             return Err(Retry::ToKnot(tau * h));
         }
-        let heights = self.heights(&solution);
-        if let Some((corner, heights)) = self.corner.as_ref().zip(heights.as_ref()) {
+        let (mut heights, mut error_of_heights) = (None, 0.0);
+        if let Some((corner, nodes)) = self.corner.as_ref().zip(solution.height) {
+            let heights = heights.insert(corner.heights(nodes));
             corner.passed(heights, (self.t, h))?;
+            error_of_heights = corner.error(heights, self.last.as_ref(), h);
         }
         let stiffness = (1.0 + self.curvature).max(0.0);
         let signs = self.signs_of_error(&displacement, h);
-        let beside = self.error_of_heights(heights.as_ref(), h);
-        self.control.judge(signs, h, stiffness, beside).map_err(Retry::Shorter)?;
+        self.control.judge(signs, h, stiffness, error_of_heights).map_err(Retry::Shorter)?;
         self.accept(h, &solution, heights);
         Ok(())
     }
@@ -299,7 +293,7 @@ impl<'a> Integrator<'a> {
             x: self.position(),
             extension: self.extension,
             velocity: self.support.velocity(self.t),
-            side: self.corner.map_or(0.0, |corner| corner.side),
+            depth: self.corner.map(|corner| corner.depth()),
             age: self.t - self.start,
             rests: self.rests(),
         }
@@ -322,8 +316,8 @@ impl<'a> Integrator<'a> {
         }
         self.memory.remember(&displacement, &solution.spent);
         self.extension = step.extension_at_end(self.support.velocity(self.t));
-        if let Some((corner, height)) = self.corner.as_mut().zip(height) {
-            corner.arrive(&height, (step.t, h));
+        if let Some(corner) = &mut self.corner {
+            corner.arrive(&step);
         }
         self.t = step.end();
         self.velocity = step::velocity_at_end(&displacement, h);
@@ -335,15 +329,7 @@ impl<'a> Integrator<'a> {
         };
         self.last = Some(step);
         self.work.steps += 1;
-        self.taylor.made(h * self.fastest(self.curvature));
-    }
-
-    /// The largest rate, in k/Γ, at which the tip relaxes in a groove of this curvature.
-    fn fastest(&self, curvature: f64) -> f64 {
-        let stiffness = 1.0 + curvature;
-        let Some(mass) = self.model.wider().inertia else { return stiffness };
-        let damped = 1.0 - 4.0 * mass * stiffness;
-        if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { (stiffness / mass).sqrt() }
+        self.taylor.made(h * step::fastest(1.0 + self.curvature, self.model.wider().inertia));
     }
 
     /// The present x0.
@@ -369,4 +355,27 @@ pub(crate) enum Retry {
     ToKnot(f64),
     /// The step began at the kink of |h|, and moved to the other side.
     OtherSide,
+}
+
+impl Retry {
+    /// The length of the next attempt, after one of length h from t.
+    pub(crate) fn length(
+        self,
+        (t, h): (f64, f64),
+        corner: Option<&mut Corner>,
+        work: &mut Work,
+    ) -> f64 {
+        match self {
+            Self::Shorter(shorter) => {
+                work.rejected += 1;
+                shorter
+            }
+            // Once: where both sides end at once, the step was too long to tell.
+            Self::OtherSide if corner.is_some_and(Corner::turn) => h,
+            Self::OtherSide => 0.3 * h,
+            // A step that round-off keeps from becoming shorter would be tried indefinitely.
+            Self::ToKnot(shorter) if t + shorter < t + h => shorter,
+            Self::ToKnot(_) => 0.0,
+        }
+    }
 }

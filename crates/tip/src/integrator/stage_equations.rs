@@ -36,8 +36,7 @@ pub(super) struct Begin {
     pub(super) extension: f64,
     /// Velocity of the support.
     pub(super) velocity: f64,
-    /// Side of the kink of |h|: 1 above, -1 below; 0 without a depth limit.
-    pub(super) side: f64,
+    pub(super) depth: Option<Depth>,
     /// Time since the start of the run.
     pub(super) age: f64,
     /// Whether the tip stays at rest by symmetry: all forces on it are 0.
@@ -115,7 +114,7 @@ impl<'a> StageEquations<'a> {
         begin: Begin,
         inertia: Option<&'a Inertia>,
     ) -> Self {
-        let Begin { t, h, x, extension, velocity, side, age, rests } = begin;
+        let Begin { t, h, x, extension, velocity, depth, age, rests } = begin;
         let (law, wider) = (Law { r: velocity, ..Law::of(model) }, model.wider());
         // At the end of a step the force is its limit from before: it may jump there.
         let last = (t + h).next_down();
@@ -134,7 +133,6 @@ impl<'a> StageEquations<'a> {
             let past = RADAU.c.map(|c| wider.left_after(h * c));
             Left { past, relief: past.map(|left| left * wider.left_after(age)) }
         });
-        let depth = wider.depth_limit.map(|limit| Depth { limit, side });
         Self { model, apex, surface, stretch, x, equations, depth, left, rests }
     }
 

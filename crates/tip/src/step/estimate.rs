@@ -40,6 +40,13 @@ pub fn interpolation_error(
     RADAU.interpolation_error(displacement, tau, last - end)
 }
 
+/// The largest rate, in k/Γ, at which a tip relaxes against this stiffness.
+pub(crate) fn fastest(stiffness: f64, inertia: Option<f64>) -> f64 {
+    let Some(mass) = inertia else { return stiffness };
+    let damped = 1.0 - 4.0 * mass * stiffness;
+    if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { (stiffness / mass).sqrt() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -23,6 +23,7 @@ mod linear_system;
 mod own;
 
 pub use depth::{Depth, Known, LimitedFactors, StageResiduals};
+pub(crate) use estimate::fastest;
 pub use estimate::{defect, interpolation_error, longest_displacement, velocity_at_end};
 pub use healing::{healing, healing_rate};
 pub use inertia::Inertia;

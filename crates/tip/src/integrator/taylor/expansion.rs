@@ -7,7 +7,7 @@ use crate::memory::{ROOM, SteadyPast};
 impl Integrator<'_> {
     /// Computes the series from the present time on; false if there is none.
     pub(super) fn look_ahead(&mut self) -> bool {
-        let order = self.taylor.order;
+        let order = self.taylor.limits.order;
         let mut jet = [0.0; ROOM];
         let known = self.surface.jet_on(&self.stretch, self.position(), &mut jet);
         let Some(count) = known else { return false };
@@ -30,7 +30,8 @@ impl Integrator<'_> {
         let first = (order, self.corner.is_some());
         jet[..count].iter_mut().for_each(|jet| *jet *= relief);
         self.taylor.chain.start(first, alpha, groove, &jet[..count]);
-        let depth = self.weight_now();
+        let depth_now = self.taylor.chain.depth_now();
+        let depth = self.corner.as_mut().map(|corner| corner.stand_at(-depth_now));
         if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
             return false;
         }

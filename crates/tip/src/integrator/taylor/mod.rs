@@ -7,7 +7,7 @@ mod expansion;
 pub(crate) mod heights;
 pub(crate) mod length;
 pub(crate) mod pieces;
-mod plan;
+pub(crate) mod plan;
 mod series;
 mod side_by_side;
 pub(crate) mod switch;
@@ -15,44 +15,38 @@ pub(crate) mod values;
 pub(crate) mod visits;
 
 use super::Integrator;
-use crate::collocation::STAGES;
+use super::corner::Corner;
 use crate::elementary::exp;
 use crate::history::Step;
 use crate::memory::Derivatives;
 use crate::model::Model;
 use crate::state::{Damaged, Reader, State};
+use crate::step;
 use chain::Chain;
 pub(crate) use chain::INVERSE;
-use heights::{Along, AtCorner};
+use heights::{Along, AtCorner, at_corner};
 use pieces::Pieces;
-use plan::Plan;
-pub(crate) use plan::{FARTHEST, REACH_OF_PIECE, SHARE_OF_INTERPOLATION};
+use plan::{Limits, Plan};
 pub(crate) use series::{MOST_ORDER, Series};
 use switch::Switch;
-use visits::Visits;
+use values::Outlook;
 
 pub(crate) use side_by_side::{Begin as BeginBeside, Ended as EndedBeside, SideBySide};
 
 /// Data of steps by series.
 #[derive(Debug, Clone)]
 pub(super) struct Taylor {
-    order: usize,
+    limits: Limits,
     /// Relative indentation rate of a tip in steady motion.
     steady_weight: f64,
     derivatives: Derivatives,
     chain: Chain,
     pieces: Pieces,
     switch: Switch,
-    visits: Visits,
 }
 
-/// Allowed truncation error of a series, relative to the error allowed in a step of collocation: there are fewer steps,
-/// but no other measure of their errors.
-pub(crate) const SHARE_OF_SERIES: f64 = 0.1;
-/// Allowed error of the weights of nodes, relative to the error allowed in a step of collocation.
-pub(crate) const SHARE_OF_VISITS: f64 = 0.0005;
 /// Result of an attempt to make a planned step.
-enum Made {
+pub(crate) enum Made {
     Step,
     /// The step must be made on the other side of the kink of |h|.
     OtherSide,
@@ -60,26 +54,23 @@ enum Made {
 }
 
 /// Number of sides of the kink.
-const SIDES: usize = 2;
-/// Largest number of times that a step is shortened to remain where its series is valid; then collocation continues.
-pub(crate) const MOST_SHORTENINGS: usize = 8;
+pub(crate) const SIDES: usize = 2;
 
 impl Taylor {
-    pub(super) fn new(model: &Model, target: f64) -> Self {
+    pub(super) fn new(model: &Model, tolerance: f64) -> Self {
         Self {
-            order: length::order(SHARE_OF_SERIES * target, length::ORDER_PER_DIGIT),
+            limits: Limits::new(model.tip().band(), tolerance, length::ORDER_PER_DIGIT),
             steady_weight: model.steady_weight(),
             derivatives: Derivatives::nothing(),
             chain: Chain::new(),
             pieces: Pieces::none(),
             switch: Switch::new(model.wider().inertia.is_some()),
-            visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
         }
     }
 
     /// Records a step of collocation; `stiffness` is that of the groove times the length of the step.
     pub(super) fn made(&mut self, stiffness: f64) {
-        self.switch.made(stiffness, self.order);
+        self.switch.made(stiffness, self.limits.order);
     }
 
     /// The piece returned last, if it was the last step.
@@ -139,22 +130,37 @@ impl Integrator<'_> {
             let Some(plan) = self.plan(end) else { return false };
             match self.make(&plan, end) {
                 Made::Step => return true,
-                Made::OtherSide if self.turn() => {}
+                Made::OtherSide if self.corner.as_mut().is_some_and(Corner::turn) => {}
                 Made::OtherSide | Made::Nothing => return false,
             }
         }
         false
     }
 
+    /// Length of a step, and number of its pieces; `None` if a step of collocation is longer.
+    fn plan(&mut self, end: f64) -> Option<Plan> {
+        let Taylor { chain, limits, switch, .. } = &mut self.taylor;
+        let (series, wider) = (chain.displacement(), self.model.wider());
+        let heights = self.corner.as_ref().map(|corner| (corner, chain.height()));
+        let over = limits.accurate(series, heights, wider).min(self.force.longest_step(self.t));
+        let longest = limits.farthest(wider.healing_time.map_or(0.0, |time| over / time));
+        let (over, mut outlook) = plan::within(over, longest, |over| Outlook::over(series, over));
+        let of_heights = heights::steepness(self.corner.as_ref(), chain.height(), over);
+        outlook.steepest = outlook.steepest.max(of_heights);
+        let stiffness = step::fastest(1.0 - chain.curvature(), wider.inertia);
+        limits.plan(switch, (over, outlook), stiffness, end - self.t)
+    }
+
     /// Makes the pieces of a step, shortened to where its series, the stretch of u0 and the side of the kink are valid.
     fn make(&mut self, plan: &Plan, end: f64) -> Made {
         let Plan { mut length, mut pieces, .. } = *plan;
-        for _ in 0..MOST_SHORTENINGS {
+        for _ in 0..plan::MOST_SHORTENINGS {
             let Some(total) = self.landing(length, end) else { return Made::Nothing };
             let nodes = pieces::nodes(pieces);
             let mut room = pieces::ROOM_FOR_NODES;
-            let heights = self.heights_over(total, &nodes.table, &mut room);
-            let shorter = match self.at_corner(heights, total) {
+            let height = self.taylor.chain.height();
+            let heights = self.corner.map(|_| Along::over(height, total, &nodes.table, &mut room));
+            let shorter = match at_corner(self.corner.as_ref(), heights, (self.t, total)) {
                 AtCorner::Apart => {
                     let displacement = self.taylor.chain.displacement().over(total);
                     let mut room = pieces::ROOM_FOR_NODES;
@@ -169,8 +175,7 @@ impl Integrator<'_> {
                 AtCorner::Ends(at) => at,
                 AtCorner::OtherSide => return Made::OtherSide,
             };
-            pieces = ((pieces as f64 * shorter / length).ceil() as usize).clamp(1, pieces);
-            length = shorter;
+            (pieces, length) = (plan::count(pieces as f64 * shorter, length).min(pieces), shorter);
         }
         Made::Nothing
     }
@@ -196,25 +201,13 @@ impl Integrator<'_> {
     }
 
     fn accept_series(&mut self, positions: &[f64], heights: Option<Along>, total: f64) {
-        let support = self.support.velocity(self.t);
-        let (mut t, mut extension, mut before) = (self.t, self.extension, 0.0);
-        let (pieces, _) = positions.as_chunks::<STAGES>();
+        let springs = (self.extension, self.support.velocity(self.t));
         self.taylor.pieces.clear();
-        for (i, positions) in pieces.iter().enumerate() {
-            let part = (i + 1) as f64 / pieces.len() as f64;
-            // Ends are representable times.
-            let end = if i + 1 < pieces.len() { self.t + part * total } else { self.t + total };
-            let displacement = positions.map(|position| position - before);
-            let height = heights.map(|heights| heights.piece(i));
-            let step = Step { t, h: end - t, extension, displacement, height };
-            self.taylor.pieces.push(step);
-            if i + 1 == pieces.len()
-                && let Some((corner, height)) = self.corner.as_mut().zip(height)
-            {
-                corner.arrive(&height, (t, step.h));
+        for step in pieces::steps((self.t, total), springs, positions, heights) {
+            if let Some(corner) = &mut self.corner {
+                corner.arrive(&step);
             }
-            before = positions[STAGES - 1];
-            (t, extension) = (step.end(), step.extension_at_end(support));
+            self.taylor.pieces.push(step);
         }
         self.taylor.switch.made_series();
         self.work.series += 1;
@@ -224,15 +217,14 @@ impl Integrator<'_> {
         self.velocity = displacement.slope_at_end() / total;
         // What moves faster and faster is no wave of one length: at its fastest it is the shortest.
         let healing = self.model.wider().healing_time.map_or(0.0, |time| total / time);
-        let rule = self.taylor.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
-        let (mut room, mut weights) = (visits::ROOM, [0.0; visits::MOST_NODES]);
+        let Taylor { limits, chain, .. } = &self.taylor;
+        let rule = limits.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
+        let (mut room, mut room_for_weights) = (visits::ROOM, [0.0; visits::MOST_NODES]);
         let positions = rule.table.sums(displacement, &mut room);
-        let weights = &mut weights[..positions.len()];
-        weights.iter_mut().zip(&rule.weights).for_each(|(weight, spent)| *weight = spent * total);
-        self.weigh(&rule.table, total, weights);
-        if let Some(time) = self.model.wider().healing_time {
-            visits::fade(&rule.nodes, total / time, weights);
-            self.memory.fade(exp(-total / time));
+        let felt = self.corner.map(|_| chain.weights());
+        let weights = rule.weights((total, healing), felt, &mut room_for_weights);
+        if healing > 0.0 {
+            self.memory.fade(exp(-healing));
         }
         self.memory.remember(positions, weights);
     }

@@ -1,5 +1,6 @@
 //! A long polynomial divided into steps: each is the interpolant of degree s (the number of stages) on a piece.
 
+use super::heights::Along;
 use super::length;
 use super::values::{BLOCK, Block, Table};
 use crate::collocation::{RADAU, STAGES};
@@ -83,6 +84,30 @@ impl Pieces {
         steps.into_iter().for_each(|step| self.push(step));
         Ok(())
     }
+}
+
+/// The pieces of a step of length `total` from t as steps, from the displacements at their nodes. `extension` is that of
+/// the spring at t, `support` the velocity of the support.
+pub(crate) fn steps(
+    (mut t, total): (f64, f64),
+    (mut extension, support): (f64, f64),
+    positions: &[f64],
+    heights: Option<Along>,
+) -> impl Iterator<Item = Step> {
+    let (pieces, _) = positions.as_chunks::<STAGES>();
+    let (start, mut before) = (t, 0.0);
+    pieces.iter().enumerate().map(move |(i, positions)| {
+        let part = (i + 1) as f64 / pieces.len() as f64;
+        // Ends are representable times.
+        let end = if i + 1 < pieces.len() { start + part * total } else { start + total };
+        let mut displacement = *positions;
+        displacement.iter_mut().for_each(|position| *position -= before);
+        let height = heights.map(|heights| heights.piece(i));
+        let step = Step { t, h: end - t, extension, displacement, height };
+        before = positions[STAGES - 1];
+        (t, extension) = (step.end(), step.extension_at_end(support));
+        step
+    })
 }
 
 /// Divides a step at time `at` into two steps with the same polynomial.

@@ -1,37 +1,142 @@
-//! Length of a step by series.
+//! Length of a step by series, in one coordinate or in two.
 
-use super::super::Integrator;
+use super::super::control::Control;
+use super::super::corner::Corner;
+use super::heights::length_by_heights;
+use super::length::{length, order};
 use super::pieces::{self, MOST_PIECES};
 use super::series::{MOST_ORDER, Series};
+use super::switch::Switch;
 use super::values::Outlook;
-use super::{MOST_SHORTENINGS, SHARE_OF_SERIES, length};
-use crate::step;
+use super::visits::Visits;
+use crate::Wider;
+use crate::step::longest_displacement;
 
-pub(super) struct Plan {
-    pub(super) length: f64,
-    pub(super) pieces: usize,
+pub(crate) struct Plan {
+    pub(crate) length: f64,
+    pub(crate) pieces: usize,
     /// Largest speed in the step, approximately.
-    pub(super) fastest: f64,
+    pub(crate) fastest: f64,
 }
 
+/// Order of the series of a run, and limits on their steps.
+#[derive(Debug, Clone)]
+pub(crate) struct Limits {
+    pub(crate) order: usize,
+    /// Allowed truncation error of a series.
+    pub(crate) error: f64,
+    /// Allowed interpolation error of a piece.
+    pub(crate) of_piece: f64,
+    /// Largest displacement in a piece, whose nodes represent its contribution to the groove, and from which surfaces
+    /// are computed.
+    pub(crate) reach: f64,
+    pub(crate) visits: Visits,
+}
+
+/// Allowed truncation error of a series, relative to the error allowed in a step of collocation: there are fewer steps,
+/// but no other measure of their errors.
+const SHARE_OF_SERIES: f64 = 0.1;
+/// Allowed error of the weights of nodes, relative to the error allowed in a step of collocation.
+const SHARE_OF_VISITS: f64 = 0.0005;
 /// Allowed interpolation error of a piece, in units of the tolerance; it does not propagate.
-pub(crate) const SHARE_OF_INTERPOLATION: f64 = 0.1;
+const SHARE_OF_INTERPOLATION: f64 = 0.1;
 /// Largest displacement in a piece, relative to that in a step of collocation.
-pub(crate) const REACH_OF_PIECE: f64 = 0.7;
+const REACH_OF_PIECE: f64 = 0.7;
 /// Largest displacement in a step by series, relative to that in a piece.
-pub(crate) const FARTHEST: f64 = 3.0;
+const FARTHEST: f64 = 3.0;
+/// Largest number of times that a step is shortened to remain where its series is valid; then collocation continues.
+pub(crate) const MOST_SHORTENINGS: usize = 8;
+
+impl Limits {
+    /// The limits for a footprint of this bandwidth. The order increases by `per_digit` for an error smaller by the
+    /// factor e.
+    pub(crate) fn new(band: f64, tolerance: f64, per_digit: f64) -> Self {
+        let target = Control::new(tolerance).target();
+        let error = SHARE_OF_SERIES * target;
+        Self {
+            order: order(error, per_digit),
+            error,
+            of_piece: SHARE_OF_INTERPOLATION * tolerance,
+            reach: REACH_OF_PIECE * longest_displacement(band),
+            visits: Visits::new(band, SHARE_OF_VISITS * target),
+        }
+    }
+
+    /// The length over which the series of the displacement along the scan is accurate and, with a depth limit, that of
+    /// the heights.
+    pub(crate) fn accurate(
+        &self,
+        along: &Series,
+        heights: Option<(&Corner, &Series)>,
+        wider: &Wider,
+    ) -> f64 {
+        let mut over = length(along.coefficients(), self.error);
+        if let Some(mass) = wider.inertia {
+            // An error of the velocity leads so far astray before friction has used it up.
+            let mut coasting = [0.0; MOST_ORDER + 1];
+            for (k, c) in along.coefficients().iter().enumerate() {
+                coasting[k] = mass * k as f64 * c;
+            }
+            over = over.min(length(&coasting[1..=self.order], self.error));
+        }
+        if let Some((corner, height)) = heights {
+            over = over.min(length_by_heights(corner, height, self.error));
+        }
+        if let Some(time) = wider.healing_time {
+            // The quadrature rules for nodes have a limited order, and beyond the order of the series the terms of
+            // e^{-t/T} must decrease by half from one to the next.
+            over = over.min(self.visits.most_healing().min(0.5 * self.order as f64) * time);
+        }
+        over
+    }
+
+    /// The largest displacement in a step of this number of healing times.
+    pub(crate) fn farthest(&self, healing: f64) -> f64 {
+        (FARTHEST * self.reach).min(self.visits.farthest(healing))
+    }
+
+    /// The largest time of a step of collocation at this speed: it leads no farther than a few pieces either.
+    pub(crate) fn longest_stages(&self, speed: f64) -> f64 {
+        self.reach / (REACH_OF_PIECE * speed.max(f64::MIN_POSITIVE))
+    }
+
+    /// The plan of a step that ends within this distance in time, from the properties of its series over the length
+    /// `over`. `stiffness` is the largest rate at which the tip relaxes. `None` if a step of collocation is longer.
+    pub(crate) fn plan(
+        &self,
+        switch: &mut Switch,
+        (over, outlook): (f64, Outlook),
+        stiffness: f64,
+        distance: f64,
+    ) -> Option<Plan> {
+        let part = pieces::longest(outlook.steepest, self.of_piece);
+        let piece = over * part.min(self.reach / outlook.moved.abs().max(f64::MIN_POSITIVE));
+        let length = over.min(MOST_PIECES as f64 * piece);
+        let fastest = outlook.fastest / over;
+        let most = self.longest_stages(fastest);
+        if switch.leaves(stiffness * length, stiffness * most, self.order) {
+            return None;
+        }
+        let length = to_end(length, distance);
+        Some(Plan { length, pieces: count(length, piece), fastest })
+    }
+}
 
 /// The length of a step, at most `over`, with a displacement of at most `longest`, and the properties of the series
 /// over it.
-pub(crate) fn within(series: &Series, mut over: f64, longest: f64) -> (f64, Outlook) {
-    let mut outlook = Outlook::of(&series.over(over));
+pub(crate) fn within(
+    mut over: f64,
+    longest: f64,
+    outlook_over: impl Fn(f64) -> Outlook,
+) -> (f64, Outlook) {
+    let mut outlook = outlook_over(over);
     for _ in 0..MOST_SHORTENINGS {
         let moved = outlook.moved.abs();
         if moved <= longest {
             break;
         }
         over *= (0.9 * longest / moved).max(0.3);
-        outlook = Outlook::of(&series.over(over));
+        outlook = outlook_over(over);
     }
     (over, outlook)
 }
@@ -55,54 +160,4 @@ pub(crate) fn count(length: f64, piece: f64) -> usize {
     let whole = pieces as usize;
     let begun = usize::from((whole as f64) < pieces);
     whole.saturating_add(begun).clamp(1, MOST_PIECES)
-}
-
-impl Integrator<'_> {
-    /// Length of a step, and number of its pieces; `None` if a step of collocation is longer.
-    pub(super) fn plan(&mut self, end: f64) -> Option<Plan> {
-        let series = self.taylor.chain.displacement();
-        let displacement = series.coefficients();
-        let error = SHARE_OF_SERIES * self.control.target();
-        let mut over = length::length(displacement, error).min(self.force.longest_step(self.t));
-        if let Some(mass) = self.model.wider().inertia {
-            // An error of the velocity leads so far astray before friction has used it up.
-            let coasting = displacement.iter().zip(0_u32..).map(|(c, k)| mass * f64::from(k) * c);
-            let mut coefficients = [0.0; MOST_ORDER + 1];
-            coefficients.iter_mut().zip(coasting).for_each(|(c, coasting)| *c = coasting);
-            over = over.min(length::length(&coefficients[1..displacement.len()], error));
-        }
-        over = over.min(self.length_by_heights(error)).min(self.longest_healing());
-        let limited = self.reach_of_piece();
-        let healing = self.model.wider().healing_time.map_or(0.0, |time| over / time);
-        let longest = (FARTHEST * limited).min(self.taylor.visits.farthest(healing));
-        let (over, outlook) = within(series, over, longest);
-        let error = SHARE_OF_INTERPOLATION * self.control.tolerance();
-        let steepest = outlook.steepest.max(self.steepness_of_heights(over));
-        let piece = pieces::longest(steepest, error);
-        let piece = over * piece.min(limited / outlook.moved.abs().max(f64::MIN_POSITIVE));
-        let length = over.min(MOST_PIECES as f64 * piece);
-        let fastest = outlook.fastest / over;
-        let fades = self.fastest(-self.taylor.chain.curvature());
-        // A step of collocation leads no farther either.
-        let most = self.reach_of_piece() / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
-        if self.taylor.switch.leaves(fades * length, fades * most, self.taylor.order) {
-            return None;
-        }
-        let length = to_end(length, end - self.t);
-        Some(Plan { length, pieces: count(length, piece), fastest })
-    }
-
-    /// Longest step on a surface that heals: the quadrature rules for nodes have a limited order, and beyond the
-    /// order of the series the terms of e^{-t/T} must decrease by half from one to the next.
-    fn longest_healing(&self) -> f64 {
-        let by_order = 0.5 * self.taylor.order as f64;
-        let times = self.taylor.visits.most_healing().min(by_order);
-        self.model.wider().healing_time.map_or(f64::INFINITY, |time| times * time)
-    }
-
-    /// Largest displacement in a piece, whose nodes represent its contribution to the groove, and from which surfaces
-    /// are computed.
-    fn reach_of_piece(&self) -> f64 {
-        REACH_OF_PIECE * step::longest_displacement(self.model.tip().band())
-    }
 }

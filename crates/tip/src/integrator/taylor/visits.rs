@@ -1,5 +1,6 @@
 //! The visits of a long step for a memory: positions of the tip, and times spent there.
 
+use super::series::Series;
 use super::values::{BLOCK, Block, Table};
 use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
 use crate::roots::zero_between;
@@ -91,7 +92,7 @@ pub(crate) fn last() -> &'static Rule {
 }
 
 /// Reduces the weights to their undecayed parts at the end of a step of this number of healing times.
-pub(crate) fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
+fn fade(nodes: &[f64], times: f64, weights: &mut [f64]) {
     if times <= LARGEST {
         fade_side_by_side(nodes, times, weights);
     } else {
@@ -112,6 +113,27 @@ fn log_factorial(n: usize) -> f64 {
 }
 
 impl Rule {
+    /// The weights of the nodes of a step of this length and number of healing times, stored in `room`. `felt` is the
+    /// series of w, with a depth limit.
+    pub(crate) fn weights<'a>(
+        &self,
+        (length, healing): (f64, f64),
+        felt: Option<&Series>,
+        room: &'a mut [f64; MOST_NODES],
+    ) -> &'a [f64] {
+        let weights = &mut room[..self.weights.len()];
+        weights.iter_mut().zip(&self.weights).for_each(|(weight, spent)| *weight = spent * length);
+        if let Some(felt) = felt {
+            let mut room = ROOM;
+            let felt = self.table.sums(&felt.over(length), &mut room);
+            weights.iter_mut().zip(felt).for_each(|(weight, felt)| *weight *= *felt);
+        }
+        if healing > 0.0 {
+            fade(&self.nodes, healing, weights);
+        }
+        weights
+    }
+
     /// Nodes x on [-1, 1] are 1 and the zeros of (P_n - P_{n-1})/(x - 1), weights (1 + x)/(n P_{n-1}(x))²; Hairer &
     /// Wanner II, IV.5.
     fn new(n: usize) -> Self {

@@ -1,5 +1,6 @@
 //! Steps by collocation, with their error control.
 
+use super::super::history::Step;
 use super::super::jet::Jet;
 use super::super::part::Part;
 use super::super::scenario::PlanarError;
@@ -12,7 +13,7 @@ use crate::integrator::corner::Corner;
 use crate::integrator::landing::landing;
 use crate::integrator::{COASTING, ENOUGH, IntegrationError, Retry};
 use crate::memory::longest_look;
-use crate::step::{self, Depth, Inertia, carving, healing};
+use crate::step::{self, Inertia, carving, healing};
 
 /// Weight of the defect of the motion across; it allows for the change from step to step, which is not evaluated.
 const WEIGHT_OF_DEFECT: f64 = 1.5;
@@ -33,15 +34,7 @@ impl PlanarRunning<'_> {
             h = landing(t, h, end).ok_or(IntegrationError::StepTooSmall { t, h, tolerance })?;
             match self.attempt(h) {
                 Ok(solution) => return self.accept_stages(&solution, h),
-                Err(Retry::Shorter(shorter)) => {
-                    self.work.rejected += 1;
-                    h = shorter;
-                }
-                // As in one coordinate.
-                Err(Retry::OtherSide) => h *= if self.turn() { 1.0 } else { 0.3 },
-                Err(Retry::ToKnot(shorter)) => {
-                    h = if self.t + shorter < self.t + h { shorter } else { 0.0 }
-                }
+                Err(retry) => h = retry.length((t, h), self.corner.as_mut(), &mut self.work),
             }
         }
     }
@@ -104,8 +97,7 @@ impl PlanarRunning<'_> {
     }
 
     fn heights(&self, solution: &Solution) -> Option<Heights> {
-        let (corner, nodes) = self.corner.as_ref().zip(solution.height)?;
-        Some(Heights { start: corner.height, nodes })
+        self.corner.zip(solution.height).map(|(corner, nodes)| corner.heights(nodes))
     }
 
     fn equations<'b>(
@@ -131,10 +123,7 @@ impl PlanarRunning<'_> {
             carving: wider.healing_time.map_or_else(|| carving(h), |time| healing(h, time)),
             left: RADAU.c.map(|c| wider.left_after(h * c)),
             inertia,
-            depth: self
-                .corner
-                .zip(wider.depth_limit)
-                .map(|(corner, limit)| Depth { limit, side: corner.side }),
+            depth: self.corner.map(|corner| corner.depth()),
             under: (self.earlier.is_some() || !self.field.is_flat()).then(|| Under {
                 surface,
                 from: [self.position(), self.y],
@@ -166,7 +155,7 @@ impl PlanarRunning<'_> {
     fn judge(&mut self, solution: &Solution, h: f64) -> Result<(), f64> {
         let [[_, mixed, across], [along, ..]] = [solution.curvatures; 2];
         let [d, e] = &solution.displacement;
-        let before = |d: &Stages, of: fn(&super::Step) -> &Stages| {
+        let before = |d: &Stages, of: fn(&Step) -> &Stages| {
             self.last
                 .as_ref()
                 .map_or(0.0, |last| step::interpolation_error(d, h, (of(last), last.along.h)))
@@ -194,11 +183,10 @@ impl PlanarRunning<'_> {
     fn accept_stages(&mut self, solution: &Solution, h: f64) -> Result<(), PlanarError> {
         let [d, e] = solution.displacement;
         let heights = self.heights(solution);
-        let step = self.step_to(h, [d, e], heights);
+        let (t, extension) = (self.t, self.extension);
+        let along = crate::Step { t, h, extension, displacement: d, height: heights };
+        let step = Step { along, y: self.y, across: e };
         self.remember((&d, &e), &solution.spent, h)?;
-        if let Some((corner, heights)) = self.corner.as_mut().zip(heights) {
-            corner.arrive(&heights, (self.t, h));
-        }
         self.velocity = [d, e].map(|d| step::velocity_at_end(&d, h));
         self.switch.made(h * self.fastest(solution.curvatures), self.chain.order());
         self.accept(step);

@@ -16,17 +16,15 @@ use super::products::Products;
 use super::scenario::{PlanarError, PlanarScenario};
 use super::spline::Partials;
 use super::texture::{Field, Texture};
-use crate::collocation::Stages;
-use crate::history::Heights;
 use crate::integrator::Work;
 use crate::integrator::control::Control;
 use crate::integrator::corner::Corner;
 use crate::integrator::landing::leaves;
+use crate::integrator::taylor::plan::Limits;
 use crate::integrator::taylor::switch::Switch;
-use crate::integrator::taylor::visits::Visits;
-use crate::integrator::taylor::{SHARE_OF_SERIES, SHARE_OF_VISITS, length};
 use crate::memory::{FitError, MemoryChoice, Retreat, SteadyPast};
 use crate::state::{Damaged, Reader};
+use crate::step;
 use crate::tip_function::BAND_OF_A_GAUSSIAN;
 use crate::{Force, Model, RunError, Scenario, Start, Support, Wider};
 use std::collections::VecDeque;
@@ -54,7 +52,7 @@ pub struct PlanarRunning<'a> {
     earlier: Option<&'a EarlierGrooves>,
     control: Control,
     chain: Chain,
-    visits: Visits,
+    limits: Limits,
     /// The kink of |h|, with a depth limit.
     corner: Option<Corner>,
     switch: Switch,
@@ -161,14 +159,14 @@ impl<'a> PlanarRunning<'a> {
         let target = control.target();
         let texture = scenario.texture()?;
         let (x, y) = (along.start_position - along.kick, scenario.kick_across);
-        let order = length::order(SHARE_OF_SERIES * target, ORDER_PER_DIGIT);
+        let limits = Limits::new(model.tip().band(), along.tolerance, ORDER_PER_DIGIT);
         let mut integrator = Self {
             storage,
             instead_of_modes: None,
             parts: parts.collect::<Result<_, _>>()?,
-            chain: Chain::new(order, products.all().len()),
+            chain: Chain::new(limits.order, products.all().len()),
+            limits,
             products,
-            visits: Visits::new(model.tip().band(), SHARE_OF_VISITS * target),
             switch: Switch::new(model.wider().inertia.is_some()),
             corner: None,
             model,
@@ -329,10 +327,7 @@ impl<'a> PlanarRunning<'a> {
         let Some(mass) = self.wider().inertia else {
             return mean + (half * half + mixed * mixed).sqrt();
         };
-        let damped = 1.0 - 4.0 * mass * along;
-        let swings = (along.abs() / mass).sqrt();
-        let along = if damped > 0.0 { (1.0 + damped.sqrt()) / (2.0 * mass) } else { swings };
-        along.max(across) + mixed.abs()
+        step::fastest(along, Some(mass)).max(across) + mixed.abs()
     }
 
     /// Adds the visits of a step of length h to the memory: displacements from the tip, of which the last is its new
@@ -425,23 +420,14 @@ impl<'a> PlanarRunning<'a> {
         [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
     }
 
-    /// Changes the side of the kink for the next attempt; false if the other side has already been tried.
-    fn turn(&mut self) -> bool {
-        self.corner.as_mut().is_some_and(Corner::turn)
-    }
-
     /// Accepts a step that ends at the present position of the tip.
     fn accept(&mut self, step: Step) {
         self.extension = step.along.extension_at_end(self.support.velocity(self.t));
         (self.t, self.y) = (step.end(), step.y_at_end());
+        if let Some(corner) = &mut self.corner {
+            corner.arrive(&step.along);
+        }
         self.last = Some(step);
         self.made.push_back(step);
-    }
-
-    /// A step from the present position of the tip.
-    fn step_to(&self, h: f64, [along, across]: [Stages; 2], height: Option<Heights>) -> Step {
-        let (t, extension) = (self.t, self.extension);
-        let along = crate::Step { t, h, extension, displacement: along, height };
-        Step { along, y: self.y, across }
     }
 }

@@ -12,19 +12,16 @@ mod lanes;
 mod past;
 mod plan;
 
-use super::length::{ORDER_PER_DIGIT, order};
-use super::pieces::MOST_PIECES;
-use super::plan::{FARTHEST, REACH_OF_PIECE, SHARE_OF_INTERPOLATION, count, to_end};
+use super::length::ORDER_PER_DIGIT;
+use super::pieces::{self, MOST_PIECES};
+use super::plan::{count, to_end};
 use super::switch::Switch;
-use super::visits::{self, Rule, Visits as Rules};
-use super::{SHARE_OF_SERIES, SHARE_OF_VISITS};
+use super::visits::{self, Rule};
 use crate::collocation::{RADAU, STAGES};
 use crate::history::Step;
 use crate::integrator::Work;
-use crate::integrator::control::Control;
 use crate::integrator::landing::landing;
 use crate::memory::Fit;
-use crate::step::longest_displacement;
 use crate::{TipFunction, stop};
 use expansion::{Acting, Expansion};
 use lanes::{LANES, Lanes};
@@ -62,12 +59,8 @@ pub(crate) struct SideBySide {
 }
 
 struct Limits {
-    /// Allowed truncation error of a series.
-    error: f64,
-    /// Allowed interpolation error of a piece.
-    of_piece: f64,
-    /// Largest displacement in a piece, and in a step.
-    limited: f64,
+    of_series: super::plan::Limits,
+    /// Largest displacement in a step.
     longest: f64,
     /// Largest distance from the middle of a stretch at which polynomials represent all exponentials.
     expanded: f64,
@@ -76,8 +69,6 @@ struct Limits {
     between_steps: f64,
     /// Largest number of steps of a motion.
     most_steps: u64,
-    rules: Rules,
-    order: usize,
 }
 
 /// The numbers of all lanes.
@@ -113,33 +104,26 @@ const COST_OF_COLLOCATION: f64 = 16.0;
 impl SideBySide {
     /// The integrator for this footprint and the exponentials that represent it.
     pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: u64) -> Self {
-        let target = Control::new(tolerance).target();
-        let error = SHARE_OF_SERIES * target;
         let exponentials = Exponentials::new(fit);
-        let rules = Rules::new(tip.band(), SHARE_OF_VISITS * target);
-        let limited = REACH_OF_PIECE * longest_displacement(tip.band());
+        let of_series = super::plan::Limits::new(tip.band(), tolerance, ORDER_PER_DIGIT);
+        let order = of_series.order;
+        let farthest = MOST_STRETCHES as f64 * exponentials.longest();
         let limits = Limits {
-            error,
-            of_piece: SHARE_OF_INTERPOLATION * tolerance,
-            limited,
-            longest: (FARTHEST * limited)
-                .min(rules.farthest(0.0))
-                .min(MOST_STRETCHES as f64 * exponentials.longest()),
+            longest: of_series.farthest(0.0).min(farthest),
+            of_series,
             expanded: exponentials.longest(),
             retreat: fit.retreat(),
             between_steps: fit.retreat_between_steps(),
             most_steps,
-            rules,
-            order: order(error, ORDER_PER_DIGIT),
         };
         let zero = Lanes::ZERO;
         let numbers = Numbers {
             acting: Acting { alpha: zero, support: zero, extension: zero },
             past: Past::nothing(&exponentials),
-            expansion: Expansion::new(limits.order),
+            expansion: Expansion::new(order),
             plan: Plan::NONE,
             length: zero,
-            displacement: vec![zero; limits.order + 1],
+            displacement: vec![zero; order + 1],
             pieces: Lanes::all(1.0),
             nodes: [zero; MOST_PIECES * STAGES],
             visits: Visits::none(),
@@ -222,8 +206,8 @@ impl<C: Extend<Step>> Member<C> {
         let piece = over * piece.0[lane];
         let fades = 1.0 - numbers.expansion.curvature().0[lane];
         let length = over.min(MOST_PIECES as f64 * piece);
-        let most = limits.limited / (REACH_OF_PIECE * fastest.max(f64::MIN_POSITIVE));
-        if self.switch.leaves(fades * length, fades * most, limits.order) {
+        let most = limits.of_series.longest_stages(fastest);
+        if self.switch.leaves(fades * length, fades * most, limits.of_series.order) {
             return None;
         }
         let until = self.begin.until;
@@ -253,7 +237,7 @@ impl<C: Extend<Step>> Member<C> {
         let positions = &positions[..count];
         self.passes(limits, positions, moves_on)?;
         self.take(positions, total);
-        let rule = limits.rules.rule(numbers.plan.fastest.0[lane] * total, 0.0);
+        let rule = limits.of_series.visits.rule(numbers.plan.fastest.0[lane] * total, 0.0);
         Some(rule.unwrap_or_else(visits::last))
     }
 
@@ -279,23 +263,14 @@ impl<C: Extend<Step>> Member<C> {
 
     /// Passes the pieces of a step, with these positions at the nodes, to the collector.
     fn take(&mut self, positions: &[f64], total: f64) {
-        let (pieces, _) = positions.as_chunks::<STAGES>();
-        let (start, count, r, mut before) = (self.t, pieces.len(), self.begin.r, 0.0);
         let (mut t, mut extension) = (self.t, self.extension);
-        let step = |(i, positions): (usize, &[f64; STAGES])| {
-            let part = (i + 1) as f64 / count as f64;
-            // Ends are representable times.
-            let end = if i + 1 < count { start + part * total } else { start + total };
-            let mut displacement = *positions;
-            displacement.iter_mut().for_each(|position| *position -= before);
-            let step = Step { t, h: end - t, extension, displacement, height: None };
-            before = positions[STAGES - 1];
+        let r = self.begin.r;
+        let steps = pieces::steps((t, total), (extension, r), positions, None).inspect(|step| {
             (t, extension) = (step.end(), step.extension_at_end(r));
-            step
-        };
-        self.collector.extend(pieces.iter().enumerate().map(step));
+        });
+        self.collector.extend(steps);
         (self.t, self.extension) = (t, extension);
-        self.work.steps += count as u64;
+        self.work.steps += (positions.len() / STAGES) as u64;
         self.work.series += 1;
     }
 }

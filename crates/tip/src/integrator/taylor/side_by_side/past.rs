@@ -328,7 +328,7 @@ mod tests {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
         let fit = Fit::new(&tip, 1e-11, Retreat::Small).unwrap();
         let of = Exponentials::new(&fit);
-        let rules = super::super::Rules::new(tip.band(), 1e-12);
+        let rules = crate::integrator::taylor::visits::Visits::new(tip.band(), 1e-12);
         let mut past = Past::nothing(&of);
         past.set(3, of.steady(1.3, 0.2));
         let mut visited: [Vec<(f64, f64)>; LANES] = std::array::from_fn(|_| vec![]);

@@ -3,7 +3,7 @@
 use super::super::length::{LAST, exp2, log2};
 use super::super::pieces;
 use super::super::values::{BLOCK, outlook};
-use super::super::{MOST_SHORTENINGS, chain::INVERSE};
+use super::super::{chain::INVERSE, plan::MOST_SHORTENINGS};
 use super::Limits;
 use super::lanes::Lanes;
 use crate::collocation::STAGES;
@@ -24,7 +24,7 @@ impl Plan {
     /// The plan for these series of displacements.
     #[inline(always)]
     pub(super) fn of(limits: &Limits, series: &[Lanes]) -> Self {
-        let mut over = length(series, limits.error);
+        let mut over = length(series, limits.of_series.error);
         for _ in 0..MOST_SHORTENINGS {
             let moved = value(series, over).map(f64::abs);
             let too_far = |moved: f64| {
@@ -36,10 +36,10 @@ impl Plan {
             over *= moved.map(too_far);
         }
         let outlook = Outlook::of(series, over);
-        let (error, order) = (log2(limits.of_piece), INVERSE[STAGES + 1]);
+        let (error, order) = (log2(limits.of_series.of_piece), INVERSE[STAGES + 1]);
         let bound = |steepest| log2(pieces::bound(steepest).max(f64::MIN_POSITIVE));
         let piece = outlook.steepest.map(|steepest| exp2((error - bound(steepest)) * order));
-        let limited = |moved: f64| limits.limited / moved.abs().max(f64::MIN_POSITIVE);
+        let limited = |moved: f64| limits.of_series.reach / moved.abs().max(f64::MIN_POSITIVE);
         let piece = piece.smaller(outlook.moved.map(limited));
         let fastest = outlook.fastest * over.map(f64::recip);
         Self { over, piece, fastest }

@@ -10,7 +10,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::num::NonZeroUsize;
 use stickslip_outcome::{Regime, run_and_judge};
 use stickslip_stability::{critical, critical_r, leading_roots, roots};
-use stickslip_tip::{InitialSurface, Model, Noise, Run, Scenario, Start, TipFunction, Wider, run};
+use stickslip_tip::{
+    InitialSurface, Model, Noise, Relief, Run, Scenario, Start, TipFunction, Wider, run,
+};
 
 /// Printed numbers are rounded to the third digit after the point.
 const ROUNDED: f64 = 5.1e-4;
@@ -211,7 +213,7 @@ fn stability_is_lost_at_an_alpha_of_1_069_and_not_that_far_above() {
 fn white_noise_grows_steeper_on_a_finer_grid() {
     let steepness = |spacing: f64| {
         let noise = Noise { amplitude: 1e-4, spacing, seed: 1 };
-        let surface = InitialSurface::flat().with_noise(noise, 0.0, 20.0);
+        let surface = InitialSurface::flat().with(Relief::noise(noise, 0.0, 20.0));
         let slope = |i: u32| surface.slope_and_curvature(0.001_37 * f64::from(i)).0;
         ((0..14_000).map(|i| slope(i).powi(2)).sum::<f64>() / 14_000.0).sqrt()
     };

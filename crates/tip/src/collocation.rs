@@ -132,11 +132,9 @@ impl Collocation {
         (known - self.value(values, tau)).abs() * self.largest_node_product / product.abs()
     }
 
-    /// The largest error of interpolation on a step of length h, for a function with this divided difference of order
-    /// s + 1.
-    pub fn interpolation_bound(&self, difference: f64, h: f64) -> f64 {
-        let h2 = h * h;
-        self.largest_node_product * difference.abs() * (h2 * h2 * h2 * h)
+    /// The largest error of interpolation on the unit step, for a function with this divided difference of order s + 1.
+    pub fn interpolation_bound(&self, difference: f64) -> f64 {
+        self.largest_node_product * difference.abs()
     }
 
     /// Derivatives of the polynomial of [`value`](Self::value) at τ = 0 and at the nodes. The last one is repeated, to

@@ -6,8 +6,7 @@
 
 use crate::Model;
 use crate::memory::ROOM;
-use crate::relief::{Noise, Piece, Relief};
-use crate::series::SeriesError;
+use crate::relief::{Piece, Relief};
 
 /// The initial surface u0(x), a sum of reliefs.
 #[derive(Debug, Clone, Default)]
@@ -16,7 +15,7 @@ pub struct InitialSurface {
 }
 
 /// A stretch of x on which u0 is one smooth function: between the breaks of its reliefs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Stretch {
     /// Ends of the stretch.
     pub(crate) low: f64,
@@ -50,20 +49,6 @@ impl InitialSurface {
     pub fn with(mut self, relief: Relief) -> Self {
         self.reliefs.push(relief);
         self
-    }
-
-    /// Adds a [`Relief::profile`].
-    ///
-    /// # Errors
-    /// The profile is too short, not finite or not sorted by x.
-    pub fn with_profile(self, x: Vec<f64>, u: Vec<f64>) -> Result<Self, SeriesError> {
-        Ok(self.with(Relief::profile(x, u)?))
-    }
-
-    /// Adds [`Relief::noise`].
-    #[must_use]
-    pub fn with_noise(self, noise: Noise, from: f64, to: f64) -> Self {
-        self.with(Relief::noise(noise, from, to))
     }
 
     /// u0(x).
@@ -145,13 +130,6 @@ impl InitialSurface {
     }
 }
 
-impl Stretch {
-    /// An undefined stretch.
-    pub(crate) fn nowhere() -> Self {
-        Self { low: 0.0, high: 0.0, slack: 0.0, flat: false, pieces: vec![] }
-    }
-}
-
 fn sum(terms: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
     terms.fold((0.0, 0.0), |(slope, curvature), (s, c)| (slope + s, curvature + c))
 }
@@ -159,7 +137,7 @@ fn sum(terms: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::TipFunction;
+    use crate::{Noise, TipFunction};
 
     fn model() -> Model {
         Model::new(TipFunction::triple_gaussian(1.0, 1.0).unwrap(), 1.2, 0.8).unwrap()
@@ -215,7 +193,7 @@ mod tests {
     #[test]
     fn a_stretch_lies_between_the_breaks_of_all_reliefs() {
         let (surface, reliefs) = surface();
-        let mut stretch = Stretch::nowhere();
+        let mut stretch = Stretch::default();
         for i in 0..400 {
             let x = -2.0 + 0.117 * f64::from(i);
             surface.enter(&mut stretch, x, true, 1e-12);

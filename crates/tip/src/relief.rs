@@ -223,18 +223,12 @@ impl Relief {
 
     /// Position of the tip in steady motion that carved the profile; `None` for other reliefs.
     pub fn steady_position(&self) -> Option<f64> {
-        match &self.0 {
-            Shape::SteadyPast(past) => Some(past.position),
-            Shape::Spline(_) | Shape::OnLattice(_) | Shape::Expanded(_) => None,
-        }
+        if let Shape::SteadyPast(past) = &self.0 { Some(past.position) } else { None }
     }
 
     /// The largest x of a spline; `None` for other reliefs.
     pub(crate) fn end(&self) -> Option<f64> {
-        match &self.0 {
-            Shape::SteadyPast(_) | Shape::OnLattice(_) | Shape::Expanded(_) => None,
-            Shape::Spline(spline) => Some(spline.last()),
-        }
+        if let Shape::Spline(spline) = &self.0 { Some(spline.last()) } else { None }
     }
 
     /// Whether the relief has a slope at x.

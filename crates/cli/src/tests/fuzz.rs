@@ -28,7 +28,7 @@ use stickslip::{Run, RunDocument, SweepDocument, parameter};
 use stickslip_figures::{self as figures, Size, View};
 use stickslip_outcome::{Classified, Watched};
 use stickslip_surface::Surface;
-use stickslip_tip::{Force, InitialSurface};
+use stickslip_tip::{Force, Relief};
 use stickslip_units::Unit;
 
 /// Default number of cases of each parser: some seconds in total.
@@ -181,8 +181,8 @@ fn any_columns_are_taken_or_refused() {
         // Tables of two columns are read as this does; of three, surfaces alone.
         let Ok((x, u)) = parse_profile(&text.into(), None) else { return false };
         let Ok(force) = Force::new(vec![], Some((x.clone(), u.clone()))) else { return false };
-        let Ok(surface) = InitialSurface::flat().with_profile(x, u) else { return false };
-        let _ = surface.slope_and_curvature(16.2);
+        let Ok(relief) = Relief::profile(x, u) else { return false };
+        let _ = relief.slope_and_curvature(16.2);
         // A spline through values near the largest number overflows between them, and a run says so.
         let _ = force.value(16.2);
         true

@@ -6,23 +6,30 @@ use super::stage_equations::Unknowns;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::step;
 
-impl Integrator<'_> {
-    /// Predicts a step of length h: the last polynomials, extrapolated where this is reliable, otherwise straight
-    /// lines.
-    pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
-        let ahead = |corner: Corner| corner.ahead(self.last.as_ref(), h);
-        let height = self.corner.map_or([0.0; STAGES], ahead);
-        Unknowns { displacement: self.way_ahead(h, longest), height }
-    }
-
-    fn way_ahead(&self, h: f64, longest: f64) -> Stages {
-        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.h) {
-            let guess = RADAU.continued(&last.displacement, h / last.h);
-            if guess.iter().all(|d| d.abs() < longest) {
-                return guess;
-            }
+/// Predicts the displacements at the nodes of a step of length h: the polynomials of the last step, given with its
+/// length, extrapolated where this is reliable, otherwise straight lines.
+pub(crate) fn way_ahead<const N: usize>(
+    last: Option<([Stages; N], f64)>,
+    velocity: [f64; N],
+    h: f64,
+    longest: f64,
+) -> [Stages; N] {
+    if let Some((displacement, h_last)) = last.filter(|(_, h_last)| h <= 1.5 * h_last) {
+        let guess = displacement.map(|d| RADAU.continued(&d, h / h_last));
+        if guess.as_flattened().iter().all(|d| d.abs() < longest) {
+            return guess;
         }
-        RADAU.c.map(|c| (c * h * self.velocity).clamp(-longest, longest))
+    }
+    velocity.map(|v| RADAU.c.map(|c| (c * h * v).clamp(-longest, longest)))
+}
+
+impl Integrator<'_> {
+    /// Predicts a step of length h.
+    pub(super) fn predict(&self, h: f64, longest: f64) -> Unknowns {
+        let last = self.last.map(|last| ([last.displacement], last.h));
+        let [displacement] = way_ahead(last, [self.velocity], h, longest);
+        let ahead = |corner: Corner| corner.ahead(self.last.as_ref(), h);
+        Unknowns { displacement, height: self.corner.map_or([0.0; STAGES], ahead) }
     }
 
     /// Longest step to try: it does not skip a pulse, move the tip too far, or lead far beyond the stretch.

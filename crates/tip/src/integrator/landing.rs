@@ -38,11 +38,6 @@ impl Integrator<'_> {
         breaks.min(until)
     }
 
-    /// As [`landing`], from the present time.
-    pub(super) fn landing(&self, h: f64, end: f64) -> Option<f64> {
-        landing(self.t, h, end)
-    }
-
     /// As [`leaves`], for the tip and its stretch.
     pub(super) fn leaves(
         &self,

@@ -4,11 +4,12 @@
 //! sum of the groove of the past, from the memory, and the contribution of the step: the Butcher matrix applied to
 //! `f'(x_i - x_j)`. So one scalar unknown remains for each stage.
 
-mod ahead;
+pub(crate) mod ahead;
 pub(crate) mod control;
 pub(crate) mod corner;
 mod error;
 pub(crate) mod landing;
+pub(crate) mod newton;
 mod saved;
 mod stage_equations;
 pub(crate) mod taylor;
@@ -24,10 +25,11 @@ use crate::{Force, InitialSurface, Model, Support};
 use control::Control;
 use corner::Corner;
 pub use error::IntegrationError;
+use landing::landing;
 use stage_equations::{Begin, Solution, StageEquations};
 use std::cell::OnceCell;
 use taylor::Taylor;
-pub(crate) use taylor::{BeginBeside, EndedBeside, SideBySide};
+pub(crate) use taylor::{BeginBeside, SideBySide};
 
 /// Numbers of steps, iterations and series, which do not depend on the machine.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -123,7 +125,7 @@ impl<'a> Integrator<'a> {
             velocity: 0.0,
             curvature: 0.0,
             limits_from_before: (0.0, 0.0),
-            stretch: Stretch::nowhere(),
+            stretch: Stretch::default(),
             last: None,
             work: Work::default(),
         };
@@ -219,7 +221,7 @@ impl<'a> Integrator<'a> {
         let (limit, end) = (self.length_limit(), self.next_end(until));
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
-            h = self.landing(h, end).ok_or(self.too_small(h))?;
+            h = landing(self.t, h, end).ok_or(self.too_small(h))?;
             match self.attempt(h) {
                 Ok(()) => return Ok(()),
                 Err(retry) => {
@@ -259,9 +261,9 @@ impl<'a> Integrator<'a> {
         let begin = self.begin(h);
         let equations = StageEquations::new(model, surface, force, begin, inertia.as_ref());
         let look = longest_look(self.model.tip());
-        let solved = equations.solve(&mut self.memory, guess, enough, look);
-        self.work.newton_iterations += solved.iterations;
-        let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
+        let count = &mut self.work.newton_iterations;
+        let solution = equations.solve(&mut self.memory, guess, (enough, look), count);
+        let solution = solution.ok_or(Retry::Shorter(0.3 * h))?;
         let displacement = solution.displacement;
         let moved = displacement.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
         let most = control::OVERSHOOT * longest;

@@ -1,6 +1,7 @@
 //! The equations for the displacement of the tip at the nodes of one step, and their Newton iteration; with a depth
 //! limit also for the heights under the tip.
 
+use super::newton::newton;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Policy};
@@ -56,12 +57,6 @@ pub(super) struct Unknowns {
     pub(super) height: Stages,
 }
 
-pub(super) struct Solved {
-    pub(super) iterations: u64,
-    /// `None` if it did not converge.
-    pub(super) solution: Option<Solution>,
-}
-
 pub(super) struct Solution {
     pub(super) displacement: Stages,
     /// Heights at the nodes.
@@ -72,30 +67,13 @@ pub(super) struct Solution {
     pub(super) curvature_at_end: f64,
 }
 
-const MOST_ITERATIONS: u64 = 12;
-/// Corrections below this are round-off of displacements of order one.
-const ROUND_OFF: f64 = 1e-15;
-/// Largest ratio of successive corrections for which the Jacobian of an earlier iteration is kept.
-const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
-
 /// Results of one evaluation of the groove.
+#[derive(Default)]
 struct Look {
     known: Known,
     own: OwnGroove,
     own_height: OwnHeight,
     missed: StageResiduals,
-}
-
-impl Look {
-    fn nothing() -> Self {
-        let zero = [0.0; STAGES];
-        Self {
-            known: Known::nothing(),
-            own: OwnGroove::nothing(),
-            own_height: OwnHeight::nothing(),
-            missed: StageResiduals { displacement: zero, height: zero },
-        }
-    }
 }
 
 /// The factored Jacobian: `limited` with a depth limit, `plain` without.
@@ -136,29 +114,24 @@ impl<'a> StageEquations<'a> {
         Self { model, apex, surface, stretch, x, equations, depth, left, rests }
     }
 
-    /// Solves the equations by Newton's iteration from `guess`, to an error below `enough`. It stops when a
-    /// displacement exceeds `most`. The Jacobian is kept as long as this requires no additional iteration.
+    /// Solves the equations by Newton's iteration from `guess`, to an error below `enough`, and counts the iterations;
+    /// `None` if it does not converge. It stops when a displacement exceeds `most`.
     pub(super) fn solve(
         &self,
         memory: &mut Policy,
         guess: Unknowns,
-        enough: f64,
-        most: f64,
-    ) -> Solved {
+        (enough, most): (f64, f64),
+        count: &mut u64,
+    ) -> Option<Solution> {
         let Unknowns { mut displacement, mut height } = guess;
-        let mut previous = f64::INFINITY;
-        let mut ratio = 1.0;
         let mut jacobian = Jacobian { plain: None, limited: None };
-        let round_off = ROUND_OFF.max(self.surface.rounding(self.x));
-        let mut look = Look::nothing();
-        for iterations in 1..=MOST_ITERATIONS {
+        let mut look = Look::default();
+        let is_solved = newton((enough, self.surface.rounding(self.x)), count, |is_new| {
             self.look(memory, (&displacement, &height), &mut look);
-            if ratio > SLOWEST_WITH_OLD_JACOBIAN {
+            if is_new {
                 self.factor(&mut jacobian, &look, &height);
             }
-            let Some(correction) = jacobian.corrections(&look.missed) else {
-                return Solved { iterations, solution: None };
-            };
+            let correction = jacobian.corrections(&look.missed)?;
             let mut size = largest(&correction.displacement);
             for (d, c) in displacement.iter_mut().zip(correction.displacement) {
                 *d -= c;
@@ -169,19 +142,9 @@ impl<'a> StageEquations<'a> {
                     size = size.max(c.abs() / height.abs().max(1.0));
                 }
             }
-            let in_range = displacement.iter().all(|d| d.abs() <= most);
-            // The next correction would be smaller by this ratio at least.
-            ratio = (size / previous).min(1.0);
-            if !in_range || (iterations > 3 && ratio > 0.9 && size > 100.0 * round_off) {
-                return Solved { iterations, solution: None };
-            }
-            if ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
-                let solution = Some(self.solution(displacement, height, &look.known));
-                return Solved { iterations, solution };
-            }
-            previous = size;
-        }
-        Solved { iterations: MOST_ITERATIONS, solution: None }
+            displacement.iter().all(|d| d.abs() <= most).then_some(size)
+        });
+        is_solved.then(|| self.solution(displacement, height, &look.known))
     }
 
     fn solution(&self, displacement: Stages, height: Stages, known: &Known) -> Solution {

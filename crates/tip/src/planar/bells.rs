@@ -8,7 +8,8 @@
 //! read depend on h. By the Cauchy-Schwarz inequality the error of M layers is at most Σ|`a_k`| times that of a single
 //! Gaussian for visits within a radius and a tip anywhere. The Φ obey the same recurrences as the φ.
 
-use super::layers::{Lanes, slopes, values};
+use super::earlier::NOTHING;
+use super::layers::{Lanes, add_all, slopes, values};
 use crate::elementary::exp;
 
 /// A function h across the scan.
@@ -91,8 +92,8 @@ impl Bells {
             let (more, slope) = room.split_at_mut(groups);
             values(eta - shift, *amplitude, more);
             slopes(eta - shift, more, slope);
-            add(phi, more);
-            add(psi, slope);
+            add_all(phi, more, 1.0);
+            add_all(psi, slope, 1.0);
         }
     }
 
@@ -119,12 +120,4 @@ impl Bells {
         }
         sum
     }
-}
-
-/// Distance in widths beyond which e^{-z²/2} is negligible.
-const NOTHING: f64 = 8.7;
-
-fn add(sum: &mut [Lanes], more: &[Lanes]) {
-    let all = sum.as_flattened_mut().iter_mut().zip(more.as_flattened());
-    all.for_each(|(sum, more)| *sum += more);
 }

@@ -19,6 +19,7 @@ use super::chain::Curvatures;
 use super::jet::Jet;
 use super::part::{Part, Room, sum};
 use crate::collocation::{RADAU, STAGES, Stages, apply};
+use crate::integrator::newton::newton;
 use crate::step::{Depth, Factors, Inertia, Matrix};
 
 /// The data at the start of a step.
@@ -56,12 +57,6 @@ pub(super) struct Under<'a> {
 /// Displacements at the nodes, along and across, and heights; the heights are 0 without a depth limit.
 pub(super) type Unknowns = [Stages; 3];
 
-pub(super) struct Solved {
-    pub(super) iterations: u64,
-    /// `None` if it did not converge.
-    pub(super) solution: Option<Solution>,
-}
-
 /// Displacements at the nodes, along and across.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solution {
@@ -87,47 +82,34 @@ struct Jacobian {
     limited: Option<Factors<{ 3 * STAGES }>>,
 }
 
-const MOST_ITERATIONS: u64 = 12;
-/// Corrections below this are round-off of displacements of order one.
-const ROUND_OFF: f64 = 1e-15;
-/// Largest ratio of successive corrections for which the Jacobian of an earlier iteration is kept.
-const SLOWEST_WITH_OLD_JACOBIAN: f64 = 0.03;
-
 impl StageEquations<'_> {
-    /// Solves the equations by Newton's iteration from a guess, to an error below `enough`. It stops when a
-    /// displacement along exceeds `most[0]`, or one across `most[1]`.
-    pub(super) fn solve(&self, guess: Unknowns, enough: f64, most: [f64; 2]) -> Solved {
-        let mut at = guess;
-        let (mut previous, mut ratio) = (f64::INFINITY, 1.0);
+    /// Solves the equations by Newton's iteration from a guess, to an error below `enough`, and counts the iterations;
+    /// `None` if it does not converge. It stops when a displacement exceeds `most`.
+    pub(super) fn solve(
+        &self,
+        guess: Unknowns,
+        (enough, most): (f64, f64),
+        count: &mut u64,
+    ) -> Option<Solution> {
+        let (mut at, mut curvatures) = (guess, [0.0; 3]);
         let mut jacobian = Jacobian { free: None, limited: None };
         // Positions are rounded, and with them the slopes of the initial surface.
         let rounding = |Under { from: [x, y], .. }: &Under<'_>| f64::EPSILON * x.abs().max(y.abs());
-        let round_off = ROUND_OFF.max(self.under.as_ref().map_or(0.0, rounding));
-        for iterations in 1..=MOST_ITERATIONS {
+        let rounding = self.under.as_ref().map_or(0.0, rounding);
+        let is_solved = newton((enough, rounding), count, |is_new| {
             let forces = self.forces(&at);
-            if ratio > SLOWEST_WITH_OLD_JACOBIAN {
+            curvatures = forces.curvatures;
+            if is_new {
                 jacobian = self.jacobian(&forces);
             }
-            let Some(correction) = jacobian.corrections(&self.missed(&at, &forces)) else {
-                return Solved { iterations, solution: None };
-            };
+            let correction = jacobian.corrections(&self.missed(&at, &forces))?;
             for (x, c) in at.as_flattened_mut().iter_mut().zip(correction.as_flattened()) {
                 *x -= c;
             }
-            let size = size(&correction, &at[2]);
-            ratio = (size / previous).min(1.0);
-            let within = |j: usize| at[j].iter().all(|d| d.abs() <= most[j]);
-            let stuck = iterations > 3 && ratio > 0.9 && size > 100.0 * round_off;
-            if !(within(0) && within(1)) || stuck {
-                return Solved { iterations, solution: None };
-            }
-            if ratio * size <= enough.max(round_off) && (iterations > 1 || size <= enough) {
-                let solution = Some(self.solution(&at, forces.curvatures));
-                return Solved { iterations, solution };
-            }
-            previous = size;
-        }
-        Solved { iterations: MOST_ITERATIONS, solution: None }
+            let is_within = at[..2].as_flattened().iter().all(|d| d.abs() <= most);
+            is_within.then(|| size(&correction, &at[2]))
+        });
+        is_solved.then(|| self.solution(&at, curvatures))
     }
 
     fn solution(&self, [along, across, height]: &Unknowns, curvatures: Curvatures) -> Solution {

@@ -1,7 +1,7 @@
 //! Many runs, vectorised where possible.
 
 use super::{MOST_STEPS, Run, RunError, Scenario, Start, collected};
-use crate::integrator::{BeginBeside, EndedBeside, SideBySide, Work};
+use crate::integrator::{BeginBeside, SideBySide, Work};
 use crate::memory::{Fit, MemoryChoice, MemoryReport, Retreat, Sum, accuracy_needed};
 use crate::{Step, TipFunction};
 use std::cell::Cell;
@@ -66,10 +66,8 @@ fn collect_at_most<C: Extend<Step>>(
     for group in groups(scenarios) {
         let mut beside = SideBySide::new(&group.tip, &group.fit, group.tolerance, most_steps);
         let begins = group.begins.iter().map(|motion| (*motion, begin(motion.number)));
-        beside.run(begins, |number, end| {
-            if let EndedBeside::Whole(steps, work) = end
-                && let Ok(run) = group.collected(&scenarios[number], steps, work)
-            {
+        beside.run(begins, |number, steps, work| {
+            if let Ok(run) = group.collected(&scenarios[number], steps, work) {
                 waiting[number] = false;
                 ended(number, Ok(run));
             }

@@ -5,7 +5,7 @@ use crate::memory::{FitError, MemoryChoice, Policy, Retreat, accuracy_needed};
 use crate::series::SeriesError;
 use crate::state::Damaged;
 use crate::support::PathError;
-use crate::{Force, InitialSurface, Model, Noise, Step, Support, SupportPath, TipFunction};
+use crate::{Force, InitialSurface, Model, Noise, Relief, Step, Support, SupportPath, TipFunction};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -224,11 +224,11 @@ impl Scenario {
             Start::Flat => InitialSurface::flat(),
         };
         if let Some((x, u)) = self.profile.clone() {
-            surface = surface.with_profile(x, u).map_err(RunError::Profile)?;
+            surface = surface.with(Relief::profile(x, u).map_err(RunError::Profile)?);
         }
         if let Some(noise) = self.noise {
             let (from, to) = self.noise_range();
-            surface = surface.with_noise(noise, from, to);
+            surface = surface.with(Relief::noise(noise, from, to));
         }
         Ok(surface)
     }

@@ -23,7 +23,7 @@ pub struct Depth {
 }
 
 /// Data at the stages in addition to their displacements: slopes, curvatures, heights.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Known {
     /// ∫ f' over the undecayed past.
     pub past_slope: Stages,
@@ -40,7 +40,7 @@ pub struct Known {
 }
 
 /// Residuals of the equations at given displacements and heights.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct StageResiduals {
     /// Residual d - hAv of the displacements.
     pub displacement: Stages,
@@ -60,18 +60,6 @@ pub struct LimitedFactors {
 }
 
 impl Known {
-    pub(crate) fn nothing() -> Self {
-        let zero = [0.0; STAGES];
-        Self {
-            past_slope: zero,
-            past_curvature: zero,
-            past_height: zero,
-            relief_slope: zero,
-            relief_curvature: zero,
-            relief_height: zero,
-        }
-    }
-
     /// Multiplies past and relief by their undecayed parts at each stage.
     pub(crate) fn fade(&mut self, past: &Stages, relief: &Stages) {
         let scale = |told: &mut Stages, left: &Stages| {

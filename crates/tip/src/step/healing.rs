@@ -1,34 +1,30 @@
 //! The contribution of a step to the groove of a surface that heals meanwhile.
 
 use super::linear_system::Factors;
-use super::own::Matrix;
+use super::own::{Matrix, carving};
 use crate::collocation::{RADAU, STAGES};
 
 /// Weights of each stage in the groove at each stage, for a step of length h and a decay as e^{-t/T}: y' = g - y/T
 /// from y = 0 is y = (1 + hA/T)⁻¹hA g.
 pub fn healing(h: f64, time: f64) -> Matrix {
-    let share = h / time;
-    let fading = RADAU.a.map(|row| row.map(|a| share * a));
-    // 1 + hA/T is regular for every h/T ≥ 0: the eigenvalues of A lie right of 0.
-    let factors = Factors::of(plus_one(fading)).unwrap_or_else(|| unreachable!("A is stable"));
+    let factors = implicit(h / time);
     columns(|k| factors.solve(&std::array::from_fn(|i| h * RADAU.a[i][k])))
 }
 
 /// The derivative of the matrix of [`healing`](fn@healing) by the length of the step: NAN with N = (1 + hA/T)⁻¹.
 pub fn healing_rate(h: f64, time: f64) -> Matrix {
-    let share = h / time;
-    let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
-    let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
+    let factors = implicit(h / time);
     // A and N are functions of each other, and so NAN = NNA.
     columns(|k| factors.solve(&factors.solve(&std::array::from_fn(|i| RADAU.a[i][k]))))
 }
 
-/// 1 + a matrix.
-pub(super) fn plus_one(mut matrix: Matrix) -> Matrix {
+/// The factors of 1 + `share` A, which is regular for every share ≥ 0: the eigenvalues of A lie right of 0.
+pub(super) fn implicit(share: f64) -> Factors {
+    let mut matrix = carving(share);
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] += 1.0;
     }
-    matrix
+    Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"))
 }
 
 pub(super) fn columns(column: impl Fn(usize) -> [f64; STAGES]) -> Matrix {

@@ -1,7 +1,6 @@
 //! Displacement of a tip with inertia, from the force on it.
 
-use super::healing::{columns, plus_one};
-use super::linear_system::Factors;
+use super::healing::{columns, implicit};
 use super::own::Matrix;
 use crate::collocation::{RADAU, STAGES, Stages, apply};
 
@@ -19,8 +18,7 @@ impl Inertia {
     /// The equations of a step of length h with this velocity at its start.
     pub fn new(mass: f64, h: f64, velocity: f64) -> Self {
         let share = h / mass;
-        let matrix = plus_one(RADAU.a.map(|row| row.map(|a| share * a)));
-        let factors = Factors::of(matrix).unwrap_or_else(|| unreachable!("A is stable"));
+        let factors = implicit(share);
         let along = |v: Stages| apply(&RADAU.a, &v).map(|d| h * d);
         let by_force = |k: usize| factors.solve(&std::array::from_fn(|i| share * RADAU.a[i][k]));
         Self {

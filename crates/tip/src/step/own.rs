@@ -10,7 +10,7 @@ pub type Matrix = [Stages; STAGES];
 
 /// f' and f'' at `d_i - d_k` and `d_k - d_i` for all pairs of stages. They determine the contribution of the step to the groove under
 /// its own stages, `Σ_k b_ik f'(d_i - d_k)`, and its derivatives.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct OwnGroove {
     slope: Both,
     curvature: Both,
@@ -46,10 +46,6 @@ pub fn carving(factor: f64) -> Matrix {
 }
 
 impl OwnGroove {
-    pub(crate) fn nothing() -> Self {
-        Self { slope: [[0.0; PAIRS.len()]; 2], curvature: [[0.0; PAIRS.len()]; 2] }
-    }
-
     /// The values for stages at the displacements d.
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let ahead = side_by_side(tip, &PAIRS.map(|(i, k)| d[i] - d[k]));
@@ -119,17 +115,13 @@ fn side_by_side(tip: &TipFunction, distance: &Pairs) -> [Pairs; 2] {
 }
 
 /// f at `d_i - d_k` and `d_k - d_i`: the height of the contribution of the step to the groove, `Σ_k b_ik f(d_i - d_k)`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct OwnHeight {
     value: Both,
     apex: f64,
 }
 
 impl OwnHeight {
-    pub(crate) fn nothing() -> Self {
-        Self { value: [[0.0; PAIRS.len()]; 2], apex: 0.0 }
-    }
-
     /// The heights under stages at these displacements.
     pub fn new(tip: &TipFunction, d: &Stages) -> Self {
         let ahead = PAIRS.map(|(i, k)| tip.value(d[i] - d[k]));

@@ -13,6 +13,7 @@
 use super::scenario::{WalkerPast, WalkerScenario};
 use crate::elementary::{complex_exp, sin_cos};
 use crate::integrator::taylor::length::length;
+use crate::integrator::taylor::pieces::value;
 use crate::tip_function::bessel_orders;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -174,7 +175,7 @@ impl<'a> Chain<'a> {
             .sum();
         let at = |i: u32| {
             let t = h * (f64::from(i) + 0.5) / f64::from(PIECES);
-            let [x, y] = [0, 1].map(|axis| sum(&self.velocity[axis][..order], t));
+            let [x, y] = [0, 1].map(|axis| value(&self.velocity[axis][..order], t));
             crate::elementary::hypot(x, y)
         };
         (0..PIECES).map(at).fold(0.0, f64::max) + 0.5 * change / f64::from(PIECES)
@@ -183,9 +184,9 @@ impl<'a> Chain<'a> {
     /// Moves the walker to the end of a step.
     pub(super) fn advance(&mut self, h: f64) {
         for axis in 0..2 {
-            self.position[axis][0] = sum(&self.position[axis], h);
+            self.position[axis][0] = value(&self.position[axis], h);
             if self.scenario.inertia.is_some() {
-                self.velocity[axis][0] = sum(&self.velocity[axis], h);
+                self.velocity[axis][0] = value(&self.velocity[axis], h);
             }
         }
         let half = self.directions.len();
@@ -196,11 +197,6 @@ impl<'a> Chain<'a> {
             }
         }
     }
-}
-
-/// Σ c_k t^k
-pub(super) fn sum(coefficients: &[f64], t: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
 /// z of each direction after the past of a scenario.

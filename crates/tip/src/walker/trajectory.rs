@@ -1,6 +1,6 @@
 //! The motion of a walker: its steps, each with its Taylor polynomials.
 
-use super::chain::sum;
+use crate::integrator::taylor::pieces::value;
 
 /// One step of the motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ impl WalkerTrajectory {
     /// (x0, y0) at t. Outside of the run, the first or last step is extrapolated.
     pub fn position(&self, t: f64) -> [f64; 2] {
         let step = self.step_at(t);
-        [0, 1].map(|axis| sum(&step.position[axis], t - step.t))
+        [0, 1].map(|axis| value(&step.position[axis], t - step.t))
     }
 
     /// (x0', y0') at t.

@@ -74,7 +74,7 @@ impl<'a> Along<'a> {
     /// The heights of this series over a step of length `total`, stored in `room`.
     #[inline]
     pub(crate) fn over(height: &Series, total: f64, table: &Table, room: &'a mut [Block]) -> Self {
-        Self { start: height.start(), nodes: table.sums(&height.over(total), room) }
+        Self { start: height.at(0), nodes: table.sums(&height.over(total), room) }
     }
 
     fn count(&self) -> usize {

@@ -16,6 +16,7 @@ pub(crate) mod visits;
 
 use super::Integrator;
 use super::corner::Corner;
+use super::landing::landing;
 use crate::elementary::exp;
 use crate::history::Step;
 use crate::memory::Derivatives;
@@ -31,7 +32,7 @@ pub(crate) use series::{MOST_ORDER, Series};
 use switch::Switch;
 use values::Outlook;
 
-pub(crate) use side_by_side::{Begin as BeginBeside, Ended as EndedBeside, SideBySide};
+pub(crate) use side_by_side::{Begin as BeginBeside, SideBySide};
 
 /// Data of steps by series.
 #[derive(Debug, Clone)]
@@ -155,7 +156,7 @@ impl Integrator<'_> {
     fn make(&mut self, plan: &Plan, end: f64) -> Made {
         let Plan { mut length, mut pieces, .. } = *plan;
         for _ in 0..plan::MOST_SHORTENINGS {
-            let Some(total) = self.landing(length, end) else { return Made::Nothing };
+            let Some(total) = landing(self.t, length, end) else { return Made::Nothing };
             let nodes = pieces::nodes(pieces);
             let mut room = pieces::ROOM_FOR_NODES;
             let height = self.taylor.chain.height();

@@ -139,12 +139,7 @@ fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
 /// The longest fraction of a step that can be a piece with an interpolation error of at most `error`. The largest
 /// divided difference of the step is `steepest`.
 pub(crate) fn longest(steepest: f64, error: f64) -> f64 {
-    length::root(error, bound(steepest), STAGES + 1)
-}
-
-/// Bound on the interpolation error over a whole step.
-pub(crate) fn bound(steepest: f64) -> f64 {
-    RADAU.interpolation_bound(steepest, 1.0)
+    length::root(error, RADAU.interpolation_bound(steepest), STAGES + 1)
 }
 
 /// The nodes of all pieces of a step, as fractions of the step.

@@ -44,11 +44,6 @@ impl Series {
         self.coefficients[k] = coefficient;
     }
 
-    /// The value at 0.
-    pub(crate) fn start(&self) -> f64 {
-        self.coefficients[0]
-    }
-
     /// The derivative at 1.
     pub(crate) fn slope_at_end(&self) -> f64 {
         let mut sums = [0.0; LANES];

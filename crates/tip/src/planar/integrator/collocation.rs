@@ -8,6 +8,7 @@ use super::super::stages::{Solution, StageEquations, Under, Unknowns};
 use super::PlanarRunning;
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Heights;
+use crate::integrator::ahead::way_ahead;
 use crate::integrator::control::OVERSHOOT;
 use crate::integrator::corner::Corner;
 use crate::integrator::landing::landing;
@@ -71,9 +72,10 @@ impl PlanarRunning<'_> {
         let room = self.parts.iter().map(room).fold(f64::INFINITY, f64::min);
         let surface = |at| self.initial(at);
         let equations = self.equations(h, inertia.as_ref(), &surface);
-        let solved = equations.solve(self.guess(h, longest), enough, [look, look]);
-        self.work.newton_iterations += solved.iterations;
-        let Some(solution) = solved.solution else { return Err(Retry::Shorter(0.3 * h)) };
+        let mut count = 0;
+        let solution = equations.solve(self.guess(h, longest), (enough, look), &mut count);
+        self.work.newton_iterations += count;
+        let solution = solution.ok_or(Retry::Shorter(0.3 * h))?;
         let [along, across] = &solution.displacement;
         let moves = along.iter().zip(across).map(|(d, e)| self.effective([*d, *e]));
         let moved = moves.fold(0.0, f64::max);
@@ -132,23 +134,12 @@ impl PlanarRunning<'_> {
         }
     }
 
-    /// Predicts a step of length h: the last polynomials, extrapolated where this is reliable, otherwise straight
-    /// lines.
+    /// Predicts a step of length h.
     fn guess(&self, h: f64, longest: f64) -> Unknowns {
-        let [along, across] = self.way_ahead(h, longest);
+        let last = self.last.map(|last| ([last.along.displacement, last.across], last.along.h));
+        let [along, across] = way_ahead(last, self.velocity, h, longest);
         let heights = |corner: &Corner| corner.ahead(self.last.as_ref().map(|last| &last.along), h);
         [along, across, self.corner.as_ref().map_or([0.0; STAGES], heights)]
-    }
-
-    fn way_ahead(&self, h: f64, longest: f64) -> [Stages; 2] {
-        if let Some(last) = self.last.filter(|last| h <= 1.5 * last.along.h) {
-            let ratio = h / last.along.h;
-            let guess = [last.along.displacement, last.across].map(|d| RADAU.continued(&d, ratio));
-            if guess.as_flattened().iter().all(|d| d.abs() < longest) {
-                return guess;
-            }
-        }
-        self.velocity.map(|v| RADAU.c.map(|c| (c * h * v).clamp(-longest, longest)))
     }
 
     /// Accepts both polynomials, or returns the length to try instead.

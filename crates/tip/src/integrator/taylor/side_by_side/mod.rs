@@ -5,7 +5,7 @@
 //! and one sum of exponentials. When a motion ends, the next one takes its lane. The numbers of a lane depend on its
 //! own motion only, so that the other motions do not matter.
 //!
-//! Motions that become too stiff for series, or retreat too far, end as [`Ended::Elsewhere`].
+//! Motions that become too stiff for series, or retreat too far, must be integrated by other means, from their start.
 
 mod expansion;
 mod lanes;
@@ -42,13 +42,6 @@ pub(crate) struct Begin {
     pub(crate) until: f64,
     /// Distance ahead of the tip at which steady motion before the run ended; `None` without steady motion.
     pub(crate) steady: Option<f64>,
-}
-
-pub(crate) enum Ended<C> {
-    /// The motion is complete; its steps were passed to this collector.
-    Whole(C, Work),
-    /// The motion must be integrated by other means, from its start.
-    Elsewhere,
 }
 
 /// An integrator of several motions with one footprint and one tolerance.
@@ -131,12 +124,13 @@ impl SideBySide {
         Self { limits, exponentials, numbers }
     }
 
-    /// Integrates all of these motions, and passes the steps of each to its collector. Reports each motion, by number
-    /// and result, when it has ended. After a request to stop, the remaining motions are not reported.
+    /// Integrates all of these motions, and passes the steps of each to its collector. Reports each motion that is
+    /// complete, by number and collector. Motions that must be integrated elsewhere are not reported, nor those that
+    /// remain after a request to stop.
     pub(crate) fn run<C: Extend<Step>>(
         &mut self,
         mut begins: impl Iterator<Item = (Begin, C)>,
-        mut ended: impl FnMut(usize, Ended<C>),
+        mut ended: impl FnMut(usize, C, Work),
     ) {
         let mut members = [const { None }; LANES];
         loop {
@@ -168,7 +162,7 @@ impl SideBySide {
     fn step<C: Extend<Step>>(
         &mut self,
         members: &mut [Option<Member<C>>; LANES],
-        ended: &mut impl FnMut(usize, Ended<C>),
+        ended: &mut impl FnMut(usize, C, Work),
     ) {
         let Self { limits, exponentials, numbers } = self;
         for (lane, member) in members.iter().enumerate() {
@@ -188,10 +182,10 @@ impl SideBySide {
                 numbers.visits.set(lane, rule);
             }
             let goes_on = rule.is_some() && member.t < member.begin.until;
-            if let Some(Member { begin, collector, work, .. }) = place.take_if(|_| !goes_on) {
-                let end =
-                    if rule.is_some() { Ended::Whole(collector, work) } else { Ended::Elsewhere };
-                ended(begin.number, end);
+            if let Some(Member { begin, collector, work, .. }) = place.take_if(|_| !goes_on)
+                && rule.is_some()
+            {
+                ended(begin.number, collector, work);
             }
         }
         remember(numbers, exponentials);

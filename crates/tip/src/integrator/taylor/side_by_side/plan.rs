@@ -1,12 +1,11 @@
 //! Lengths of the next steps of several motions in the basic model. For one motion see [`plan`](super::super::plan).
 
 use super::super::length::{LAST, exp2, log2};
-use super::super::pieces;
 use super::super::values::{BLOCK, outlook};
 use super::super::{chain::INVERSE, plan::MOST_SHORTENINGS};
 use super::Limits;
 use super::lanes::Lanes;
-use crate::collocation::STAGES;
+use crate::collocation::{RADAU, STAGES};
 
 pub(super) struct Plan {
     /// Lengths up to which series, exponentials and quadrature rules are accurate.
@@ -37,7 +36,8 @@ impl Plan {
         }
         let outlook = Outlook::of(series, over);
         let (error, order) = (log2(limits.of_series.of_piece), INVERSE[STAGES + 1]);
-        let bound = |steepest| log2(pieces::bound(steepest).max(f64::MIN_POSITIVE));
+        let radau = &*RADAU;
+        let bound = |steepest| log2(radau.interpolation_bound(steepest).max(f64::MIN_POSITIVE));
         let piece = outlook.steepest.map(|steepest| exp2((error - bound(steepest)) * order));
         let limited = |moved: f64| limits.of_series.reach / moved.abs().max(f64::MIN_POSITIVE);
         let piece = piece.smaller(outlook.moved.map(limited));

@@ -41,7 +41,7 @@ impl Carved {
             None => (unit, h, None),
             Some(time) => (healing(h, time), 1.0, Some(healing_rate(h, time))),
         };
-        let rate = wider.healing_time.map_or(0.0, f64::recip);
+        let rate = wider.healing_rate();
         let depth = wider.depth_limit.zip(heights);
         let weigh = |(limit, heights): (f64, &Heights)| {
             let weights = Depth { limit, side: heights.side }.weights(&heights.nodes);

@@ -351,7 +351,7 @@ mod tests {
             let near = |a: f64, b: f64, allowed: f64, what: &str| {
                 assert!((a - b).abs() < allowed, "{what} of step {n}: {a} {b}");
             };
-            let equations = Equations::new(law, h, law.pull(extension, h));
+            let equations = Equations::new(law, h, law.pull(extension, h), None, None);
             let own = OwnGroove::new(&tip, d);
             let velocity = equations.velocity(d, &told, &zero, &own);
             let residual = equations.residual(d, &velocity);

@@ -54,7 +54,7 @@ impl Rest {
     }
 
     fn rate_on(&self, depth: f64) -> f64 {
-        let heals = self.wider.healing_time.map_or(0.0, f64::recip);
+        let heals = self.wider.healing_rate();
         let push = self.push * depth;
         match self.wider.inertia {
             None => push - heals,
@@ -100,8 +100,7 @@ mod tests {
             Wider { healing_time: Some(1.5), depth_limit: Some(2.0), ..Wider::default() },
         ] {
             let rest = rest(wider);
-            let (mass, heals) =
-                (wider.inertia.unwrap_or(0.01), wider.healing_time.map_or(0.0, f64::recip));
+            let (mass, heals) = (wider.inertia.unwrap_or(0.01), wider.healing_rate());
             let (mut v, mut moved, mut depth, h) = (1.0, 0.0, 0.0, 1e-4);
             let mut at_first = 0.0_f64;
             for i in 0..80_000 {

@@ -17,11 +17,8 @@ pub struct InitialSurface {
 /// A stretch of x on which u0 is one smooth function: between the breaks of its reliefs.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stretch {
-    /// Ends of the stretch.
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-    /// A step that ends at most this far beyond an end of the stretch counts as ending there.
-    pub(crate) slack: f64,
+    /// Ends of the stretch, with their slack.
+    pub(crate) ends: Piece,
     /// Whether u0 = 0 within the largest distance at which a step evaluates it.
     pub(crate) flat: bool,
     /// The number of the piece of each relief.
@@ -115,15 +112,12 @@ impl InitialSurface {
     /// Sets `stretch` to the stretch that contains a tip at x, or that the tip is about to enter if it is at a break; x
     /// has an error of at most `accuracy`.
     pub(crate) fn enter(&self, stretch: &mut Stretch, x: f64, forward: bool, accuracy: f64) {
-        let Piece { low, high, slack, .. } = Piece::EVERYWHERE;
-        (stretch.low, stretch.high, stretch.slack) = (low, high, slack);
+        stretch.ends = Piece::EVERYWHERE;
         stretch.pieces.clear();
         stretch.flat = true;
         for relief in &self.reliefs {
             let piece = relief.piece(x, forward, accuracy);
-            (stretch.low, stretch.high) =
-                (stretch.low.max(piece.low), stretch.high.min(piece.high));
-            stretch.slack = stretch.slack.min(piece.slack);
+            stretch.ends.narrow(&piece);
             stretch.flat &= relief.is_flat_about(&piece, x);
             stretch.pieces.push(piece.index);
         }
@@ -197,13 +191,13 @@ mod tests {
         for i in 0..400 {
             let x = -2.0 + 0.117 * f64::from(i);
             surface.enter(&mut stretch, x, true, 1e-12);
-            assert!(stretch.low <= x && x < stretch.high, "{x} {stretch:?}");
+            assert!(stretch.ends.low <= x && x < stretch.ends.high, "{x} {stretch:?}");
             assert_eq!(stretch.pieces.len(), reliefs.len());
             let on = surface.slope_and_curvature_on(&stretch, x);
             assert_eq!(on, surface.slope_and_curvature(x), "{x}");
             // Beyond its ends it goes on without a break.
-            let (here, beyond) = (stretch.high - 1e-9, stretch.high + 1e-9);
-            if stretch.high.is_finite() {
+            let (here, beyond) = (stretch.ends.high - 1e-9, stretch.ends.high + 1e-9);
+            if stretch.ends.high.is_finite() {
                 let at = |x| surface.slope_and_curvature_on(&stretch, x);
                 assert!((at(here).1 - at(beyond).1).abs() < 1e-6, "{x}");
             }

@@ -86,7 +86,7 @@ struct SteadyPast {
 }
 
 /// A stretch of x on which a relief is one smooth function.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Piece {
     /// Ends of the piece.
     pub(crate) low: f64,
@@ -109,6 +109,18 @@ const MOST_AT_A_KNOT: f64 = 0.05;
 impl Piece {
     pub(crate) const EVERYWHERE: Self =
         Self { low: f64::NEG_INFINITY, high: f64::INFINITY, slack: f64::INFINITY, index: None };
+
+    /// Narrows the piece to its common part with another one.
+    pub(crate) fn narrow(&mut self, other: &Self) {
+        self.low = self.low.max(other.low);
+        self.high = self.high.min(other.high);
+        self.slack = self.slack.min(other.slack);
+    }
+
+    /// Distance of a tip at x from the end of the piece that it moves to.
+    pub(crate) fn ahead(&self, x: f64, forward: bool) -> f64 {
+        if forward { self.high - x } else { x - self.low }
+    }
 }
 
 impl Relief {

@@ -109,6 +109,11 @@ impl Wider {
         self.depth_limit.map_or(1.0, |limit| exp(-height.abs() / limit))
     }
 
+    /// 1/T, the rate at which indentations decay; 0 without healing.
+    pub fn healing_rate(&self) -> f64 {
+        self.healing_time.map_or(0.0, f64::recip)
+    }
+
     /// Undecayed part e^{-time/T} of an indentation after this time.
     pub fn left_after(&self, time: f64) -> f64 {
         self.healing_time.map_or(1.0, |healing| exp(-time / healing))

@@ -34,15 +34,10 @@ impl Integrator<'_> {
 
     /// Longest step to try: it does not skip a pulse, move the tip too far, or lead far beyond the stretch.
     pub(super) fn length_limit(&self) -> f64 {
-        let stretch = &self.stretch;
-        let speed = self.velocity.abs().max(1e-300);
-        let ahead = if self.velocity >= 0.0 {
-            stretch.high - self.position()
-        } else {
-            self.position() - stretch.low
-        };
+        let (ends, speed) = (&self.stretch.ends, self.velocity.abs().max(1e-300));
+        let ahead = ends.ahead(self.position(), self.velocity >= 0.0);
         let longest = step::longest_displacement(self.model.tip().band());
-        let distance = longest.min(1.2 * ahead.max(stretch.slack));
+        let distance = longest.min(1.2 * ahead.max(ends.slack));
         self.force.longest_step(self.t).min(distance / speed)
     }
 }

@@ -1,7 +1,7 @@
 //! The end of a step: at a representable time, exactly at a required end, and where the tip leaves the stretch.
 
 use super::Integrator;
-use crate::initial_surface::Stretch;
+use crate::relief::Piece;
 use crate::roots::zero_between;
 
 /// Largest extension of a step, in roundings of t, that lets it end at a required time.
@@ -45,16 +45,14 @@ impl Integrator<'_> {
         displacement: &[f64],
         at: impl Fn(f64) -> f64,
     ) -> Option<f64> {
-        let Stretch { low, high, slack, .. } = self.stretch;
-        leaves((low, high, slack), self.position(), (nodes, displacement), at)
+        leaves(&self.stretch.ends, self.position(), (nodes, displacement), at)
     }
 }
 
-/// Time, in the unit of `nodes`, at which a coordinate that begins at x leaves the range from `low` to `high`; `None`
-/// if it stays within `slack` of the range. Its displacement is `at` as a function of time, and `displacement` at the
-/// nodes.
+/// Time, in the unit of `nodes`, at which a coordinate that begins at x leaves a piece; `None` if it stays within the
+/// slack of the piece. Its displacement is `at` as a function of time, and `displacement` at the nodes.
 pub(crate) fn leaves(
-    (low, high, slack): (f64, f64, f64),
+    Piece { low, high, slack, .. }: &Piece,
     x: f64,
     (nodes, displacement): (&[f64], &[f64]),
     at: impl Fn(f64) -> f64,

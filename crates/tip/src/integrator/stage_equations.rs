@@ -6,7 +6,7 @@ use crate::collocation::{RADAU, STAGES, Stages};
 use crate::initial_surface::Stretch;
 use crate::memory::{Groove, Policy};
 use crate::step::{
-    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, Matrix, OwnGroove, OwnHeight,
+    Depth, Equations, Factors, Inertia, Known, Law, LimitedFactors, OwnGroove, OwnHeight,
     StageResiduals,
 };
 use crate::tip_function::Apex;
@@ -76,10 +76,12 @@ struct Look {
     missed: StageResiduals,
 }
 
-/// The factored Jacobian: `limited` with a depth limit, `plain` without.
-struct Jacobian {
-    plain: Option<Factors>,
-    limited: Option<LimitedFactors>,
+/// The factored Jacobian.
+#[expect(clippy::large_enum_variant, reason = "there is one, on the stack")]
+enum Jacobian {
+    /// Without a depth limit.
+    Plain(Factors),
+    Limited(LimitedFactors),
 }
 
 impl<'a> StageEquations<'a> {
@@ -100,13 +102,7 @@ impl<'a> StageEquations<'a> {
         for (pull, c) in pull.iter_mut().zip(RADAU.c) {
             *pull += if rests { 0.0 } else { force.value((t + h * c).min(last)) };
         }
-        let mut equations = Equations::new(law, h, pull);
-        if let Some(time) = wider.healing_time {
-            equations = equations.with_healing(time);
-        }
-        if let Some(inertia) = inertia {
-            equations = equations.with_inertia(inertia);
-        }
+        let equations = Equations::new(law, h, pull, wider.healing_time, inertia);
         let left = wider.healing_time.map(|_| {
             let past = RADAU.c.map(|c| wider.left_after(h * c));
             Left { past, relief: past.map(|left| left * wider.left_after(age)) }
@@ -124,14 +120,14 @@ impl<'a> StageEquations<'a> {
         count: &mut u64,
     ) -> Option<Solution> {
         let Unknowns { mut displacement, mut height } = guess;
-        let mut jacobian = Jacobian { plain: None, limited: None };
+        let mut jacobian = None;
         let mut look = Look::default();
         let is_solved = newton((enough, self.surface.rounding(self.x)), count, |is_new| {
             self.look(memory, (&displacement, &height), &mut look);
             if is_new {
-                self.factor(&mut jacobian, &look, &height);
+                jacobian = self.jacobian(&look, &height);
             }
-            let correction = jacobian.corrections(&look.missed)?;
+            let correction = jacobian.as_ref()?.corrections(&look.missed);
             let mut size = largest(&correction.displacement);
             for (d, c) in displacement.iter_mut().zip(correction.displacement) {
                 *d -= c;
@@ -160,16 +156,18 @@ impl<'a> StageEquations<'a> {
         Solution { displacement, height, spent, curvature_at_end }
     }
 
-    fn factor(&self, jacobian: &mut Jacobian, look: &Look, height: &Stages) {
-        let known = &look.known;
+    /// The factored Jacobian; `None` if it is singular.
+    fn jacobian(
+        &self,
+        Look { known, own, own_height, .. }: &Look,
+        height: &Stages,
+    ) -> Option<Jacobian> {
         if let Some(depth) = &self.depth {
-            let own = (&look.own, &look.own_height);
-            jacobian.limited = depth.factors(&self.equations, height, known, own);
-            return;
+            let factors = depth.factors(&self.equations, height, known, (own, own_height));
+            return factors.map(Jacobian::Limited);
         }
         let (past, relief) = (&known.past_curvature, &known.relief_curvature);
-        let matrix: Matrix = self.equations.jacobian(past, relief, &look.own);
-        jacobian.plain = Factors::of(matrix);
+        Factors::of(self.equations.jacobian(past, relief, own)).map(Jacobian::Plain)
     }
 
     #[inline]
@@ -214,14 +212,16 @@ impl<'a> StageEquations<'a> {
 }
 
 impl Jacobian {
-    /// Newton's corrections; `None` if the Jacobian is singular.
+    /// Newton's corrections.
     #[inline]
-    fn corrections(&self, missed: &StageResiduals) -> Option<StageResiduals> {
-        if let Some(limited) = &self.limited {
-            return Some(limited.corrections(missed));
+    fn corrections(&self, missed: &StageResiduals) -> StageResiduals {
+        match self {
+            Self::Plain(factors) => StageResiduals {
+                displacement: factors.solve(&missed.displacement),
+                height: [0.0; STAGES],
+            },
+            Self::Limited(factors) => factors.corrections(missed),
         }
-        let displacement = self.plain.as_ref()?.solve(&missed.displacement);
-        Some(StageResiduals { displacement, height: [0.0; STAGES] })
     }
 }
 

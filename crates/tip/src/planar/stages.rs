@@ -76,10 +76,12 @@ struct Forces {
     curvatures: Curvatures,
 }
 
-/// The factored Jacobian: `limited` with a depth limit, `free` without.
-struct Jacobian {
-    free: Option<Factors<{ 2 * STAGES }>>,
-    limited: Option<Factors<{ 3 * STAGES }>>,
+/// The factored Jacobian.
+#[expect(clippy::large_enum_variant, reason = "there is one, on the stack")]
+enum Jacobian {
+    /// Without a depth limit.
+    Free(Factors<{ 2 * STAGES }>),
+    Limited(Factors<{ 3 * STAGES }>),
 }
 
 impl StageEquations<'_> {
@@ -92,7 +94,7 @@ impl StageEquations<'_> {
         count: &mut u64,
     ) -> Option<Solution> {
         let (mut at, mut curvatures) = (guess, [0.0; 3]);
-        let mut jacobian = Jacobian { free: None, limited: None };
+        let mut jacobian = None;
         // Positions are rounded, and with them the slopes of the initial surface.
         let rounding = |Under { from: [x, y], .. }: &Under<'_>| f64::EPSILON * x.abs().max(y.abs());
         let rounding = self.under.as_ref().map_or(0.0, rounding);
@@ -102,7 +104,7 @@ impl StageEquations<'_> {
             if is_new {
                 jacobian = self.jacobian(&forces);
             }
-            let correction = jacobian.corrections(&self.missed(&at, &forces))?;
+            let correction = jacobian.as_ref()?.corrections(&self.missed(&at, &forces));
             for (x, c) in at.as_flattened_mut().iter_mut().zip(correction.as_flattened()) {
                 *x -= c;
             }
@@ -139,10 +141,11 @@ impl StageEquations<'_> {
         std::array::from_fn(|i| d[i] - self.h * carried[i])
     }
 
-    fn jacobian(&self, forces: &Forces) -> Jacobian {
+    /// The factored Jacobian; `None` if it is singular.
+    fn jacobian(&self, forces: &Forces) -> Option<Jacobian> {
         match self.depth {
-            None => Jacobian { free: Factors::of(self.derivatives(forces)), limited: None },
-            Some(_) => Jacobian { free: None, limited: Factors::of(self.derivatives(forces)) },
+            None => Factors::of(self.derivatives(forces)).map(Jacobian::Free),
+            Some(_) => Factors::of(self.derivatives(forces)).map(Jacobian::Limited),
         }
     }
 
@@ -261,18 +264,21 @@ impl Forces {
 }
 
 impl Jacobian {
-    /// Newton's corrections; `None` if the Jacobian is singular.
-    fn corrections(&self, missed: &Unknowns) -> Option<Unknowns> {
+    /// Newton's corrections.
+    fn corrections(&self, missed: &Unknowns) -> Unknowns {
         let mut corrections = [[0.0; STAGES]; 3];
         let all = corrections.as_flattened_mut();
         let missed = missed.as_flattened();
-        if let Some(factors) = &self.limited {
-            all.copy_from_slice(&factors.solve(&std::array::from_fn(|n| missed[n])));
-        } else {
-            let free = self.free.as_ref()?.solve(&std::array::from_fn(|n| missed[n]));
-            all[..2 * STAGES].copy_from_slice(&free);
+        match self {
+            Self::Free(factors) => {
+                let free = factors.solve(&std::array::from_fn(|n| missed[n]));
+                all[..2 * STAGES].copy_from_slice(&free);
+            }
+            Self::Limited(factors) => {
+                all.copy_from_slice(&factors.solve(&std::array::from_fn(|n| missed[n])));
+            }
         }
-        Some(corrections)
+        corrections
     }
 }
 

@@ -146,9 +146,7 @@ impl Texture {
         let mut ends = [Piece::EVERYWHERE; 2];
         for patch in &patches {
             for (ends, piece) in ends.iter_mut().zip([patch.x, patch.y]) {
-                ends.low = ends.low.max(piece.low);
-                ends.high = ends.high.min(piece.high);
-                ends.slack = ends.slack.min(piece.slack);
+                ends.narrow(&piece);
             }
         }
         Field { patches, ends }

@@ -215,12 +215,8 @@ mod tests {
         let law = Law { alpha: 1.3, r: 0.8, spring: 1.0 };
         for (time, mass) in [(None, None), (Some(0.9), Some(0.4))] {
             let (h, depth) = (0.6, Depth { limit: 1.7, side: -1.0 });
-            let inertia;
-            let mut equations = Equations::new(law, h, law.pull(0.9, h));
-            if let (Some(time), Some(mass)) = (time, mass) {
-                inertia = Inertia::new(mass, h, 0.7);
-                equations = equations.with_healing(time).with_inertia(&inertia);
-            }
+            let inertia = mass.map(|mass| Inertia::new(mass, h, 0.7));
+            let equations = Equations::new(law, h, law.pull(0.9, h), time, inertia.as_ref());
             let d: Stages = RADAU.c.map(|c| 0.8 * c * (1.0 - 0.4 * c));
             let height: Stages = RADAU.c.map(|c| -1.8 - 0.9 * c);
             let missed = |d: &Stages, height: &Stages| {

@@ -59,23 +59,17 @@ pub struct Equations<'a> {
 }
 
 impl<'a> Equations<'a> {
-    /// The equations of a step of length h with this pull.
+    /// The equations of a step of length h with this pull, for a surface with a healing time and a tip with inertia.
     #[inline]
-    pub fn new(law: Law, h: f64, pull: Stages) -> Self {
-        Self { law, h, pull, carving: carving(h), heals: false, inertia: None }
-    }
-
-    /// The equations for a surface with this healing time.
-    #[must_use]
-    pub fn with_healing(mut self, time: f64) -> Self {
-        (self.carving, self.heals) = (healing(self.h, time), true);
-        self
-    }
-
-    /// The equations for a tip with this inertia, in a step of the same length.
-    #[must_use]
-    pub fn with_inertia(self, inertia: &'a Inertia) -> Self {
-        Self { inertia: Some(inertia), ..self }
+    pub fn new(
+        law: Law,
+        h: f64,
+        pull: Stages,
+        healing_time: Option<f64>,
+        inertia: Option<&'a Inertia>,
+    ) -> Self {
+        let carving = healing_time.map_or_else(|| carving(h), |time| healing(h, time));
+        Self { law, h, pull, carving, heals: healing_time.is_some(), inertia }
     }
 
     /// Weights of each stage in the groove at each stage; the last row belongs to the end of the step.
@@ -188,7 +182,7 @@ mod tests {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
         let law = Law { alpha: 1.3, r: 0.8, spring: 1.0 };
         for (h, length) in [(0.4, 0.3), (3.0, 2.5), (0.01, -1.0)] {
-            let equations = Equations::new(law, h, law.pull(0.9, h));
+            let equations = Equations::new(law, h, law.pull(0.9, h), None, None);
             let d: Stages = RADAU.c.map(|c| length * c * (1.0 - 0.4 * c));
             let residual = |d: &Stages| {
                 let (past, relief) = (d.map(|d| past(d).0), d.map(|d| relief(d).0));
@@ -220,7 +214,7 @@ mod tests {
     fn the_polynomial_of_the_apex_gives_the_same_equations() {
         let tip = TipFunction::triple_gaussian(0.5, 1.0).unwrap();
         let (apex, law) = (Apex::new(&tip, 1e-14), Law { alpha: 1.3, r: 0.8, spring: 1.0 });
-        let equations = Equations::new(law, 0.5, law.pull(0.9, 0.5));
+        let equations = Equations::new(law, 0.5, law.pull(0.9, 0.5), None, None);
         // Near, and beyond where any polynomial holds.
         for length in [0.1, 1.0, 30.0] {
             let d = RADAU.c.map(|c| length * c);

@@ -39,7 +39,7 @@ impl Integrator<'_> {
         let acting = Acting {
             spring: if wider.spring { 1.0 } else { 0.0 },
             support: self.support.velocity(self.t),
-            healing: wider.healing_time.map_or(0.0, |time| 1.0 / time),
+            healing: wider.healing_rate(),
             inertia: wider.inertia.map(|mass| (mass, self.velocity)),
             extension: self.extension,
             depth,
@@ -56,7 +56,7 @@ impl Integrator<'_> {
         let distance = self.position() - self.surface.steady_position()?;
         let wider = self.model.wider();
         let weight = self.taylor.steady_weight * wider.left_after(self.t - self.start);
-        let healing = wider.healing_time.map_or(0.0, |time| 1.0 / time);
+        let healing = wider.healing_rate();
         Some(SteadyPast { distance, velocity: self.model.r(), healing, weight })
     }
 }

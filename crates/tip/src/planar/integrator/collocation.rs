@@ -46,7 +46,7 @@ impl PlanarRunning<'_> {
         let mut limit = self.longest_step().min(self.longest_displacement() / speed);
         let at = [self.position(), self.y];
         for ((ends, x), v) in self.field.ends.iter().zip(at).zip(self.velocity) {
-            let ahead = if v >= 0.0 { ends.high - x } else { x - ends.low };
+            let ahead = ends.ahead(x, v >= 0.0);
             if ahead.is_finite() {
                 limit = limit.min(1.2 * ahead.max(ends.slack) / v.abs().max(1e-300));
             }

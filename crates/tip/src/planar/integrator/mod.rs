@@ -193,7 +193,7 @@ impl<'a> PlanarRunning<'a> {
         let past = SteadyPast {
             distance: -along.kick,
             velocity: model.r(),
-            healing: integrator.healing(),
+            healing: model.wider().healing_rate(),
             weight: model.steady_weight(),
         };
         for part in &mut integrator.parts {
@@ -295,11 +295,6 @@ impl<'a> PlanarRunning<'a> {
 
     fn wider(&self) -> &'a Wider {
         self.model.wider()
-    }
-
-    /// 1/T
-    fn healing(&self) -> f64 {
-        self.wider().healing_time.map_or(0.0, |time| 1.0 / time)
     }
 
     /// Latest end of the next step.
@@ -412,10 +407,8 @@ impl<'a> PlanarRunning<'a> {
         at: impl Fn(usize, f64) -> f64,
     ) -> Option<f64> {
         let leaves = |j: usize| {
-            let ends = &self.field.ends[j];
-            let range = (ends.low, ends.high, ends.slack);
             let from = [self.position(), self.y][j];
-            leaves(range, from, (parts, displacement[j]), |part| at(j, part))
+            leaves(&self.field.ends[j], from, (parts, displacement[j]), |part| at(j, part))
         };
         [0, 1].into_iter().filter_map(leaves).reduce(f64::min)
     }

@@ -69,7 +69,7 @@ impl PlanarRunning<'_> {
             relief,
             stiffness: self.stiffness,
             support: self.support.velocity(self.t),
-            healing: self.healing(),
+            healing: self.wider().healing_rate(),
             inertia: self.wider().inertia.map(|mass| (mass, self.velocity[0])),
             extension: self.extension,
             y: self.y,
@@ -99,7 +99,7 @@ impl PlanarRunning<'_> {
                 steepest: x.steepest.max(y.steepest),
             }
         };
-        let longest = limits.farthest(over * self.healing());
+        let longest = limits.farthest(over * self.wider().healing_rate());
         let (over, mut outlook) = plan::within(over, longest, outlook);
         let of_heights = heights::steepness(self.corner.as_ref(), self.chain.height(), over);
         outlook.steepest = outlook.steepest.max(of_heights);
@@ -183,7 +183,7 @@ impl PlanarRunning<'_> {
 
     /// Adds the whole step, from the present position of the tip, to the memory.
     fn remember_series(&mut self, fastest: f64, total: f64) -> Result<(), PlanarError> {
-        let healing = total * self.healing();
+        let healing = total * self.wider().healing_rate();
         let rule = self.limits.visits.rule(fastest * total, healing).unwrap_or_else(visits::last);
         let [x, y] = self.chain.displacement();
         let (x, y) = (x.over(total), y.over(total));

@@ -7,8 +7,8 @@ use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use stickslip_tip::memory::{Policy, Retreat};
 use stickslip_tip::{
-    Force, InitialSurface, Integrator, MemoryChoice, Model, STAGES, Step, TipFunction, Trajectory,
-    nodes_and_weights,
+    Force, InitialSurface, Integrator, MemoryChoice, Model, STAGES, Scenario, Step, TipFunction,
+    Trajectory, nodes_and_weights,
 };
 
 const X: f64 = 14.0;
@@ -65,13 +65,18 @@ fn errors_after(
 ) -> (f64, f64) {
     let surface = InitialSurface::steady(model, X);
     let t1 = (X + model.steady_lag()) / model.r();
-    let start = (t1, model.steady_lag());
-    let mut integrator = Integrator::new(model, &surface, force, memory, start, 1e-13)
-        .with_fixed_step(DURATION / f64::from(n));
     let end = t1 + DURATION;
+    let scenario = Scenario {
+        start_position: X,
+        force: force.clone(),
+        tolerance: 1e-13,
+        ..Scenario::new(model.clone(), end)
+    };
+    let mut integrator =
+        Integrator::new(&scenario, &surface, memory).with_fixed_step(DURATION / f64::from(n));
     let mut steps = vec![];
     while integrator.t() < end {
-        integrator.step(end).unwrap();
+        integrator.step().unwrap();
         steps.extend(integrator.last());
         if oldest.is_finite() {
             *integrator.memory_mut() = cut(model, &steps, oldest);

@@ -90,19 +90,16 @@ fn every_extension_keeps_the_tolerance_from_1e_4_to_1e_11() {
 /// Errors of x0 at step ends with steps of one length, over five lengths.
 fn errors(scenario: &Scenario, lengths: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
     let (surface, model) = (scenario.initial_surface().unwrap(), &scenario.model);
-    let (from, to) = (scenario.start_time(), scenario.until);
-    let reference = run(&Scenario { tolerance: 1e-13, ..scenario.clone() }).unwrap();
+    let to = scenario.until;
+    let scenario = Scenario { tolerance: 1e-13, ..scenario.clone() };
+    let reference = run(&scenario).unwrap();
     let error = |h: f64| {
-        let extension = scenario.support().position(from) - scenario.start_position;
-        let start = (from, extension + scenario.kick);
         let memory =
             Policy::new(MemoryChoice::Direct, model.tip().clone(), 0.0, Retreat::Small).unwrap();
-        let mut integrator =
-            Integrator::new(model, &surface, &scenario.force, memory, start, 1e-13)
-                .with_fixed_step(h);
+        let mut integrator = Integrator::new(&scenario, &surface, memory).with_fixed_step(h);
         let mut steps: Vec<Step> = vec![];
         while integrator.t() < to {
-            integrator.step(to).unwrap();
+            integrator.step().unwrap();
             steps.extend(integrator.last());
         }
         let found = Trajectory::under(*model.wider(), scenario.support(), steps);

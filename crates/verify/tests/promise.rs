@@ -185,13 +185,11 @@ fn with_fit(scenario: &Scenario, fit: Fit) -> Trajectory {
     let surface = scenario.initial_surface().unwrap();
     let model = &scenario.model;
     let memory = Policy::with_fit(model.tip().clone(), Arc::new(fit)).unwrap();
-    let start = (scenario.start_time(), model.steady_lag() + scenario.kick);
-    let mut integrator =
-        Integrator::new(model, &surface, &scenario.force, memory, start, scenario.tolerance);
+    let mut integrator = Integrator::new(scenario, &surface, memory);
     let mut steps = vec![];
     // A damaged memory may make motions without end.
     while integrator.t() < scenario.until && steps.len() < 600 {
-        integrator.step(scenario.until).unwrap();
+        integrator.step().unwrap();
         steps.extend(integrator.last());
     }
     Trajectory::new(model.r(), steps)

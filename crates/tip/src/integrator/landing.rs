@@ -33,9 +33,9 @@ pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
 
 impl Integrator<'_> {
     /// Latest end of the next step.
-    pub(super) fn next_end(&self, until: f64) -> f64 {
+    pub(super) fn next_end(&self) -> f64 {
         let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));
-        breaks.min(until)
+        breaks.min(self.until)
     }
 
     /// As [`leaves`], for the tip and its stretch.

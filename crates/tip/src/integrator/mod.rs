@@ -21,7 +21,7 @@ use crate::initial_surface::Stretch;
 use crate::memory::{Policy, longest_look};
 use crate::step;
 use crate::tip_function::Apex;
-use crate::{Force, InitialSurface, Model, Support};
+use crate::{Force, InitialSurface, Model, Scenario, Support};
 use control::Control;
 use corner::Corner;
 pub use error::IntegrationError;
@@ -66,7 +66,9 @@ pub struct Integrator<'a> {
     memory: Policy,
     control: Control,
     t: f64,
+    /// Start and end time of the run.
     start: f64,
+    until: f64,
     /// End of the initial rest by symmetry: until then no force acts on the tip, and the groove is even about it.
     rest_until: f64,
     /// R - x0
@@ -95,24 +97,25 @@ pub(crate) const ENOUGH: f64 = 0.01;
 pub(crate) const COASTING: f64 = 10.0;
 
 impl<'a> Integrator<'a> {
-    /// A tip that starts at time t with the extension `extension` = rt - x0 of its spring, and no past except that of
-    /// `memory`. With inertia its initial velocity is r.
-    pub fn new(
-        model: &'a Model,
-        surface: &'a InitialSurface,
-        force: &'a Force,
-        memory: Policy,
-        start: (f64, f64),
-        tolerance: f64,
-    ) -> Self {
-        let (t, extension) = start;
-        let support = if model.wider().spring { Support::Moving(model.r()) } else { Support::None };
-        let control = Control::new(tolerance);
-        let integrator = Self {
+    /// The tip of a scenario at its start, over this surface, with no past except that of `memory`.
+    pub fn new(scenario: &'a Scenario, surface: &'a InitialSurface, memory: Policy) -> Self {
+        let Scenario { model, force, until, tolerance, .. } = scenario;
+        let (t, wider) = (scenario.start_time(), model.wider());
+        let (extension, support) = (scenario.start_extension() + scenario.kick, scenario.support());
+        let x = support.position(t) - extension;
+        let (slope, curvature) = surface.slope_and_curvature(x);
+        let pull = if wider.spring { extension } else { 0.0 };
+        let force_now = force.value(t);
+        let drift = -slope + pull + force_now;
+        let velocity = if wider.inertia.is_some() { scenario.velocity_at_start() } else { drift };
+        let coasts = wider.inertia.is_some() && velocity.abs() > 0.0;
+        let rests = support == Support::None && surface.is_flat() && !coasts;
+        let control = Control::new(*tolerance);
+        let mut integrator = Self {
             model,
             apex: OnceCell::new(),
             corner: None,
-            taylor: Taylor::new(model, tolerance),
+            taylor: Taylor::new(model, *tolerance),
             surface,
             force,
             support,
@@ -120,39 +123,23 @@ impl<'a> Integrator<'a> {
             control,
             t,
             start: t,
-            rest_until: f64::NEG_INFINITY,
+            until: *until,
+            rest_until: if rests { force.begins() } else { f64::NEG_INFINITY },
             extension,
-            velocity: 0.0,
-            curvature: 0.0,
-            limits_from_before: (0.0, 0.0),
+            velocity,
+            curvature,
+            limits_from_before: (slope, force_now),
             stretch: Stretch::default(),
             last: None,
             work: Work::default(),
         };
-        integrator.set_off(model.r())
-    }
-
-    /// Computes surface and forces at the position of the tip; with inertia the tip has this velocity.
-    fn set_off(mut self, velocity: f64) -> Self {
-        let (x, wider) = (self.position(), self.model.wider());
-        let (slope, curvature) = self.surface.slope_and_curvature(x);
-        let pull = if wider.spring { self.extension } else { 0.0 };
-        let force = self.force.value(self.t);
-        let drift = -slope + pull + force;
-        self.velocity = if wider.inertia.is_some() { velocity } else { drift };
-        let coasts = wider.inertia.is_some() && velocity.abs() > 0.0;
-        let rests = self.support == Support::None && self.surface.is_flat() && !coasts;
-        self.rest_until = if rests { self.force.begins() } else { f64::NEG_INFINITY };
-        if self.rests() {
-            self.velocity = 0.0;
+        if integrator.rests() {
+            integrator.velocity = 0.0;
         }
-        self.curvature = curvature;
-        self.limits_from_before = (slope, force);
         if wider.depth_limit.is_some() {
-            let height = self.surface.height(x);
-            self.corner = Corner::of(self.model, height, self.control.target());
+            integrator.corner = Corner::of(model, surface.height(x), integrator.control.target());
         }
-        self
+        integrator
     }
 
     /// Whether the tip is at rest by symmetry. No algorithm for the history integral is exactly even, and if rest is
@@ -168,21 +155,9 @@ impl<'a> Integrator<'a> {
         self
     }
 
-    /// The integrator with another support, at the present position; with inertia the tip has this velocity.
-    #[must_use]
-    pub fn moved_by(mut self, support: Support, velocity: f64) -> Self {
-        self.support = support;
-        self.set_off(velocity)
-    }
-
     /// Time reached.
     pub fn t(&self) -> f64 {
         self.t
-    }
-
-    /// The present l = rt - r - x0.
-    pub fn l(&self) -> f64 {
-        self.extension - self.model.r()
     }
 
     /// Numbers of steps, iterations and series so far.
@@ -200,13 +175,13 @@ impl<'a> Integrator<'a> {
         &mut self.memory
     }
 
-    /// Makes one step. It ends at `until` at the latest, except for one rounding of t.
+    /// Makes one step. It ends at the end of the scenario at the latest, except for one rounding of t.
     ///
     /// # Errors
     /// The tolerance cannot be met.
     #[inline]
-    pub fn step(&mut self, until: f64) -> Result<(), IntegrationError> {
-        if self.step_by_series(until) { Ok(()) } else { self.step_by_collocation(until) }
+    pub fn step(&mut self) -> Result<(), IntegrationError> {
+        if self.step_by_series() { Ok(()) } else { self.step_by_collocation() }
     }
 
     /// The last step.
@@ -216,9 +191,9 @@ impl<'a> Integrator<'a> {
     }
 
     #[inline(never)]
-    fn step_by_collocation(&mut self, until: f64) -> Result<(), IntegrationError> {
+    fn step_by_collocation(&mut self) -> Result<(), IntegrationError> {
         self.enter_stretch();
-        let (limit, end) = (self.length_limit(), self.next_end(until));
+        let (limit, end) = (self.length_limit(), self.next_end());
         let mut h = self.control.proposal(limit, end - self.t);
         loop {
             h = landing(self.t, h, end).ok_or(self.too_small(h))?;

@@ -19,16 +19,7 @@ impl<'a> Running<'a> {
     /// A parameter out of range, or `modes` is requested but does not fit the footprint.
     pub fn new(scenario: &'a Scenario, surface: &'a InitialSurface) -> Result<Self, RunError> {
         scenario.validate()?;
-        let start = (scenario.start_time(), scenario.start_extension() + scenario.kick);
-        let integrator = Integrator::new(
-            &scenario.model,
-            surface,
-            &scenario.force,
-            scenario.new_memory()?,
-            start,
-            scenario.tolerance,
-        )
-        .moved_by(scenario.support(), scenario.velocity_at_start());
+        let integrator = Integrator::new(scenario, surface, scenario.new_memory()?);
         Ok(Self { scenario, integrator })
     }
 
@@ -74,7 +65,7 @@ impl<'a> Running<'a> {
         if self.integrator.t() >= self.scenario.until {
             return Ok(None);
         }
-        self.integrator.step(self.scenario.until)?;
+        self.integrator.step()?;
         if let Some(kept) = self.integrator.memory().forgotten() {
             return Err(IntegrationError::Forgotten { t: self.t(), kept }.into());
         }

@@ -64,7 +64,7 @@ impl Taylor {
             steady_weight: model.steady_weight(),
             derivatives: Derivatives::nothing(),
             chain: Chain::new(),
-            pieces: Pieces::none(),
+            pieces: Pieces::default(),
             switch: Switch::new(model.wider().inertia.is_some()),
         }
     }
@@ -94,12 +94,12 @@ impl Taylor {
 impl Integrator<'_> {
     /// Takes the next piece of a step by series, or of a new step; false if collocation must make the step.
     #[inline]
-    pub(super) fn step_by_series(&mut self, until: f64) -> bool {
-        if self.taylor.pieces.left().is_empty() && !self.is_expanded(until) {
+    pub(super) fn step_by_series(&mut self) -> bool {
+        if self.taylor.pieces.left().is_empty() && !self.is_expanded() {
             return false;
         }
         let velocity = self.support.velocity(self.t);
-        let Some(step) = self.taylor.pieces.take(until, velocity) else { return false };
+        let Some(step) = self.taylor.pieces.take() else { return false };
         self.extension = step.extension_at_end(velocity);
         self.t = step.end();
         self.work.steps += 1;
@@ -108,11 +108,11 @@ impl Integrator<'_> {
 
     /// Makes a new step by series if possible; returns whether it was made.
     #[inline(never)]
-    fn is_expanded(&mut self, until: f64) -> bool {
+    fn is_expanded(&mut self) -> bool {
         if self.control.is_fixed() || self.rests() || !self.taylor.switch.is_to_series() {
             return false;
         }
-        let made = self.expand(until);
+        let made = self.expand();
         if !made && self.taylor.switch.left_series() {
             self.hand_over();
         }
@@ -120,10 +120,10 @@ impl Integrator<'_> {
     }
 
     /// Makes a step: its pieces are stored, and the memory contains the whole step.
-    fn expand(&mut self, until: f64) -> bool {
+    fn expand(&mut self) -> bool {
         let (x, accuracy) = (self.position(), self.control.target());
         self.surface.enter(&mut self.stretch, x, self.velocity >= 0.0, accuracy);
-        let end = self.next_end(until);
+        let end = self.next_end();
         for _ in 0..SIDES {
             if !self.look_ahead() {
                 return false;

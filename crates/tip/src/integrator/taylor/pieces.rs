@@ -4,7 +4,7 @@ use super::heights::Along;
 use super::length;
 use super::values::{BLOCK, Block, Table};
 use crate::collocation::{RADAU, STAGES};
-use crate::history::{Heights, Step};
+use crate::history::Step;
 use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
 
@@ -13,54 +13,38 @@ pub(crate) const MOST_PIECES: usize = 8;
 pub(crate) const ROOM_FOR_NODES: [Block; (MOST_PIECES * STAGES).div_ceil(BLOCK)] =
     [[0.0; BLOCK]; (MOST_PIECES * STAGES).div_ceil(BLOCK)];
 
-/// The steps of a series: those before `next` have been returned, those from there to `end` have not.
-#[derive(Debug, Clone)]
+/// The steps of a series: those before `next` have been returned, the others have not.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Pieces {
-    /// The first is room for a part of the second.
-    steps: [Step; MOST_PIECES + 1],
+    steps: Vec<Step>,
     next: usize,
-    end: usize,
-    /// Whether the step before `next` has been returned.
-    taken: bool,
 }
 
 impl Pieces {
-    pub(super) fn none() -> Self {
-        let zero = [0.0; STAGES];
-        let nothing = Step { t: 0.0, h: 0.0, extension: 0.0, displacement: zero, height: None };
-        Self { steps: [nothing; MOST_PIECES + 1], next: 1, end: 1, taken: false }
-    }
-
     pub(super) fn clear(&mut self) {
-        (self.next, self.end, self.taken) = (1, 1, false);
+        self.steps.clear();
+        self.next = 0;
     }
 
     pub(super) fn push(&mut self, step: Step) {
-        self.steps[self.end] = step;
-        self.end += 1;
+        self.steps.push(step);
     }
 
     /// The steps that have not been returned.
     pub(super) fn left(&self) -> &[Step] {
-        &self.steps[self.next..self.end]
+        &self.steps[self.next..]
     }
 
     /// The step that was returned last.
     pub(super) fn taken(&self) -> Option<&Step> {
-        self.taken.then_some(&self.steps[self.next - 1])
+        self.next.checked_sub(1).map(|last| &self.steps[last])
     }
 
-    /// Returns the next step, or its part up to `until` if that is within it.
-    pub(super) fn take(&mut self, until: f64, support: f64) -> Option<&Step> {
-        let step = self.left().first()?;
-        if until > step.t && until < step.end() {
-            let (first, rest) = parted(step, until, support);
-            (self.steps[self.next - 1], self.steps[self.next]) = (first, rest);
-        } else {
-            self.next += 1;
-        }
-        self.taken = true;
-        self.taken()
+    /// Returns the next step.
+    pub(super) fn take(&mut self) -> Option<&Step> {
+        let step = self.steps.get(self.next)?;
+        self.next += 1;
+        Some(step)
     }
 
     pub(super) fn save(&self, state: &mut State) {
@@ -80,8 +64,7 @@ impl Pieces {
         if steps.len() > MOST_PIECES || !first || !steps.iter().all(follows) {
             return Err(Damaged::OutOfRange);
         }
-        self.clear();
-        steps.into_iter().for_each(|step| self.push(step));
+        *self = Self { steps, next: 0 };
         Ok(())
     }
 }
@@ -108,32 +91,6 @@ pub(crate) fn steps(
         (t, extension) = (step.end(), step.extension_at_end(support));
         step
     })
-}
-
-/// Divides a step at time `at` into two steps with the same polynomial.
-fn parted(step: &Step, at: f64, support: f64) -> (Step, Step) {
-    let h = at - step.t;
-    let rest = step.end() - at;
-    let displacement = |from: f64, h: f64| {
-        let before = RADAU.value(&step.displacement, from);
-        RADAU.c.map(|c| RADAU.value(&step.displacement, from + c * h / step.h) - before)
-    };
-    let height = |from: f64, h: f64| {
-        let part = |height: Heights| {
-            let nodes = RADAU.c.map(|c| height.at(from + c * h / step.h));
-            Heights { start: height.at(from), nodes }
-        };
-        step.height.map(part)
-    };
-    let first = Step { h, displacement: displacement(0.0, h), height: height(0.0, h), ..*step };
-    let second = Step {
-        t: first.end(),
-        h: rest,
-        extension: first.extension_at_end(support),
-        displacement: displacement(h / step.h, rest),
-        height: height(h / step.h, rest),
-    };
-    (first, second)
 }
 
 /// The longest fraction of a step that can be a piece with an interpolation error of at most `error`. The largest
@@ -212,26 +169,6 @@ mod tests {
             let from = (i / STAGES) as f64 * length / 3.0;
             let t = from + RADAU.c[i % STAGES] * length / 3.0;
             assert!((found - (1.0 / (1.0 + t) - 1.0)).abs() < 1e-11, "{i}: {found}");
-        }
-    }
-
-    #[test]
-    fn a_step_in_two_parts_is_the_same_motion() {
-        let displacement = RADAU.c.map(|c| c * (1.0 - 0.3 * c * c));
-        let height = Some(Heights { start: 0.3, nodes: RADAU.c.map(|c| 0.3 - c + 0.1 * c * c) });
-        let step = Step { t: 2.0, h: 0.5, extension: 1.1, displacement, height };
-        let mut pieces = Pieces::none();
-        pieces.push(step);
-        let first = *pieces.take(2.125, 0.9).unwrap();
-        let rest = *pieces.take(9.0, 0.9).unwrap();
-        assert!(pieces.left().is_empty());
-        assert!((first.end() - 2.125).abs() < 1e-15 && (rest.end() - step.end()).abs() < 1e-15);
-        for i in 0..=50 {
-            let t = 2.0 + 0.01 * f64::from(i);
-            let part = if t < 2.125 { &first } else { &rest };
-            assert!((part.l(0.9, t) - step.l(0.9, t)).abs() < 1e-14, "{t}");
-            let heights = part.height(t).zip(step.height(t));
-            assert!(heights.is_some_and(|(part, whole)| (part - whole).abs() < 1e-14), "{t}");
         }
     }
 }

@@ -1,39 +1,29 @@
 //! Cache of results that depend on a footprint alone and take long to compute, shared by all threads.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+use stickslip_tip::cache::Cache;
 use stickslip_tip::{TipFunction, stop};
 
 /// Number of footprints in the cache, the most recently used ones.
 const MOST: usize = 4;
 
 /// Results of a function of a footprint, for the most recent footprints.
-pub(super) struct Kept<T>(Mutex<Vec<(TipFunction, Arc<T>)>>);
+pub(super) struct Kept<T>(Cache<TipFunction, Arc<T>>);
 
 impl<T> Kept<T> {
     pub(super) const fn new() -> Self {
-        Self(Mutex::new(vec![]))
+        Self(Cache::new(MOST))
     }
 
     /// The result for this footprint, equal to that of `make`.
     pub(super) fn of(&self, tip: &TipFunction, make: impl FnOnce() -> T) -> Arc<T> {
-        // A thread that panicked did not leave half an entry behind.
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = |kept: &mut Vec<(TipFunction, Arc<T>)>| {
-            let at = kept.iter().position(|(known, _)| known == tip)?;
-            kept[at..].rotate_left(1);
-            kept.last().map(|(_, made)| Arc::clone(made))
-        };
-        if let Some(made) = known(&mut lock()) {
+        if let Some(made) = self.0.get(|known| known == tip) {
             return made;
         }
         let made = Arc::new(make());
         // A cancelled computation may be unfinished.
         if !stop::is_requested() {
-            let mut kept = lock();
-            if kept.len() == MOST {
-                drop(kept.remove(0));
-            }
-            kept.push((tip.clone(), Arc::clone(&made)));
+            self.0.keep(tip.clone(), Arc::clone(&made));
         }
         made
     }

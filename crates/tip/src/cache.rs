@@ -16,10 +16,13 @@ impl<K, V: Clone> Cache<K, V> {
 
     /// The result with this key.
     pub fn get(&self, is_key: impl Fn(&K) -> bool) -> Option<V> {
-        self.lock().iter().find(|(key, _)| is_key(key)).map(|(_, value)| value.clone())
+        let mut known = self.lock();
+        let at = known.iter().position(|(key, _)| is_key(key))?;
+        known[at..].rotate_left(1);
+        known.last().map(|(_, value)| value.clone())
     }
 
-    /// Keeps a result, in place of the oldest one if the cache is full.
+    /// Keeps a result, in place of the one that was not asked for the longest if the cache is full.
     pub fn keep(&self, key: K, value: V) {
         let mut known = self.lock();
         if known.len() == self.most {

@@ -24,7 +24,6 @@ mod image;
 mod interval;
 mod judge;
 mod least_squares;
-mod likelihood;
 mod profile;
 mod projection;
 mod ripples;

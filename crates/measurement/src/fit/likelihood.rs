@@ -4,9 +4,8 @@
 use super::parameters::Name;
 use super::problem::Problem;
 use super::verdict::Verdict;
-use crate::Estimate;
+use crate::interval::{Estimate, crossing};
 use crate::least_squares::{Minimum, matrix_of, minimum, squares};
-use crate::likelihood::crossing;
 use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use stickslip_tip::sorting::sort_by_number;

@@ -3,9 +3,8 @@
 use super::travelling::{Lines, Travelling, crest_angle};
 use super::wave::{HARMONICS, UNKNOWNS, Wave, height, phase};
 use super::{Lag, RippleProfile, Ripples};
-use crate::interval::{Estimate, student};
+use crate::interval::{Estimate, crossing, student};
 use crate::least_squares::{Minimum, Residuals, differences, matrix_of, minimum, squares};
-use crate::likelihood::crossing;
 use nalgebra::{Cholesky, Complex, DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use std::borrow::Cow;

@@ -62,14 +62,6 @@ const ACCURACY_OF_STEPS: f64 = 1e-5;
 const WAVES_OF_ROUND_OFF: f64 = 1.5;
 
 impl Embedding {
-    /// The equations for cycles with a residual of (18) of at most `allowed`, or the smallest that the fit permits.
-    ///
-    /// # Errors
-    /// A footprint that never fades, or one with too much detail for this residual.
-    pub(super) fn new(model: &Model, allowed: f64) -> Result<Self, CycleError> {
-        Self::of_sums(model, allowed, None)
-    }
-
     /// The same equations with sums of more terms, valid up to this distance behind the farthest point reached.
     ///
     /// # Errors
@@ -85,6 +77,11 @@ impl Embedding {
         CycleError::NotConverged { alpha: self.alpha, r: self.r }
     }
 
+    /// The equations for cycles with a residual of (18) of at most `allowed`, or the smallest that the fit permits, in sums
+    /// that are valid up to the distance `far` behind the farthest point reached.
+    ///
+    /// # Errors
+    /// A footprint that never fades, or one with too much detail for this residual.
     fn of_sums(model: &Model, allowed: f64, far: Option<f64>) -> Result<Self, CycleError> {
         let (tip, alpha, r) = (model.tip().clone(), model.alpha(), model.r());
         let sum = |accuracy: f64, most: usize| {
@@ -183,7 +180,7 @@ pub(super) fn dragged(model: &Model) -> Result<(), CycleError> {
 pub(super) fn embedding(model: &Model, tolerance: f64) -> Result<Embedding, CycleError> {
     dragged(model)?;
     judge(tolerance)?;
-    Embedding::new(model, tolerance)
+    Embedding::of_sums(model, tolerance, None)
 }
 
 /// An error for a residual out of range.

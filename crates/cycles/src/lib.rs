@@ -244,14 +244,11 @@ impl Cycle {
         let limited = self.model.wider().depth_limit.is_some();
         let over = if limited { ERROR_OVER_DISPLACEMENT_LIMITED } else { ERROR_OVER_DISPLACEMENT };
         let over = if self.closed.equation.is_on_lattice() { ON_LATTICE * over } else { over };
-        let of_the_sum = over * self.displacement() * (1.0 + 1.0 / gap);
+        // What the residual of the sum for f' may do to the tip.
+        let displaced = displacement(&self.model, self.closed.equation.fine.certificate().slope);
+        let of_the_sum = over * displaced * (1.0 + 1.0 / gap);
         let widths = self.amplitude_x0() / self.closed.equation.width();
         (widths / SHORT_SLIPS).max(1.0) * (of_steps + of_the_sum)
-    }
-
-    /// Displacement of the tip that the residual of the sum for f' may cause, in σ.
-    fn displacement(&self) -> f64 {
-        displacement(&self.model, self.closed.equation.fine.certificate().slope)
     }
 
     /// Estimate of the error of [`amplitude_u`](Self::amplitude_u), in kσ²/a.

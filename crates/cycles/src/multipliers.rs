@@ -77,7 +77,7 @@ fn monodromy(closed: &Closed) -> Option<DMatrix<f64>> {
     if wider.depth_limit.is_some() && fine.terms().len() <= MOST_TERMS {
         return closed.monodromy_in(fine);
     }
-    Some(closed.monodromy())
+    Some(closed.linearisation.monodromy())
 }
 
 fn another(equation: &Embedding) -> Option<Arc<Fit>> {

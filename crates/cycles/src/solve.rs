@@ -306,12 +306,7 @@ impl NotClosed {
 }
 
 impl Closed {
-    /// The monodromy matrix ∂X(T)/∂X(0), in the short sum.
-    pub(super) fn monodromy(&self) -> DMatrix<f64> {
-        self.linearisation.monodromy()
-    }
-
-    /// The monodromy matrix in another sum; `None` if the equations are singular.
+    /// The monodromy matrix ∂X(T)/∂X(0) in another sum than that of the linearisation; `None` if the equations are singular.
     pub(super) fn monodromy_in(&self, sum: &Arc<Fit>) -> Option<DMatrix<f64>> {
         let Self { equation, orbit, .. } = self;
         let precise = Embedding { short: Arc::clone(sum), ..equation.clone() };

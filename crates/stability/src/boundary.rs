@@ -122,7 +122,7 @@ impl Boundary {
             first = corner::onset(&law, limit, first).ok_or(StabilityError::Unsettled { limit })?;
             kind = OnsetKind::NonSmooth;
         }
-        law.set_density(first.density);
+        law.density = first.density;
         let alpha = law.alpha();
         Ok(alpha.is_finite().then(|| Critical::new(alpha, r, kind, first)))
     }

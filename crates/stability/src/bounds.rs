@@ -41,7 +41,7 @@ impl Bounds {
     pub(super) fn of(footprint: &OneSided) -> Arc<Self> {
         static ALONG: Kept<Bounds> = Kept::new();
         static ACROSS: Kept<Bounds> = Kept::new();
-        let kept = if footprint.is_across() { &ACROSS } else { &ALONG };
+        let kept = if footprint.is_across { &ACROSS } else { &ALONG };
         kept.of(footprint.tip(), || Self::new(footprint))
     }
 
@@ -64,7 +64,7 @@ impl Bounds {
             (g.amplitude.abs() * g.width * (2.0 * PI).sqrt(), g.center.abs(), g.width)
         };
         let terms = sum.terms().iter().map(term).collect();
-        if footprint.is_across() {
+        if footprint.is_across {
             (area[2], decay[2], powers[2]) = (area[0], decay[0], powers[0]);
         }
         let [area, decay] = [area, decay].map(|all| all.map(|f| MARGIN * f));

@@ -97,7 +97,7 @@ impl Region {
 
 /// Number of entries that are roots, each counted once: entries close together count as often as h vanishes there.
 fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
-    let radius = CLUSTER / h.length();
+    let radius = CLUSTER / h.length;
     let near = |z: Complex64| move |k: &&Complex64| (*k - z).norm() < radius;
     let mut found = 0;
     for (i, z) in zeros.iter().enumerate() {
@@ -108,7 +108,7 @@ fn distinct(h: &Characteristic, zeros: &[Complex64]) -> usize {
         found += if together == 1 {
             1
         } else {
-            let cell = Cell::square(*z, 3.0 * radius, h.length());
+            let cell = Cell::square(*z, 3.0 * radius, h.length);
             together.min(cell.count(&|z| h.at(z)).unwrap_or(0))
         };
     }

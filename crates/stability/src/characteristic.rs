@@ -22,7 +22,8 @@ const BESIDE_BRANCH_POINTS: f64 = 0.02;
 pub(super) struct Characteristic {
     law: Law,
     bounds: Arc<Bounds>,
-    length: f64,
+    /// A length of the order of the tip's width: N varies over its inverse.
+    pub(super) length: f64,
 }
 
 impl Characteristic {
@@ -63,11 +64,6 @@ impl Characteristic {
     /// s = p - Λ
     pub(super) fn fading(&self) -> f64 {
         self.law.fading
-    }
-
-    /// A length of the order of the tip's width: N varies over its inverse.
-    pub(super) fn length(&self) -> f64 {
-        self.length
     }
 
     /// The number of zeros for cos x, where N times the unit of the transforms is a polynomial; else `None`.

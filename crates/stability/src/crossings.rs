@@ -179,7 +179,7 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
     let mut law = law.clone();
     let (mut density, mut q) = (start.density, start.wave_number);
     for _ in 0..6 {
-        law.set_density(density);
+        law.density = density;
         let lambda = Complex64::new(0.0, q);
         let [_, c1, c2] = law.by_density(lambda);
         let (_, (value, slope)) = law.at(lambda);
@@ -192,7 +192,7 @@ fn polished(law: &Law, start: Crossing) -> Option<Crossing> {
         }
         (density, q) = (to_a, to_q);
     }
-    law.set_density(density);
+    law.density = density;
     let lambda = Complex64::new(0.0, q);
     let residual = law.at(lambda).1.0.norm() / law.size(lambda);
     let near =

@@ -46,10 +46,10 @@ impl HalfPlane {
     pub(super) fn counted(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         // Right of the bound there is no zero.
         let left = left.min(2.0 * h.right_bound());
-        if !(h.right_bound() * h.length() < FARTHEST && (left * h.length()).abs() < FARTHEST) {
+        if !(h.right_bound() * h.length < FARTHEST && (left * h.length).abs() < FARTHEST) {
             return Err(h.too_far_apart());
         }
-        let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length();
+        let shift = |n: u32| 1e-6 * f64::from(4_u32.pow(n) - 1) / h.length;
         let edges = (0..=MOST_SHIFTS).map(|n| left - shift(n));
         let mut edges = edges.filter(|edge| *edge >= h.analytic_from());
         let counted = edges.find_map(|edge| Self::counted_at(h, edge).ok());
@@ -58,12 +58,12 @@ impl HalfPlane {
 
     fn counted_at(h: &Characteristic, left: f64) -> Result<Self, StabilityError> {
         // A root -1/r of α = 0 lies within the first term of each, those of α > 0 within the second.
-        let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length());
+        let right = (1.05 * h.right_bound()).max(left + 1.0 / h.length);
         let top = h.top_bound(left);
         let corner = |re, im| Complex64::new(re, im);
         let path = [corner(right, 0.0), corner(right, top), corner(left, top), corner(left, 0.0)];
         // h is real on the real axis: half the contour turns h by half as much.
-        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length(), h.fading()))?;
+        let turned = argument_along(|z| h.at(z), &resolved(&path, h.length, h.fading()))?;
         let count = whole(turned, PI).ok_or(StabilityError::RootOnContour { re: left * h.r() })?;
         Ok(Self { left, right, top, count })
     }
@@ -131,10 +131,10 @@ impl HalfPlane {
         most: usize,
         upper: &mut Vec<Complex64>,
     ) -> bool {
-        let found = another(|z| h.at(z), start, upper, (2.0 / h.length(), most));
+        let found = another(|z| h.at(z), start, upper, (2.0 / h.length, most));
         let is_new = |zero: &Complex64| {
             let apart =
-                1e-8 * zero.norm().min(1.0 / h.length()) + 4.0 * h.root_error(*zero, ROUNDOFF);
+                1e-8 * zero.norm().min(1.0 / h.length) + 4.0 * h.root_error(*zero, ROUNDOFF);
             self.contains(*zero) && upper.iter().all(|k| (k - zero).norm() > apart)
         };
         let zeros = found.into_iter().flat_map(|zero| settled(h, zero)).filter(is_new);
@@ -146,7 +146,7 @@ impl HalfPlane {
     /// Adds zeros near the zeros of α = 0 and of large α, then the chain above them. The search ends when there are `count`
     /// zeros, or when the next one is not found where it is expected.
     fn add_first(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
-        let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length()));
+        let first = std::iter::once(Complex64::new(0.0, 0.8 / h.length));
         for start in first.chain(h.likely_roots()) {
             if total(&*upper) < count {
                 self.add_from(h, start, SOON, upper);
@@ -158,7 +158,7 @@ impl HalfPlane {
     /// Adds zeros of the chain upwards, each close to a position extrapolated from those below it.
     fn add_chain(&self, h: &Characteristic, upper: &mut Vec<Complex64>, count: usize) {
         while h.has_chain() && total(&*upper) < count && !stop::is_requested() {
-            let starts = next_in_chain(upper, h.length(), h.fading());
+            let starts = next_in_chain(upper, h.length, h.fading());
             if !starts.into_iter().any(|start| self.add_from(h, start, SOON, upper)) {
                 break;
             }
@@ -168,9 +168,9 @@ impl HalfPlane {
     /// A grid of starts that widens upwards as the zeros do.
     fn grid(&self, h: &Characteristic) -> Vec<Complex64> {
         let mut starts = vec![];
-        let spacing = 0.8 / h.length();
-        let across = ((self.right.min(2.0 / h.length()) - self.left) / spacing).clamp(1.0, 80.0);
-        let up = (self.top.min(2.0 / h.length() - self.left) / spacing).clamp(1.0, 80.0);
+        let spacing = 0.8 / h.length;
+        let across = ((self.right.min(2.0 / h.length) - self.left) / spacing).clamp(1.0, 80.0);
+        let up = (self.top.min(2.0 / h.length - self.left) / spacing).clamp(1.0, 80.0);
         let mut im = 0.1 * spacing;
         while im < up * spacing {
             let mut re = self.left;
@@ -188,9 +188,9 @@ impl HalfPlane {
         let at = |z| h.at(z);
         for below in [0.0137, 0.0291, 0.0533] {
             let cell = Cell {
-                length: h.length(),
+                length: h.length,
                 fading: h.fading(),
-                lower_left: Complex64::new(self.left, -below / h.length()),
+                lower_left: Complex64::new(self.left, -below / h.length),
                 upper_right: Complex64::new(self.right, self.top),
             };
             let Ok(count) = cell.count(&at) else { continue };
@@ -211,8 +211,8 @@ pub(super) fn leading(h: &Characteristic, count: usize) -> Result<Spectrum, Stab
         return HalfPlane::counted(h, left)?.spectrum(h);
     }
     let count = h.degree().map_or(count, |degree| count.min(degree));
-    let left = (-2.0 / h.length()).max(h.leftmost());
-    let further = |left: f64| (left - 1.0 / h.length()).max(h.leftmost());
+    let left = (-2.0 / h.length).max(h.leftmost());
+    let further = |left: f64| (left - 1.0 / h.length).max(h.leftmost());
     let known = first_zeros(h, count);
     let seen = |left: f64| total(known.iter().filter(|z| z.re >= left));
     if total(&known) >= count {
@@ -237,7 +237,7 @@ fn first_with(h: &Characteristic, count: usize, left: f64) -> Result<HalfPlane, 
     // From `left`, which has too few, to the nearest line known to have enough.
     while gap > 1 {
         let lines = (passed / 4).max(1).min(gap / 2);
-        let edge = (left - f64::from(lines) / h.length()).max(h.leftmost());
+        let edge = (left - f64::from(lines) / h.length).max(h.leftmost());
         let there = HalfPlane::counted(h, edge)?;
         if has_enough(edge, &there) {
             (gap, found) = (lines, there);
@@ -299,7 +299,7 @@ fn settled_alone(h: &Characteristic, z: Complex64) -> Complex64 {
 }
 
 fn both(h: &Characteristic, z: Complex64) -> Option<[Complex64; 2]> {
-    has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length())).flatten()
+    has_neighbour(h, z).then(|| pair(|z| h.at(z), z, 1.0 / h.length)).flatten()
 }
 
 fn has_neighbour(h: &Characteristic, z: Complex64) -> bool {
@@ -346,7 +346,7 @@ mod tests {
             for (alpha, r) in [(1.2, 1.0), (50.0, 1.0), (0.3, 0.1), (20.0, 10.0), (1e-3, 1.0)] {
                 let h = Characteristic::new(&Model::new(tip.clone(), alpha, r).unwrap()).unwrap();
                 let Certificate { region, counted, .. } = leading(&h, 8).unwrap().certificate;
-                let counts = (2..).map(|n| HalfPlane::counted(&h, -f64::from(n) / h.length()));
+                let counts = (2..).map(|n| HalfPlane::counted(&h, -f64::from(n) / h.length));
                 let first = counts.map(Result::unwrap).find(|found| found.count >= 8).unwrap();
                 assert_eq!(counted, first.count, "{alpha} {r}");
                 assert!((region.re_min - r * first.left).abs() < 1e-12 * r, "{alpha} {r}");

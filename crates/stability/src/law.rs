@@ -110,11 +110,6 @@ impl Law {
         }
     }
 
-    /// Replaces A by another value of the same sign.
-    pub(super) fn set_density(&mut self, density: f64) {
-        self.density = density;
-    }
-
     /// Whether steady motion lies on the kink of a depth limit, h = 0.
     pub(super) fn has_corner(wider: &Wider, tip: &TipFunction, steady: &Steady) -> bool {
         wider.depth_limit.is_some() && !has_height(tip, steady)

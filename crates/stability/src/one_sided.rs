@@ -44,7 +44,8 @@ pub(super) struct OneSided {
     apex: f64,
     /// G of a sum of Gaussians; the transforms of J0 and cos x are elementary.
     sum: Option<CurvatureTransform>,
-    is_across: bool,
+    /// Whether G is the transform of the function itself.
+    pub(super) is_across: bool,
 }
 
 /// φ, φ1 and G, with their derivatives.
@@ -67,11 +68,6 @@ impl OneSided {
     /// The transforms for deviations across the scan, given `f_yy(x,0)`.
     pub(super) fn across(curvature: &TipFunction) -> Self {
         Self { is_across: true, ..Self::new(curvature) }
-    }
-
-    /// Whether G is the transform of the function itself.
-    pub(super) fn is_across(&self) -> bool {
-        self.is_across
     }
 
     /// f''(0), or `f_yy(0,0)`: for large p, G approaches this value divided by p.

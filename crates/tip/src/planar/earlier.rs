@@ -82,7 +82,7 @@ impl RowLattice {
 
     /// Index of the first row at y or above.
     #[expect(clippy::cast_possible_truncation, reason = "saturates far out of range")]
-    pub fn row_above(&self, y: f64) -> i64 {
+    fn row_above(&self, y: f64) -> i64 {
         (y / self.spacing).ceil() as i64
     }
 

@@ -136,11 +136,7 @@ impl Factors {
         let width = layers[0].across.width;
         let centers = || layers.iter().map(|layer| layer.across.center);
         if let [layer] = layers {
-            let bells = if layer.across.center > 0.0 {
-                Bells::even(width, centers().map(|center| (1.0, center)))
-            } else {
-                Bells::single(width)
-            };
+            let bells = Bells::even(width, centers().map(|center| (1.0, center)));
             return Ok(vec![Self::new(layer.along.clone(), bells)]);
         }
         let shapes = shapes(layers)?;

@@ -44,7 +44,7 @@ pub fn directions(range: f64, allowed: f64) -> Option<usize> {
 }
 
 /// A bound on the error of ∇Q/T with this even number of directions, for `range` = VT.
-pub fn error_of_directions(range: f64, count: usize) -> f64 {
+fn error_of_directions(range: f64, count: usize) -> f64 {
     if range <= 0.0 {
         return 0.0;
     }

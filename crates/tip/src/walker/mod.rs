@@ -17,7 +17,7 @@ mod run;
 mod scenario;
 mod trajectory;
 
-pub use directions::{directions, error_of_directions};
+pub use directions::directions;
 pub use run::{WalkerRun, run, run_observed};
 pub use scenario::{WalkerError, WalkerPast, WalkerScenario};
 pub use trajectory::{WalkerStep, WalkerTrajectory};

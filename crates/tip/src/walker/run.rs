@@ -53,9 +53,7 @@ pub fn run_observed(
     mut observe: impl FnMut(&WalkerStep, usize) -> ControlFlow<()>,
 ) -> Result<WalkerRun, WalkerError> {
     scenario.validate()?;
-    let size = |[x, y]: [f64; 2]| crate::elementary::hypot(x, y);
-    let known = scenario.past_speed().max(scenario.free_speed()).max(size(scenario.velocity));
-    let mut fastest = (ROOM * known).max(LEAST_RANGE / scenario.healing_time);
+    let mut fastest = (ROOM * scenario.known_speed()).max(LEAST_RANGE / scenario.healing_time);
     loop {
         match attempt(scenario, fastest, &mut observe)? {
             Attempt::Done(run) => return Ok(run),

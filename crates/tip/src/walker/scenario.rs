@@ -168,13 +168,14 @@ impl WalkerScenario {
         Ok(())
     }
 
-    /// The speed before t = 0.
-    pub(super) fn past_speed(&self) -> f64 {
+    /// The largest speed known before the run: before t = 0, at t = 0, or of a free walker.
+    pub(super) fn known_speed(&self) -> f64 {
         let size = |[x, y]: [f64; 2]| crate::elementary::hypot(x, y);
-        match self.past {
+        let past = match self.past {
             WalkerPast::Flat => 0.0,
             WalkerPast::Straight(velocity) => size(velocity),
             WalkerPast::Circle(frequency) => frequency.abs() * size(self.position),
-        }
+        };
+        past.max(self.free_speed()).max(size(self.velocity))
     }
 }

@@ -1,6 +1,6 @@
 //! Questions whose answer is a list of points, each computed independently of the others.
 
-use crate::{Context, Failure, Question};
+use crate::{Context, Failure, Question, ShardDocument};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -17,8 +17,16 @@ pub trait Points: Question {
     /// The answer at one point.
     type Point: Send;
 
+    /// Number of points of the whole grid.
+    fn points(&self) -> usize;
+
+    /// The part of the grid that is computed; `None` for the whole.
+    fn shard(&self) -> Option<ShardDocument>;
+
     /// The indices of the points of this part of the grid.
-    fn indices(&self) -> Vec<usize>;
+    fn indices(&self) -> Vec<usize> {
+        self.shard().unwrap_or(ShardDocument::WHOLE).indices(self.points()).collect()
+    }
 
     /// Index of a point.
     fn index(point: &Self::Point) -> usize;

@@ -116,8 +116,12 @@ impl Ask for RasterSweep {
 impl Points for RasterSweep {
     type Point = RasterSweepPoint;
 
-    fn indices(&self) -> Vec<usize> {
-        self.part().indices(self.points()).collect()
+    fn points(&self) -> usize {
+        self.pitch.len().saturating_mul(self.alpha.len())
+    }
+
+    fn shard(&self) -> Option<ShardDocument> {
+        self.shard
     }
 
     fn index(point: &RasterSweepPoint) -> usize {
@@ -135,16 +139,6 @@ impl Points for RasterSweep {
 }
 
 impl RasterSweep {
-    /// The part in this document; by default the whole.
-    pub fn part(&self) -> ShardDocument {
-        self.shard.unwrap_or(ShardDocument::WHOLE)
-    }
-
-    /// Number of points of the whole grid.
-    pub fn points(&self) -> usize {
-        self.pitch.len().saturating_mul(self.alpha.len())
-    }
-
     /// Pitch and α of a point.
     fn place(&self, index: usize) -> (f64, f64) {
         (self.pitch[index / self.alpha.len()], self.alpha[index % self.alpha.len()])

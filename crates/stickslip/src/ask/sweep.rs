@@ -291,8 +291,9 @@ fn lowest(values: &[f64]) -> Option<f64> {
 }
 
 impl Ask for SweepParameters {
+    /// The value of r, if all points have the same.
     fn support_velocity(&self) -> Option<f64> {
-        self.velocity()
+        if let [r] = self.r.as_slice() { Some(*r) } else { None }
     }
 
     fn answer(&self, context: &Context) -> Result<(SweepFound, Vec<String>), Failure> {
@@ -305,8 +306,14 @@ impl Ask for SweepParameters {
 impl Points for SweepParameters {
     type Point = SweepPoint;
 
-    fn indices(&self) -> Vec<usize> {
-        self.part().indices(self.points()).collect()
+    fn points(&self) -> usize {
+        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
+        let points = self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas);
+        points.saturating_mul(self.inner())
+    }
+
+    fn shard(&self) -> Option<ShardDocument> {
+        self.shard
     }
 
     fn index(point: &SweepPoint) -> usize {

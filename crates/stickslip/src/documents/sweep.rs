@@ -82,23 +82,6 @@ impl SweepParameters {
         self.law.into()
     }
 
-    /// The value of r, if all points have the same.
-    pub fn velocity(&self) -> Option<f64> {
-        if let [r] = self.r.as_slice() { Some(*r) } else { None }
-    }
-
-    /// The part in this document; by default the whole.
-    pub fn part(&self) -> ShardDocument {
-        self.shard.unwrap_or(ShardDocument::WHOLE)
-    }
-
-    /// Number of points of the whole grid.
-    pub fn points(&self) -> usize {
-        let alphas = self.alpha.as_ref().or(self.alpha_above.as_ref()).map_or(0, Vec::len);
-        let points = self.tips.len().saturating_mul(self.r.len()).saturating_mul(alphas);
-        points.saturating_mul(self.inner())
-    }
-
     /// Number of points for each footprint, r and α.
     pub fn inner(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)

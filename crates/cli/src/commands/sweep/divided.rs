@@ -8,9 +8,9 @@ use crate::files::journal::Hashing;
 use crc32fast::Hasher;
 use serde::Serialize;
 use stickslip::{
-    Document, EnsembleDocument, Physical, RasterSweep, RasterSweepDocument, RasterSweepFound,
-    RasterSweepPoint, ShardDocument, Software, SweepDocument, SweepFound, SweepParameters,
-    SweepPoint,
+    Ask, Document, EnsembleDocument, Physical, Points, RasterSweep, RasterSweepDocument,
+    RasterSweepFound, RasterSweepPoint, ShardDocument, Software, SweepDocument, SweepFound,
+    SweepParameters, SweepPoint,
 };
 use stickslip_figures::{FigureError, judge_sweep};
 
@@ -19,7 +19,7 @@ pub(crate) trait Divided: Product + Physical {
     /// A point of the document.
     type Point: Part;
     /// Parameters of all points.
-    type Parameters: PartialEq;
+    type Parameters: PartialEq + Ask + Points;
 
     /// The document of these points.
     fn of(parameters: Self::Parameters, points: <Self::Point as Part>::All) -> Self;
@@ -36,9 +36,6 @@ pub(crate) trait Divided: Product + Physical {
     /// The points in this document, by rising index.
     fn points(&self) -> &<Self::Point as Part>::All;
 
-    /// Number of points of the whole grid.
-    fn count(&self) -> usize;
-
     /// Whether both documents belong to the same grid and were written by the same version.
     fn is_of(&self, other: &Self) -> bool {
         self.parameters() == other.parameters() && self.software() == other.software()
@@ -47,9 +44,6 @@ pub(crate) trait Divided: Product + Physical {
     /// CRC-32 of parameters, points and arithmetic as this program writes them, independent of the layout of the
     /// document.
     fn checksum(&self) -> Result<u32, Failure>;
-
-    /// The value of r, if all points have the same.
-    fn velocity(&self) -> Option<f64>;
 
     /// Adds results that need all points together.
     fn found_together(self) -> Self {
@@ -102,10 +96,6 @@ macro_rules! by_fields {
             &self.points
         }
 
-        fn count(&self) -> usize {
-            self.parameters.points()
-        }
-
         fn parameters(&self) -> &$parameters {
             &self.parameters
         }
@@ -128,10 +118,6 @@ impl Divided for SweepDocument {
         crc32: None
     });
 
-    fn velocity(&self) -> Option<f64> {
-        self.parameters.velocity()
-    }
-
     fn found_together(mut self) -> Self {
         self.ensembles = EnsembleDocument::all(&self.parameters, &self.points);
         self
@@ -148,10 +134,6 @@ impl Divided for RasterSweepDocument {
         arithmetic: Some(arithmetic()),
         crc32: None
     });
-
-    fn velocity(&self) -> Option<f64> {
-        Some(self.parameters.r)
-    }
 }
 
 fn sum(written: &impl Serialize) -> Result<u32, Failure> {

@@ -11,7 +11,7 @@ use crate::files::input::{format_of, read_document};
 use crate::session::Session;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use stickslip::{RasterSweepDocument, ShardDocument, Software, SweepDocument};
+use stickslip::{Ask, Points, RasterSweepDocument, ShardDocument, Software, SweepDocument};
 
 const PART: &str = "PART.json";
 
@@ -61,7 +61,7 @@ fn merged<D: Divided>(session: &Session, arguments: &MergeArguments) -> Result<(
     if plot.is_some() {
         whole.judge_picture().map_err(|error| Failure::input("--plot", error))?;
     }
-    let scales = scales(session, in_units, None, whole.velocity())?;
+    let scales = scales(session, in_units, None, whole.parameters().support_velocity())?;
     let job = Job::open(session, D::FORMAT, outlet, plot.as_deref())?;
     job.finish(whole.sealed()?.in_units(scales.as_ref()))
 }
@@ -143,7 +143,7 @@ pub(crate) fn complete(whole: &impl Divided) -> Result<(), Failure> {
     if let Some((twice, _)) = pairs.find(|(one, next)| one == next) {
         return refused(format!("point {twice} is in more than one part"));
     }
-    let (found, count) = (points.count(), whole.count());
+    let (found, count) = (points.count(), whole.parameters().points());
     let off = (0..count).zip(points.indices()).find(|(wanted, index)| wanted != index);
     if let Some(missing) = off.map(|(wanted, _)| wanted).or((found < count).then_some(found)) {
         let advice = "name the documents of all parts";

@@ -1,7 +1,7 @@
 //! The points of a sweep: footprints times r times α times further axes, the last varying fastest.
 
 use super::started;
-use crate::{AxisName, Failure, SweepParameters, SweepPoint, SweepRunParameters};
+use crate::{AxisName, Failure, Points, SweepParameters, SweepPoint, SweepRunParameters};
 use stickslip_stability::critical;
 use stickslip_tip::{Model, Wider};
 

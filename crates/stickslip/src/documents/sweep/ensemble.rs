@@ -1,8 +1,8 @@
 //! Ensembles: points that differ only in the seed of their noise.
 
 use super::{AxisName, SweepParameters, SweepPoint, SweepPoints};
-use crate::RegimeName;
 use crate::schema::JsonSchema;
+use crate::{Points, RegimeName};
 use serde::{Deserialize, Serialize};
 use stickslip_tip::sorting::sort_numbers;
 

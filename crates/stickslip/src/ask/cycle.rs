@@ -116,10 +116,7 @@ impl Cycle {
     }
 
     /// Rejects a tolerance that cannot be reached, or that is too large for a cycle.
-    ///
-    /// # Errors
-    /// The tolerance is outside [`cycles::TOLERANCES`].
-    pub fn judge_tolerance(tolerance: f64) -> Result<(), Refused> {
+    pub(super) fn judge_tolerance(tolerance: f64) -> Result<(), Refused> {
         let (least, most) = cycles::TOLERANCES;
         if (least..=most).contains(&tolerance) {
             return Ok(());

@@ -21,10 +21,7 @@ pub(crate) fn leftmost(model: &Model) -> f64 {
 }
 
 /// Rejects a number of roots outside 1 to 1000.
-///
-/// # Errors
-/// The number is out of this range.
-pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused> {
+pub(crate) fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused> {
     if (1..=MOST_ROOTS).contains(&count) {
         return Ok(());
     }
@@ -32,7 +29,7 @@ pub fn judge_count(parameter: &'static str, count: usize) -> Result<(), Refused>
 }
 
 /// The failure for a list that could not be computed, with advice; for extreme α and r, a rejection of both.
-pub fn failed(error: &StabilityError, advice: &str) -> Failure {
+pub(crate) fn failed(error: &StabilityError, advice: &str) -> Failure {
     match error {
         StabilityError::Stopped => Failure::Cancelled,
         StabilityError::TooFarApart { alpha, r } => {
@@ -47,7 +44,7 @@ pub fn failed(error: &StabilityError, advice: &str) -> Failure {
 }
 
 /// Warnings about the list: fewer roots than requested, or inexact ones.
-pub fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<String> {
+pub(crate) fn remarks(spectrum: &Spectrum, asked: Option<usize>, name: &str) -> Vec<String> {
     let Spectrum { roots, certificate: Certificate { largest_error, .. } } = spectrum;
     let found = roots.len();
     let few = asked.filter(|asked| found < *asked).map(|asked| {

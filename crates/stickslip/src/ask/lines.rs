@@ -43,11 +43,9 @@ fn common_width(tip: &TipFunction) -> Option<f64> {
     (alike && sum.terms().iter().all(|g| same(g.width))).then_some(width)
 }
 
-/// The fraction of a groove that remains after another line of this length, in σ, scanned at r.
-///
-/// # Errors
-/// The surface heals and no length above 0 is given, or it does not heal and a length is given.
-pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
+/// The fraction of a groove that remains after another line of this length, in σ, scanned at r. A length is needed on a
+/// surface that heals, and only there.
+pub(super) fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
     match (length, law.healing_time) {
         (None, None) => Ok(1.0),
         (Some(length), Some(_)) => {
@@ -67,10 +65,7 @@ pub fn left(length: Option<f64>, law: &Wider, r: f64) -> Result<f64, Refused> {
 
 /// A raster of lines `at` this r and pitch, with a spring across the scan if there is one; a fraction `left` of each
 /// groove remains after another line.
-///
-/// # Errors
-/// An error of [`Raster::new`] or [`Raster::with_stiffness_across`].
-pub fn raster(
+pub(super) fn raster(
     footprint: &Footprint,
     law: Wider,
     at: (f64, f64),
@@ -85,7 +80,7 @@ pub fn raster(
 
 /// The rejection of the parameter that leaves a raster without a threshold: r, the law, the path, the tip or else the
 /// pitches.
-pub fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
+pub(super) fn refused(error: &StabilityError, r: f64, pitches: impl Fn() -> Refused) -> Refused {
     match error {
         StabilityError::R(_) => Refused::number("r", r, error),
         StabilityError::StiffnessAcross(stiffness) => {

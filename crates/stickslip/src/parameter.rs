@@ -113,7 +113,7 @@ struct PropertySchema<'a> {
 }
 
 /// The value of `x-option`, as [`option`] writes it.
-#[derive(Deserialize)]
+#[derive(Clone, Default, Deserialize)]
 struct OptionSchema {
     symbol: String,
     group: String,
@@ -145,14 +145,8 @@ pub fn names<T: Parameters>() -> Vec<(String, String)> {
 /// The parsed schema of a question, computed once per process.
 struct Described {
     /// All properties of the schema, options or not.
-    properties: BTreeMap<String, Property>,
+    properties: BTreeMap<String, Parameter>,
     options: Vec<Parameter>,
-}
-
-struct Property {
-    description: String,
-    kind: Kind,
-    is_required: bool,
 }
 
 /// The parsed schema of a question, cached because parsing takes longer than many answers.
@@ -182,24 +176,21 @@ impl Described {
     fn of(schema: &Schema<'_>) -> Self {
         let (mut properties, mut options) = (BTreeMap::new(), vec![]);
         for (name, property) in &schema.properties {
-            let described = Property {
+            let OptionSchema { symbol, group, place } = property.option.clone().unwrap_or_default();
+            let parameter = Parameter {
+                name: (*name).into(),
                 description: property.description.replace('\n', " "),
                 kind: kind(name, property, schema),
+                default: Some(&property.default).filter(|value| !value.is_null()).cloned(),
                 is_required: schema.required.contains(name),
+                symbol,
+                group,
+                place,
             };
-            if let Some(option) = &property.option {
-                options.push(Parameter {
-                    name: (*name).into(),
-                    description: described.description.clone(),
-                    kind: described.kind.clone(),
-                    default: Some(&property.default).filter(|value| !value.is_null()).cloned(),
-                    is_required: described.is_required,
-                    symbol: option.symbol.clone(),
-                    group: option.group.clone(),
-                    place: option.place,
-                });
+            if property.option.is_some() {
+                options.push(parameter.clone());
             }
-            properties.insert((*name).into(), described);
+            properties.insert((*name).into(), parameter);
         }
         options.sort_by_key(|parameter| parameter.place);
         Self { properties, options }
@@ -284,7 +275,7 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
             return Err(Refused::word(name.clone(), typed(value), why));
         }
     }
-    let is_missing = |(name, property): &(&String, &Property)| {
+    let is_missing = |(name, property): &(&String, &Parameter)| {
         property.is_required && !values.contains_key(*name)
     };
     if let Some((name, property)) = properties.iter().find(is_missing) {

@@ -77,15 +77,7 @@ fn row(heights: Heights) -> Vec<f64> {
 }
 
 impl History {
-    /// The trajectory of this history in the basic model, with support velocity r.
-    ///
-    /// # Errors
-    /// As [`under`](Self::under).
-    pub fn trajectory(&self, r: f64) -> Result<Trajectory, Unusable> {
-        self.under(Wider::default(), Support::Moving(r))
-    }
-
-    /// The trajectory of this history in an extended model.
+    /// The trajectory of this history.
     ///
     /// # Errors
     /// The history is invalid: its steps do not follow each other, or a number is out of range.
@@ -138,14 +130,10 @@ impl History {
         if rows.len() != along.steps().len() {
             return Err(unusable("y0 does not have the length of extension"));
         }
-        let parts = |row: &Vec<f64>| {
-            let (y, nodes) = row.split_first()?;
-            let nodes: [f64; STAGES] = nodes.try_into().ok()?;
-            row.iter().all(|y| y.abs() <= FARTHEST).then(|| (*y, nodes.map(|node| node - y)))
-        };
         let step = |(along, row): (&Step, &Vec<f64>)| {
-            let (y, across) = parts(row)?;
-            Some(planar::Step { along: *along, y, across })
+            let (y, nodes) = start_and_nodes(row)?;
+            let step = planar::Step { along: *along, y, across: nodes.map(|node| node - y) };
+            row.iter().all(|y| y.abs() <= FARTHEST).then_some(step)
         };
         let steps: Option<Vec<_>> = along.steps().iter().zip(rows).map(step).collect();
         let steps = steps.ok_or_else(|| unusable("a row of y0 has no 7 finite entries"))?;
@@ -194,9 +182,15 @@ impl History {
 }
 
 fn heights(row: &[f64]) -> Result<Heights, Unusable> {
-    let parts = row.split_first().and_then(|(start, nodes)| Some((*start, nodes.try_into().ok()?)));
+    let parts = start_and_nodes(row);
     let (start, nodes) = parts.ok_or_else(|| unusable("a row of heights has no 7 entries"))?;
     Ok(Heights { start, nodes })
+}
+
+/// The values at the start of a step and at its nodes; `None` for a wrong number of values.
+fn start_and_nodes(row: &[f64]) -> Option<(f64, [f64; STAGES])> {
+    let (start, nodes) = row.split_first()?;
+    Some((*start, nodes.try_into().ok()?))
 }
 
 fn unusable(message: impl std::fmt::Display) -> Unusable {

@@ -289,13 +289,6 @@ impl FitImage {
         Ripples { alpha, r, ..found }
     }
 
-    fn with_unit_of_stiffness(&self, mut answer: FitImageFound) -> FitImageFound {
-        if let Some(lateral) = answer.lateral.as_mut().filter(|found| found.stiffness.is_some()) {
-            lateral.stiffness_unit = self.stiffness_unit();
-        }
-        answer
-    }
-
     fn request(&self) -> Result<RippleRequest, Refused> {
         let one = |name, value: Option<f64>| value.map(|v| Refused::positive(name, v)).transpose();
         Ok(RippleRequest {
@@ -376,8 +369,8 @@ impl Ask for FitImage {
         let critical = raster.ok().filter(|_| is_rigid);
         let critical = critical.and_then(|raster| raster.critical(RasterPath::OneWay).ok());
         let levelled = Ripples::levelled(&image, MOST).map_err(|e| Refused::whole("image", e))?;
-        let answer = FitImageFound::of(&found, critical.map(|at| at.alpha), &levelled);
-        let answer = self.with_unit_of_stiffness(answer);
+        let critical_alpha = critical.map(|at| at.alpha);
+        let answer = FitImageFound::of(&found, critical_alpha, &levelled, self.stiffness_unit());
         let assumed = [
             is_transposed.then(|| TRANSPOSED.into()),
             self.tip.is_none().then(|| ASSUMED_TIP.into()),
@@ -395,7 +388,12 @@ impl Ask for FitImage {
 }
 
 impl FitImageFound {
-    fn of(found: &Ripples, critical_alpha: Option<f64>, levelled: &Image) -> Self {
+    fn of(
+        found: &Ripples,
+        critical_alpha: Option<f64>,
+        levelled: &Image,
+        stiffness_unit: Option<String>,
+    ) -> Self {
         let explained = found.is_explained();
         let judged = |estimate: Estimate| {
             let estimate = EstimateDocument::from(estimate);
@@ -431,7 +429,7 @@ impl FitImageFound {
                 amplitude: lateral.amplitude.into(),
                 lag: judged(lateral.lag),
                 stiffness: lateral.stiffness.map(judged),
-                stiffness_unit: None,
+                stiffness_unit: lateral.stiffness.and(stiffness_unit),
                 phase: lateral.phase[0],
                 model_phase: lateral.phase[1],
                 shift: lateral.shift,

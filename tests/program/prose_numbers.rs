@@ -328,7 +328,7 @@ fn constants_of_the_integrator() {
     let switch = |name| constant("crates/tip/src/integrator/taylor/switch.rs", name);
     let estimate = |name| constant("crates/tip/src/step/estimate.rs", name);
     let share = control("SHARE_OF_A_STEP");
-    let series = share * constant("crates/tip/src/integrator/taylor/mod.rs", "SHARE_OF_SERIES");
+    let series = share * plan("SHARE_OF_SERIES");
     let band = constant("crates/tip/src/tip_function/scale.rs", "BAND_OF_A_GAUSSIAN");
     let whole = |x: f64| format!("{x:.0}");
     let name = |x: f64| ["four", "five", "six", "seven", "eight"][x as usize - 4];
@@ -348,7 +348,7 @@ fn constants_of_the_integrator() {
             ),
             format!(
                 "after {} iterations",
-                constant("crates/tip/src/integrator/stage_equations.rs", "MOST_ITERATIONS")
+                constant("crates/tip/src/integrator/newton.rs", "MOST_ITERATIONS")
             ),
             format!(
                 "at most ${}/\\text{{band}}$ ({} widths of a Gaussian), never by more than {}, and accepted up to {} times",

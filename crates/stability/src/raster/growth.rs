@@ -36,7 +36,7 @@ impl Raster {
 
     /// Growth factor z of a ripple from line to line, A_n ∝ zⁿ, at a given α and q of a one-way raster: the z of largest
     /// modulus. It is the limit of A_n/A_{n-1} in the recurrence from line to line, which includes both coordinates if the
-    /// tip is flexible across the lines.
+    /// tip is flexible across the lines; 0 if no line feels an earlier one. For sums of Gaussians only.
     pub fn growth(&self, alpha: f64, q: f64) -> Complex64 {
         if self.terms.across.is_some() {
             let start = [Complex64::new(1.0, 0.3), Complex64::ZERO, Complex64::new(0.7, -0.2)];
@@ -48,7 +48,7 @@ impl Raster {
     }
 
     /// Coefficients c_j, j = 1, 2, …, of the recurrence from line to line: the deviation of the indentation density of
-    /// line n is Σ_j c_j times that of line n - j.
+    /// line n is Σ_j c_j times that of line n - j. For sums of Gaussians only.
     pub fn answers(&self, alpha: f64, q: f64) -> Vec<Complex64> {
         let a = self.density(alpha);
         let at = self.at(q);
@@ -155,8 +155,12 @@ fn solution(p: &Matrix, y: &Matrix) -> Matrix {
 
 /// The limit of the ratio of successive lines in the recurrence x_n = Σ_j M_j x_{n-j} of numbers or vectors.
 fn settled<const N: usize>(answers: &[[[Complex64; N]; N]], start: [Complex64; N]) -> Complex64 {
-    let mut tracks = vec![start];
     let mut z = Complex64::ZERO;
+    // No earlier line is felt.
+    if answers.is_empty() {
+        return z;
+    }
+    let mut tracks = vec![start];
     for _ in 0..MOST_PASSES {
         let mut next = [Complex64::ZERO; N];
         for (m, track) in answers.iter().zip(tracks.iter().rev()) {
@@ -171,7 +175,7 @@ fn settled<const N: usize>(answers: &[[[Complex64; N]; N]], start: [Complex64; N
         z = product.sum::<Complex64>() / size(&last);
         tracks.push(next);
         if tracks.len() > 2 * answers.len() {
-            tracks.drain(..tracks.len() - answers.len().max(1));
+            tracks.drain(..tracks.len() - answers.len());
             let whole = size(&next).sqrt();
             tracks.iter_mut().flatten().for_each(|x| *x /= whole);
         }

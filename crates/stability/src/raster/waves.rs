@@ -48,8 +48,8 @@ impl Waves {
             (gaussians(tip).iter().map(term).collect(), Extent::two_sided(tip, fading))
         };
         let own = OneSided::new(footprint.path());
-        let still = own.at(fading.into());
-        let steady = [still.height, still.slope, still.curvature].map(|jet| jet.0.re);
+        let still = own.steady(fading);
+        let steady = [still.height, still.slope, still.curvature];
         Self {
             own,
             own_extent: Extent::one_sided(footprint.path()),
@@ -72,7 +72,7 @@ impl Waves {
     /// S(p) = ∫_0^∞ `f_yy(x,0)` e^{-px}dx and its derivative.
     pub(super) fn across_at(&self, p: Complex64) -> Jet {
         let zero = (Complex64::ZERO, Complex64::ZERO);
-        self.across.as_ref().map_or(zero, |(across, _)| across.at(p).curvature)
+        self.across.as_ref().map_or(zero, |(across, _)| across.plain(p).curvature)
     }
 
     /// S for |q - centre| ≤ `half`.
@@ -94,7 +94,7 @@ impl Waves {
 
     /// φ, φ1, G at p, with derivatives with respect to p.
     pub(super) fn jets(&self, p: Complex64) -> [Jet; 3] {
-        let at = self.own.at(p);
+        let at = self.own.plain(p);
         [at.height, at.slope, at.curvature]
     }
 

@@ -480,6 +480,14 @@ fn at_the_threshold_a_ripple_neither_grows_nor_fades() {
     }
 }
 
+/// It was not a number, and the document of it could not be read.
+#[test]
+fn a_ripple_does_not_grow_on_lines_that_feel_no_other() {
+    let far = gaussian(100.0);
+    assert_eq!(far.growth(0.3, 0.7), Complex64::ZERO);
+    assert_eq!(far.with_stiffness_across(0.5).unwrap().growth(0.3, 0.7), Complex64::ZERO);
+}
+
 #[test]
 fn another_pass_flattens_long_ripples_and_deepens_none_at_small_alpha() {
     let raster = gaussian(1.0);
@@ -488,6 +496,25 @@ fn another_pass_flattens_long_ripples_and_deepens_none_at_small_alpha() {
     let q = 0.75;
     let (weak, strong) = (raster.repeat_gain(0.01, q), raster.repeat_gain(1.5, q));
     assert!(strong.norm() > weak.norm() && weak.norm() > 1.0, "{weak} {strong}");
+}
+
+/// Oracle: 1 + (α/r) q² f̂/D for f = J0, with f̂ = 2/√(1-q²) and G(iq) = -q²/√(1-q²) - iq; for q > 1, f̂ = 0.
+#[test]
+fn another_pass_with_j0_has_the_gain_of_its_closed_form() {
+    let footprint = Footprint::separable(TipFunction::Bessel, 1.0).unwrap();
+    for (alpha, r) in [(0.3, 1.0), (2.0, 0.4)] {
+        let raster = Raster::new(&footprint, Wider::default(), (r, 1e6), 1.0).unwrap();
+        for q in [0.1, 0.4, 0.9, 0.999] {
+            let (ratio, pull) = (alpha / r, q * q / f64::sqrt(1.0 - q * q));
+            let d = Complex64::new(1.0 - ratio * pull, r * q - ratio * q);
+            let (found, wanted) = (raster.repeat_gain(alpha, q), 1.0 + 2.0 * ratio * pull / d);
+            assert!(
+                (found - wanted).norm() < 1e-13 * wanted.norm(),
+                "{alpha} {q}: {found} {wanted}"
+            );
+        }
+        assert_eq!(raster.repeat_gain(alpha, 1.2), Complex64::ONE);
+    }
 }
 
 #[test]

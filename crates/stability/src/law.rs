@@ -93,7 +93,7 @@ impl Law {
 
     /// As [`Law::with_density`], with given transforms of the footprint.
     pub(super) fn on(wider: &Wider, footprint: &Arc<OneSided>, speed: f64, density: f64) -> Self {
-        let fading = wider.healing_time.map_or(0.0, |time| 1.0 / (speed * time));
+        let fading = wider.fading(speed);
         let steady = footprint.steady(fading);
         let is_level = !has_height(footprint.tip(), &steady);
         let sign = if is_level { 0.0 } else { (density * steady.height).signum() };

@@ -122,8 +122,7 @@ impl Raster {
             return Err(StabilityError::PapersLawOnly(what));
         }
         let heights = vec![heights(footprint, (pitch, left), 0)?];
-        let fading = law.healing_time.map_or(0.0, |time| 1.0 / (r * time));
-        let waves = Waves::new(footprint, fading);
+        let waves = Waves::new(footprint, law.fading(r));
         let beside = beside(&waves, &heights[0]);
         let [own, ..] = waves.steady;
         let depth = (own + beside) / r;

@@ -195,7 +195,7 @@ impl Snaking {
 
     /// s = 1/(rT)
     fn fading(&self) -> f64 {
-        self.law.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
+        self.law.fading(self.r)
     }
 
     /// α for a given A = αw0/r, where w0 = e^{-A|φ(s)|/b}.

@@ -51,12 +51,12 @@ fn extrema_of_lasting(
 ) -> Option<(f64, f64)> {
     let tip = model.tip();
     // Positions, weights, and the exponent of a factor of the weights.
-    let ((positions, weights, exponent), fading) = match trajectory.wider().healing_time {
-        Some(time) => (trajectory.residence_unfaded(), 1.0 / (trajectory.r() * time)),
-        None => {
-            let (positions, weights) = trajectory.residence(trajectory.end());
-            ((positions, weights, 0.0), 0.0)
-        }
+    let fading = trajectory.wider().fading(trajectory.r());
+    let (positions, weights, exponent) = if fading > 0.0 {
+        trajectory.residence_unfaded()
+    } else {
+        let (positions, weights) = trajectory.residence(trajectory.end());
+        (positions, weights, 0.0)
     };
     let value = |y: f64| if fading > 0.0 { tip.value(y) * exp(-fading * y) } else { tip.value(y) };
     let kernel = Kernel { value: &value, band: tip.band(), reach: tip.reach() };

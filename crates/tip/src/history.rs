@@ -339,7 +339,7 @@ impl Trajectory {
     /// largest factor. At time t the surface behind a support of constant velocity r is then -α e^{-(R(t) - x)/(rT)} ∫
     /// w e^{(R - x0)/(rT)} f(x - x0) e^{-(x - x0)/(rT)} dt'. Without healing all exponentials are 1.
     pub fn residence_unfaded(&self) -> (Vec<f64>, Vec<f64>, f64) {
-        let rate = self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r() * time));
+        let rate = self.wider.fading(self.r());
         let (mut positions, mut weights, mut exponents) = (vec![], vec![], vec![]);
         for step in &self.steps {
             let (start, spent) = (self.support.position(step.t), step.weights(&self.wider));

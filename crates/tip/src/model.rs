@@ -98,7 +98,7 @@ impl Model {
 
     /// Decay rate s = 1/(rT), per unit length, of the groove of steady motion behind the tip; 0 without healing.
     pub fn fading(&self) -> f64 {
-        self.wider.healing_time.map_or(0.0, |time| 1.0 / (self.r * time))
+        self.wider.fading(self.r)
     }
 
     /// Relative indentation rate w0 of a tip in steady motion, in units of α: 1 without a depth limit.

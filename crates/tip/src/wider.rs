@@ -114,6 +114,11 @@ impl Wider {
         self.healing_time.map_or(0.0, f64::recip)
     }
 
+    /// 1/(vT), the rate per unit length at which the groove behind a tip of this speed decays; 0 without healing.
+    pub fn fading(&self, speed: f64) -> f64 {
+        self.healing_time.map_or(0.0, |time| 1.0 / (speed * time))
+    }
+
     /// Undecayed part e^{-time/T} of an indentation after this time.
     pub fn left_after(&self, time: f64) -> f64 {
         self.healing_time.map_or(1.0, |healing| exp(-time / healing))

@@ -4,6 +4,7 @@ use ndarray::Array1;
 use rayon::prelude::*;
 use stickslip_convolution::{Kernel, direct_sum, sum};
 use stickslip_tip::TipFunction;
+use stickslip_tip::sorting::ends;
 
 /// Methods for a sum over the residence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,14 +23,9 @@ const CELLS_PER_POINT: f64 = 2.0;
 /// Largest number of cells of a lattice, which takes a gigabyte with its transforms.
 pub(crate) const MOST_CELLS: f64 = 1e7;
 
-/// Least and largest of these numbers.
-fn span(v: &[f64]) -> (f64, f64) {
-    v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
-}
-
 /// Number of cells of a lattice for sources at these positions and targets in the interval.
 pub(crate) fn cells(tip: &TipFunction, positions: &[f64], (c, d): (f64, f64)) -> f64 {
-    let (a, b) = span(positions);
+    let (a, b) = ends(positions.iter().copied());
     let extent = match tip.reach() {
         Some(reach) => (b.min(d + reach) - a.max(c - reach)).max(0.0) + 2.0 * reach,
         None => 4.0 * (b.max(d) - a.min(c)),
@@ -42,7 +38,7 @@ impl Method {
     /// 1e7 cells.
     pub fn cheaper(tip: &TipFunction, positions: &[f64], x: &[f64]) -> Self {
         let (sources, targets) = (positions.len() as f64, x.len() as f64);
-        let cells = cells(tip, positions, span(x));
+        let cells = cells(tip, positions, ends(x.iter().copied()));
         let by_fft = PAIRS_PER_POINT * (sources + targets + cells / CELLS_PER_POINT + 200.0);
         if sources * targets <= by_fft || cells > MOST_CELLS { Self::Direct } else { Self::Fft }
     }

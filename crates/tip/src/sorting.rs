@@ -1,5 +1,5 @@
-//! Sorting by a number, and the least and the largest of numbers. The sort itself is compiled once, for all kinds of items: a copy of it for each takes as long to
-//! compile as the code that uses it.
+//! Sorting by a number, and the least and the largest of numbers. The sort itself is compiled once, for all kinds of
+//! items: a copy of it for each takes as long to compile as the code that uses it.
 
 /// Sorts numbers, the least first, as [`f64::total_cmp`] orders them.
 pub fn sort_numbers(numbers: &mut [f64]) {

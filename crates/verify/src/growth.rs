@@ -1,6 +1,7 @@
 //! Growth of small errors: the distance of two runs with slightly different initial conditions.
 
 use std::ops::Range;
+use stickslip_tip::sorting::ends;
 
 /// Growth of a small initial disturbance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,9 +64,7 @@ impl Probes {
     /// The size of the motion: the larger of the ranges of l and y0.
     fn size(&self) -> f64 {
         let range = |axis: usize| {
-            let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            let values = self.values.iter().map(|values| values[axis]);
-            let (low, high) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
+            let (low, high) = ends(self.values.iter().map(|values| values[axis]));
             high - low
         };
         range(0).max(range(1))

@@ -21,6 +21,7 @@ use stickslip::{
     GridName, KnownScales, Physical, Run, RunScenario, parameter,
 };
 use stickslip_tip::Scenario;
+use stickslip_tip::sorting::ends;
 
 /// Number of heights compared.
 const POINTS: usize = 2001;
@@ -116,8 +117,7 @@ impl<'a> Comparison<'a> {
     /// Least and largest value of a coordinate until the grid ends.
     fn range(&self, coordinate: impl Fn(f64) -> f64) -> (f64, f64) {
         let times = super::surface::evenly(self.scenario.span().0, self.grid_until, POINTS);
-        let values = times.into_iter().map(coordinate);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+        ends(times.into_iter().map(coordinate))
     }
 
     /// Positions at which the surfaces are compared: all within reach of the tip during the run.

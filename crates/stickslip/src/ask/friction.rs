@@ -6,6 +6,7 @@ use crate::schema::JsonSchema;
 use crate::{Ask, Context, Document, EstimateDocument, Failure, Question, Refused, digits};
 use serde::{Deserialize, Serialize};
 use stickslip_measurement::{FrictionLoop, LoopError, LoopNumbers};
+use stickslip_tip::sorting::ends;
 use stickslip_units::Unit;
 
 /// Friction forces of a loop, with 95 % intervals, in the units given here.
@@ -152,9 +153,7 @@ impl Friction {
 
     /// A warning if trace and retrace have only a part of their positions in common.
     fn partial(&self, measured: &FrictionLoop) -> Option<String> {
-        let all = self.trace.x.iter().chain(&self.retrace.x);
-        let (low, high) = all
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        let (low, high) = ends(self.trace.x.iter().chain(&self.retrace.x).copied());
         let along = self.nanometres().ok()?.unwrap_or(1.0);
         let [x, ..] = measured.rows();
         let (first, last) = (x[0], x[x.len() - 1]);

@@ -43,10 +43,3 @@ impl<'a> Groove<'a> {
 pub fn longest_look(tip: &TipFunction) -> f64 {
     (40.0 / tip.band()).min(12.0)
 }
-
-/// Ends of the interval that these values span.
-pub(super) fn range(values: &[f64]) -> (f64, f64) {
-    values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
-}

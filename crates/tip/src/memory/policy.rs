@@ -8,11 +8,12 @@ use super::derivatives::{Derivatives, SteadyPast};
 use super::direct;
 use super::fading::Fading;
 use super::fft::{Fft, Lattice};
-use super::groove::{Groove, range};
+use super::groove::Groove;
 use super::modes::{Fit, FitError, Modes, Retreat};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
+use crate::sorting::ends;
 use retreats::Retreats;
 use std::sync::Arc;
 
@@ -185,7 +186,7 @@ impl Policy {
                     modes.groove(at, groove);
                 } else {
                     // An iteration gone astray, or the last step before a retreat is noticed.
-                    let (low, high) = range(at);
+                    let (low, high) = ends(at.iter().copied());
                     groove.clear();
                     for visit in record.near(low, high) {
                         direct::add(&[visit], &self.tip, (0.0, at), groove);

@@ -11,6 +11,7 @@ mod saved;
 
 use crate::TipFunction;
 use crate::collocation::STAGES;
+use crate::sorting::ends;
 use bins::Bins;
 use std::ops::Range;
 
@@ -123,9 +124,7 @@ impl Record {
     fn close_block(&mut self, nodes: usize) {
         let end = self.nodes.len();
         let Kept::All(blocks) = &mut self.kept else { return };
-        let span = |(low, high): (f64, f64), (x, _): &(f64, f64)| (low.min(*x), high.max(*x));
-        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = self.nodes[end - nodes..].iter().fold(nothing, span);
+        let (low, high) = ends(self.nodes[end - nodes..].iter().map(|(x, _)| *x));
         blocks.push(Block { low, high, end });
     }
 

@@ -161,8 +161,7 @@ fn ends(values: &[f64]) -> String {
 
 /// The least and the largest of these values.
 fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let wider = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], wider)
+    stickslip_tip::sorting::ends(values).into()
 }
 
 /// A ratio with two digits: computing times are not more reproducible.

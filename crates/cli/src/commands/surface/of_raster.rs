@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::session::Session;
 use stickslip::{Physical, RasterDocument, RasterSurfaceDocument, Unusable};
 use stickslip_raster::Scanned;
+use stickslip_tip::sorting::ends;
 
 pub(super) fn surface(
     session: &Session,
@@ -26,10 +27,7 @@ pub(super) fn surface(
         (Some(y), _) => y.clone(),
         (None, false) => places.y.clone(),
         (None, true) => {
-            let y = (0..plan.lines()).map(|n| plan.track(n).y);
-            let (first, last) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
-                (low.min(y), high.max(y))
-            });
+            let (first, last) = ends((0..plan.lines()).map(|n| plan.track(n).y));
             if last > first { evenly(first, last, plan.lines()) } else { vec![first] }
         }
     };

@@ -3,6 +3,7 @@
 use crate::schema::JsonSchema;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Area, Line, Path, Plan, Scanned};
+use stickslip_tip::sorting::ends;
 
 /// The height map u(x,y).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -76,9 +77,7 @@ fn rows(plan: &Plan) -> Vec<f64> {
     if matches!(plan.area, Area::Rectangle { .. }) || plan.area.pitch(plan.path).is_some() {
         return y;
     }
-    let least = |low: f64, y: &f64| low.min(*y);
-    let (low, high) =
-        (y.iter().fold(f64::INFINITY, least), y.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) = ends(y.iter().copied());
     let count = y.len().clamp(3, MOST as usize);
     // Lines that all lie at one y are looked at from both sides.
     let (low, high) = if high > low { (low, high) } else { (low - 1.0, high + 1.0) };

@@ -23,8 +23,9 @@ pub use term::Term;
 pub use window::Retreat;
 
 use super::derivatives::{Derivatives, SteadyPast};
-use super::groove::{Groove, range};
+use super::groove::Groove;
 use crate::elementary::complex_exp;
+use crate::sorting::ends;
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
@@ -110,7 +111,7 @@ impl Modes {
     /// As [`Policy::groove`](crate::memory::Policy::groove), where the sum is valid.
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         if !self.groove.holds(at) {
-            let (low, high) = range(at);
+            let (low, high) = ends(at.iter().copied());
             let (center, radius) = (0.5 * (low + high), 0.5 * BEYOND_THE_STAGES * (high - low));
             if !self.bank.expand(center, radius, &mut self.groove, groove.height.is_some()) {
                 self.groove.forget();

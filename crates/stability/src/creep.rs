@@ -83,6 +83,11 @@ fn bessel(kappa: f64) -> Spectrum {
     let largest =
         |f: &dyn Fn(&(Complex64, Complex64)) -> f64| upper.iter().map(f).fold(0.0, f64::max);
     let residual = |(p, s): &(Complex64, Complex64)| (1.0 - p * kappa / (s * (s + p))).norm() / 2.0;
+    // Where two roots meet, the slope of the equation vanishes.
+    let error = |(p, s): &(Complex64, Complex64)| {
+        let slope = (p * (p * p + 2.0) / (s * s * s) - 1.0) * kappa;
+        4.0 * f64::EPSILON * p.norm().max(2.0 / slope.norm())
+    };
     let far = 2.0 + 2.0 * kappa;
     let roots = with_conjugates(&upper.iter().map(|(p, _)| *p).collect::<Vec<_>>(), 1.0);
     let certificate = Certificate {
@@ -90,7 +95,7 @@ fn bessel(kappa: f64) -> Spectrum {
         counted: roots.len(),
         found: roots.len(),
         largest_residual: largest(&residual),
-        largest_error: largest(&|(p, _)| 4.0 * f64::EPSILON * p.norm()),
+        largest_error: largest(&error),
     };
     Spectrum { roots, certificate }
 }

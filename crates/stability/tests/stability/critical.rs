@@ -217,6 +217,23 @@ fn all_rates_of_creep_of_j0_are_found_close_to_its_branch_points_too() {
     }
 }
 
+/// Oracle: the zeros of 2κp³ - (κ²+1)p² + 2κp - 1 to 60 digits. Just above the threshold two rates nearly meet, and round-off
+/// moves them by far more than a rounding of p.
+#[test]
+fn rates_of_creep_of_j0_that_nearly_meet_are_as_exact_as_their_certificate_says() {
+    for (alpha, rates) in [
+        (3.330_190_676_79, [0.786_149_988_877_302, 0.786_152_766_639_838_1]),
+        (3.330_190_678, [0.786_128_404_971_156_5, 0.786_174_351_171_213]),
+        (3.3302, [0.784_140_920_460_407_1, 0.788_166_652_530_893_9]),
+    ] {
+        let found = creep(&Model::new(TipFunction::Bessel, alpha, 1.0).unwrap()).unwrap();
+        let [fast, slow] = found.roots[..] else { panic!("{alpha} {found:?}") };
+        let off = (slow.re - rates[0]).abs().max((fast.re - rates[1]).abs());
+        let largest = found.certificate.largest_error;
+        assert!(off < largest && largest < 1e-8, "{alpha}: {off:e} {largest:e}");
+    }
+}
+
 /// Only the two beside the greatest maximum of Q were looked at.
 #[test]
 fn of_a_footprint_of_several_peaks_all_rates_are_found() {

@@ -101,7 +101,7 @@ const EXAMPLES: &str = "Examples:
     stickslip compare --alpha-above 0.01 --r 1 --start paper --until 76
   Against the paper's scheme at its Δx and Δt, within a window of the tip:
     stickslip compare --alpha-above 0.01 --r 1 --kick 0.01 --until 457 \\
-        --grid windowed --spacing 0.001 --step 0.04
+        --grid windowed --spacing 0.001 --step 0.04 --grid-until 76
   A raster against rows of cells:
     stickslip compare --tip gaussian --alpha 0.5 --r 1 --pitch 0.5 \\
         --lines 24 --length 40 -o rasters.json --plot rasters.png

@@ -156,8 +156,8 @@ fn solution(p: &Matrix, y: &Matrix) -> Matrix {
 /// The limit of the ratio of successive lines in the recurrence x_n = Σ_j M_j x_{n-j} of numbers or vectors.
 fn settled<const N: usize>(answers: &[[[Complex64; N]; N]], start: [Complex64; N]) -> Complex64 {
     let mut z = Complex64::ZERO;
-    // No earlier line is felt.
-    if answers.is_empty() {
+    // No earlier line is felt, or none carves.
+    if answers.iter().flatten().flatten().all(|m| m.norm() <= 0.0) {
         return z;
     }
     let mut tracks = vec![start];

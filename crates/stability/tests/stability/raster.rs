@@ -482,7 +482,10 @@ fn at_the_threshold_a_ripple_neither_grows_nor_fades() {
 
 /// It was not a number, and the document of it could not be read.
 #[test]
-fn a_ripple_does_not_grow_on_lines_that_feel_no_other() {
+fn a_ripple_does_not_grow_on_lines_that_feel_no_other_or_carve_nothing() {
+    assert_eq!(gaussian(0.5).growth(0.0, 0.7), Complex64::ZERO);
+    let flexible = gaussian(0.5).with_stiffness_across(0.5).unwrap();
+    assert_eq!(flexible.growth(0.0, 0.7), Complex64::ZERO);
     let far = gaussian(100.0);
     assert_eq!(far.growth(0.3, 0.7), Complex64::ZERO);
     assert_eq!(far.with_stiffness_across(0.5).unwrap().growth(0.3, 0.7), Complex64::ZERO);

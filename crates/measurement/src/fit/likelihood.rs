@@ -140,14 +140,7 @@ impl<'a> Around<'a> {
 
     /// Correlations of the parameters.
     pub(super) fn correlations(&self) -> Vec<Vec<f64>> {
-        let count = self.problem.free.len();
-        let of = |i: usize, j: usize| {
-            if i == j {
-                return 1.0;
-            }
-            self.covariance[(i, j)] / (self.deviation(i) * self.deviation(j))
-        };
-        (0..count).map(|i| (0..count).map(|j| of(i, j)).collect()).collect()
+        correlations(&self.covariance, self.problem.free.len())
     }
 
     /// The interval of the i-th parameter.
@@ -247,6 +240,20 @@ fn quantile(freedom: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// Correlations of the first `count` parameters. Where the data hardly tell parameters apart, round-off makes their
+/// covariance unsymmetric and larger than their variances; correlations are symmetric and at most 1 there too.
+fn correlations(covariance: &DMatrix<f64>, count: usize) -> Vec<Vec<f64>> {
+    let of = |i: usize, j: usize| {
+        if i == j {
+            return 1.0;
+        }
+        let mean = 0.5 * (covariance[(i, j)] + covariance[(j, i)]);
+        let deviation = |i: usize| covariance[(i, i)].max(0.0).sqrt();
+        (mean / (deviation(i) * deviation(j))).clamp(-1.0, 1.0)
+    };
+    (0..count).map(|i| (0..count).map(|j| of(i, j)).collect()).collect()
+}
+
 /// The least determined combination of logarithms: its exponents, the largest being 1, and its standard deviation.
 pub(super) fn least_determined(around: &Around) -> Option<(Vec<f64>, f64)> {
     let count = around.problem.free.len();
@@ -274,5 +281,14 @@ mod tests {
         for (freedom, value) in [(1.0, 12.706), (2.0, 4.303), (10.0, 2.228), (1e9, 1.960)] {
             assert!((quantile(freedom) - value).abs() < 1e-3, "{freedom}: {}", quantile(freedom));
         }
+    }
+
+    /// A covariance as a fit of α and r to nearly sinusoidal ripples leaves it.
+    #[test]
+    fn correlations_are_symmetric_and_at_most_1_despite_round_off() {
+        let covariance = DMatrix::from_row_slice(2, 2, &[4.0, 2.0001, 1.9999, 1.0]);
+        assert_eq!(correlations(&covariance, 2), [[1.0, 1.0], [1.0, 1.0]]);
+        let covariance = DMatrix::from_row_slice(2, 2, &[4.0, -2.0002, -2.0001, 1.0]);
+        assert_eq!(correlations(&covariance, 2), [[1.0, -1.0], [-1.0, 1.0]]);
     }
 }

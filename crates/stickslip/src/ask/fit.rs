@@ -243,6 +243,7 @@ impl From<FreeName> for Name {
         }
     }
 }
+
 /// A warning about a fit without a given footprint.
 const ASSUMED: &str = "no footprint is given: the triple Gaussian of the paper, β = 1, is assumed; give the measured one with --tip-file";
 

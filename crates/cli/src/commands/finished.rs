@@ -8,8 +8,8 @@ use crate::files::beside;
 use crate::files::place::taken;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -299,12 +299,20 @@ fn open<P: Part>(
     Ok((file, parts))
 }
 
+/// Who made the parts, in the first line.
+#[derive(Deserialize)]
+struct Origin {
+    software: Software,
+    arithmetic: String,
+}
+
 /// The reason why parts cannot be resumed, from the first line.
 fn other<P: Part>(first: &[u8]) -> String {
-    let made = serde_json::from_slice::<serde_json::Value>(first).ok();
-    let made = made.as_ref().and_then(|head| head["arithmetic"].as_str());
-    match made {
-        Some(made) if made != arithmetic() => foreign(Some(made)),
+    match serde_json::from_slice::<Origin>(first) {
+        Ok(made) if made.arithmetic != arithmetic() => foreign(Some(&made.arithmetic)),
+        Ok(made) if made.software != Software::this() => {
+            format!("was made by {}, and only that version resumes it", made.software)
+        }
         _ => format!("holds the {}s of another {}", P::NAME, P::WHOLE),
     }
 }
@@ -361,5 +369,16 @@ mod tests {
                 assert_eq!(part_of::<SweepPoint>(&flipped), None, "byte {at}, bit {bit}");
             }
         }
+    }
+
+    #[test]
+    fn parts_of_another_version_are_said_to_be_so() {
+        let head = |software: Software| {
+            let head = Head { software, arithmetic: arithmetic(), parameters: &1.5 };
+            other::<SweepPoint>(&serde_json::to_vec(&head).unwrap())
+        };
+        assert_eq!(head(Software::this()), "holds the points of another sweep");
+        let old = Software { version: "0.1.9".into(), ..Software::this() };
+        assert!(head(old).starts_with("was made by stickslip 0.1.9"));
     }
 }

@@ -160,6 +160,11 @@ impl<'a> Integrator<'a> {
         self.t
     }
 
+    /// End of the steps that have been made, also of those that have not been returned.
+    pub(crate) fn made_until(&self) -> f64 {
+        self.taylor.left().last().map_or(self.t, Step::end)
+    }
+
     /// Numbers of steps, iterations and series so far.
     pub fn work(&self) -> Work {
         self.work

@@ -3,7 +3,7 @@
 use super::{RunError, Scenario};
 use crate::integrator::{IntegrationError, Integrator, Work};
 use crate::memory::MemoryReport;
-use crate::state::{Damaged, Reader, Saved, State};
+use crate::state::{Reader, Saved, State};
 use crate::{InitialSurface, Step};
 
 /// A tip in motion through a scenario. Of its history only the data of the memory are kept.
@@ -35,10 +35,7 @@ impl<'a> Running<'a> {
     ) -> Result<Self, RunError> {
         let mut running = Self::new(scenario, surface)?;
         running.integrator.restore(state)?;
-        let t = running.integrator.t();
-        if !(scenario.start_time()..=scenario.until).contains(&t) {
-            return Err(Damaged::OutOfRange.into());
-        }
+        scenario.check_saved(running.t(), running.integrator.made_until())?;
         Ok(running)
     }
 
@@ -95,5 +92,37 @@ impl<'a> Running<'a> {
     /// The memory in use, the reason for it, and its errors.
     pub fn memory_report(&self) -> MemoryReport {
         self.integrator.memory().report()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Model, TipFunction};
+
+    /// A state contains the steps of its series, which may end after another scenario does.
+    #[test]
+    fn a_state_of_a_longer_run_is_refused_where_its_steps_end_too_late() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let model = Model::new(tip, 0.9, 1.0).unwrap();
+        let scenario = Scenario { kick: 0.1, ..Scenario::new(model, 200.0) };
+        let surface = scenario.initial_surface().unwrap();
+        let mut running = Running::new(&scenario, &surface).unwrap();
+        let mut refused = 0;
+        while let Some(step) = running.step().unwrap() {
+            let mut state = State::default();
+            running.save(&mut state);
+            Running::resumed(&scenario, &surface, &mut state.reader()).unwrap();
+            let shorter = Scenario { until: step.end() + 0.1 * step.h, ..scenario.clone() };
+            match Running::resumed(&shorter, &surface, &mut state.reader()) {
+                Err(_) => refused += 1,
+                Ok(mut resumed) => {
+                    while let Some(step) = resumed.step().unwrap() {
+                        assert!(step.end() <= shorter.until + 1e-13, "{step:?}");
+                    }
+                }
+            }
+        }
+        assert!(refused > 0);
     }
 }

@@ -183,6 +183,14 @@ impl Scenario {
         (self.start_position + self.start_extension()) / self.model.r()
     }
 
+    /// Checks a saved state by the time of its tip, and by the end of the steps that it contains.
+    pub(crate) fn check_saved(&self, t: f64, end: f64) -> Result<(), Damaged> {
+        // The last step ends at the end of the run, except for a rounding.
+        let latest = self.until + 4.0 * f64::EPSILON * self.until.abs().max(1.0);
+        let is_within = (self.start_time()..=self.until).contains(&t) && end <= latest;
+        if is_within { Ok(()) } else { Err(Damaged::OutOfRange) }
+    }
+
     /// The motion of the support.
     pub fn support(&self) -> Support {
         match &self.path {

@@ -79,6 +79,11 @@ impl Taylor {
         self.pieces.taken()
     }
 
+    /// The pieces that have not been returned.
+    pub(super) fn left(&self) -> &[Step] {
+        self.pieces.left()
+    }
+
     pub(super) fn save(&self, state: &mut State) {
         self.pieces.save(state);
         self.switch.save(state);

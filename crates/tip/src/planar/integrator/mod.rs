@@ -23,7 +23,7 @@ use crate::integrator::landing::leaves;
 use crate::integrator::taylor::plan::Limits;
 use crate::integrator::taylor::switch::Switch;
 use crate::memory::{FitError, MemoryChoice, Retreat, SteadyPast};
-use crate::state::{Damaged, Reader};
+use crate::state::Reader;
 use crate::step;
 use crate::tip_function::BAND_OF_A_GAUSSIAN;
 use crate::{Force, Model, RunError, Scenario, Start, Support, Wider};
@@ -118,9 +118,7 @@ impl<'a> PlanarRunning<'a> {
     pub fn resumed(scenario: &'a PlanarScenario, state: &mut Reader) -> Result<Self, PlanarError> {
         let mut running = Self::new(scenario)?;
         running.restore(state).map_err(RunError::from)?;
-        if !(scenario.along.start_time()..=scenario.along.until).contains(&running.t()) {
-            return Err(RunError::from(Damaged::OutOfRange).into());
-        }
+        scenario.along.check_saved(running.t(), running.t).map_err(RunError::from)?;
         Ok(running)
     }
 

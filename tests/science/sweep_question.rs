@@ -43,7 +43,7 @@ fn points_that_are_runs_end_as_those_runs_and_make_ensembles() {
     let found = question.grid().unwrap().ask(&Context::default()).unwrap();
     let ensembles = found.ensembles.as_ref().unwrap();
     assert_eq!((ensembles.len(), ensembles[0].count), (1, 3));
-    let noise = stickslip::NoiseParameters { amplitude: 1e-3, spacing: 0.1, seed: 2 };
+    let noise = stickslip::Noise { amplitude: 1e-3, spacing: 0.1, seed: 2 };
     let run = Run {
         noise: Some(noise),
         tolerance: 1e-9,

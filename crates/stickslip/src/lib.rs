@@ -58,29 +58,12 @@ pub use documents::compare::{
     ClosedDocument, ClosedWork, CompareDocument, CompareFound, CompareParameters,
     DifferenceDocument, GridDocument, GridName, GridWork,
 };
-pub use stickslip_cycles::{End as EndName, Parameter as OverName, SpecialKind as SpecialName};
-pub use stickslip_measurement::{
-    Across as AcrossDocument, Fitted as FittedDocument, Retrace as RetraceDocument,
-    RippleProfile as RippleProfileDocument, Scan as ScanName,
-};
-pub use stickslip_outcome::{Creeping as CreepDocument, Drift as DriftDocument};
-pub use stickslip_raster::{
-    LineRegime as LineRegimeName, Path as PathName, Pattern as PatternDocument,
-    Regime as RasterRegimeName,
-};
-pub use stickslip_stability::{
-    BoundaryBranch as BranchDocument, Criticality as CriticalityName, OnsetKind as OnsetKindName,
-    RasterCertificate as RasterCertificateDocument, RasterKind as RasterKindName,
-};
-pub use stickslip_tip::friction::{
-    Hold as HoldDocument, Loop as LoopDocument, Peak as PeakDocument,
-};
-pub use stickslip_tip::{
-    Gaussian as GaussianDocument, MemoryChoice as MemoryName, Noise as NoiseParameters,
-    Pulse as PulseParameters, Work as RasterWork,
-};
-pub use stickslip_units::{Physical as PhysicalDocument, Scales as ScalesDocument};
-pub use stickslip_verify::Difference as LargestDifferenceDocument;
+pub use stickslip_cycles::{End as EndName, Parameter as OverName, SpecialKind};
+pub use stickslip_raster::{Path as PathName, Pattern, Regime as RasterRegimeName};
+pub use stickslip_stability::{BoundaryBranch, Criticality, OnsetKind, RasterKind};
+pub use stickslip_tip::friction::{Hold, Loop};
+pub use stickslip_tip::{Gaussian, MemoryChoice, Noise, Pulse};
+pub use stickslip_verify::Difference;
 
 pub use documents::figure::{
     ArrowName, CellsDocument, ColourName, ColoursName, CurveDocument, FigureDocument,

@@ -4,7 +4,7 @@ use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use serde::Serialize;
 use stickslip::{
-    Ask, ComplexDocument, Context, CriticalDocument, Indentation, OnsetKindName, SnakingDocument,
+    Ask, ComplexDocument, Context, CriticalDocument, Indentation, OnsetKind, SnakingDocument,
     Stability, SteadyState, Tip,
 };
 
@@ -41,7 +41,7 @@ pub(crate) fn linear(parameters: &Parameters) -> Result<Linear, Refusal> {
     let kind = found.critical.as_ref().and_then(|critical| critical.kind);
     Ok(Linear {
         trapping: found.trapping.alpha,
-        stable: (kind != Some(OnsetKindName::NonSmooth)).then_some(found.stable),
+        stable: (kind != Some(OnsetKind::NonSmooth)).then_some(found.stable),
         roots: found.roots.clone(),
         steady: SteadyState::of(&parameters.model()?),
         snaking: found.snaking.flatten(),

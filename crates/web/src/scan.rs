@@ -5,7 +5,7 @@ use crate::parameters::Parameters;
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use stickslip::{
-    Indentation, MemoryName, PathName, PatternDocument, Raster, RasterRegimeName, Sampling, Tip,
+    Indentation, MemoryChoice, PathName, Pattern, Raster, RasterRegimeName, Sampling, Tip,
 };
 use stickslip_raster::{Plan, Scanned, Scanning, pattern};
 
@@ -48,7 +48,7 @@ impl Scan {
 #[derive(Debug, Serialize)]
 pub(crate) struct Found {
     regime: RasterRegimeName,
-    pattern: Option<PatternDocument>,
+    pattern: Option<Pattern>,
     remarks: Vec<String>,
 }
 
@@ -69,7 +69,7 @@ fn plan(parameters: &Parameters, scan: &Scan) -> Result<Plan, Refusal> {
         area: None,
         pulses: vec![],
         tolerance: TOLERANCE,
-        memory: MemoryName::Auto,
+        memory: MemoryChoice::Auto,
         stiffness_across: parameters.stiffness_across,
         kick_across: parameters.pushed_across(),
         sampling: Sampling::default(),

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::input::{GaussianEntry, TipFile, read_tip};
 use crate::session::Session;
 use std::path::Path;
-use stickslip::{GaussianDocument, NamedTip, judge_details};
+use stickslip::{NamedTip, judge_details};
 use stickslip_measurement::{Verdict, judge};
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_tip::{Footprint, Gaussian, Gaussian2d, TipFunction};
@@ -20,7 +20,7 @@ pub(crate) fn tip(session: &Session, arguments: &TipArguments) -> Result<TipFunc
 pub(crate) fn tip_and_draws(
     session: &Session,
     arguments: &TipArguments,
-) -> Result<(TipFunction, Vec<Vec<GaussianDocument>>), Failure> {
+) -> Result<(TipFunction, Vec<Vec<Gaussian>>), Failure> {
     let TipArguments { tip, beta, width, tip_file, retrace } = arguments;
     let unused = |option: String, with: &str| {
         Failure::input(option, format!("has no meaning with {with}: leave one of them out"))

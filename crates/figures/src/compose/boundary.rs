@@ -6,7 +6,7 @@ use super::tip::law_name;
 use crate::axis::extremes;
 use crate::error::FigureError;
 use stickslip::{
-    BoundaryDocument, BranchDocument, CurveDocument, FigureDocument, ModelParameters, NoteDocument,
+    BoundaryBranch, BoundaryDocument, CurveDocument, FigureDocument, ModelParameters, NoteDocument,
     PanelDocument, ScaleName, SpacingName, StyleName,
 };
 
@@ -29,11 +29,11 @@ impl Drawn for BoundaryDocument {
             CurveDocument::new(StyleName::Boundary, "boundary, α = α_c(r)", &self.r, &self.alpha);
         curve.smooth = self.r.len() < 400;
         panel.curves.push(curve);
-        let turns = |b: &BranchDocument| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
+        let turns = |b: &BoundaryBranch| !b.r.is_sorted() && !b.r.iter().rev().is_sorted();
         if self.branches.len() > 1 || self.branches.iter().any(turns) {
             for (i, branch) in self.branches.iter().enumerate() {
                 let name = if i == 0 { "where pairs of roots cross" } else { "" };
-                let BranchDocument { r, alpha, .. } = branch;
+                let BoundaryBranch { r, alpha, .. } = branch;
                 panel.curves.push(CurveDocument::new(StyleName::Dotted, name, r, alpha));
             }
         }

@@ -8,7 +8,7 @@ use crate::error::FigureError;
 use crate::number::seven_digits;
 use stickslip::{
     ColourName, ContinueDocument, CurveDocument, CycleBranch, FigureDocument, OverName,
-    PanelDocument, ScaleName, SpecialName, StyleName,
+    PanelDocument, ScaleName, SpecialKind, StyleName,
 };
 
 /// Branches that span less than this fraction of the axis have no name.
@@ -70,7 +70,7 @@ struct Branches {
     pieces: Vec<Piece>,
     short: Vec<bool>,
     /// Special points, by kind.
-    special: Vec<(SpecialName, Vec<Point>)>,
+    special: Vec<(SpecialKind, Vec<Point>)>,
 }
 
 impl Branches {
@@ -90,9 +90,9 @@ impl Branches {
             let joints: Vec<Point> = special_points(Some(i)).map(|(_, point)| point).collect();
             pieces.extend(cut(i, &points, &branch.stable, &joints));
         }
-        let mut special: Vec<(SpecialName, Vec<Point>)> = vec![];
+        let mut special: Vec<(SpecialKind, Vec<Point>)> = vec![];
         // A doubled branch ends where the mark of the doubling is already.
-        for (kind, point) in special_points(None).filter(|s| s.0 != SpecialName::PeriodHalving) {
+        for (kind, point) in special_points(None).filter(|s| s.0 != SpecialKind::PeriodHalving) {
             match special.iter_mut().find(|(known, _)| *known == kind) {
                 Some((_, points)) => points.push(point),
                 None => special.push((kind, vec![point])),
@@ -239,22 +239,22 @@ fn short(branches: &[CycleBranch], parameter: impl Fn(f64, f64) -> f64) -> Vec<b
 }
 
 /// The mark of a special point: an outline, so that the branches remain visible.
-fn mark(kind: SpecialName) -> StyleName {
+fn mark(kind: SpecialKind) -> StyleName {
     match kind {
-        SpecialName::Hopf => StyleName::OpenDots,
-        SpecialName::Fold => StyleName::OpenSquares,
-        SpecialName::PeriodDoubling | SpecialName::PeriodHalving => StyleName::OpenTriangles,
-        SpecialName::BranchPoint | SpecialName::Torus => StyleName::OpenDiamonds,
+        SpecialKind::Hopf => StyleName::OpenDots,
+        SpecialKind::Fold => StyleName::OpenSquares,
+        SpecialKind::PeriodDoubling | SpecialKind::PeriodHalving => StyleName::OpenTriangles,
+        SpecialKind::BranchPoint | SpecialKind::Torus => StyleName::OpenDiamonds,
     }
 }
 
-fn name(kind: SpecialName) -> &'static str {
+fn name(kind: SpecialKind) -> &'static str {
     match kind {
-        SpecialName::Hopf => "Hopf",
-        SpecialName::Fold => "fold",
-        SpecialName::PeriodDoubling => "period doubling",
-        SpecialName::PeriodHalving => "period halving",
-        SpecialName::BranchPoint => "branch point",
-        SpecialName::Torus => "torus",
+        SpecialKind::Hopf => "Hopf",
+        SpecialKind::Fold => "fold",
+        SpecialKind::PeriodDoubling => "period doubling",
+        SpecialKind::PeriodHalving => "period halving",
+        SpecialKind::BranchPoint => "branch point",
+        SpecialKind::Torus => "torus",
     }
 }

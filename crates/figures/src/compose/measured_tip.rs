@@ -5,8 +5,8 @@ use super::drawn::{Drawn, View};
 use crate::error::FigureError;
 use crate::number::{plus_minus, short};
 use stickslip::{
-    ColourName, CurveDocument, EstimateDocument, FigureDocument, GaussianDocument,
-    MeasuredTipDocument, ModelParameters, PanelDocument, StyleName, TipDocument,
+    ColourName, CurveDocument, EstimateDocument, FigureDocument, Gaussian, MeasuredTipDocument,
+    ModelParameters, PanelDocument, StyleName, TipDocument,
 };
 
 /// Number of points of the fitted curve.
@@ -60,7 +60,7 @@ impl Drawn for MeasuredTipDocument {
 /// Height of background and footprint at a position.
 fn height(tip: &MeasuredTipDocument, x: f64) -> f64 {
     let y = (x - tip.centre) / tip.sigma.value;
-    let term = |g: &GaussianDocument| {
+    let term = |g: &Gaussian| {
         let z = (y - g.center) / g.width;
         g.amplitude * (-0.5 * z * z).exp()
     };

@@ -6,8 +6,8 @@ use super::tip::{model_name, stiffness_name, terms_name, tip_name};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
-    ColourName, CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument,
-    RasterKindName, RasterStabilityDocument, StyleName, ThresholdColumns,
+    ColourName, CurveDocument, FigureDocument, PanelDocument, RasterBoundaryDocument, RasterKind,
+    RasterStabilityDocument, StyleName, ThresholdColumns,
 };
 
 /// Space above the lowest thresholds, as a factor.
@@ -78,17 +78,17 @@ impl Drawn for RasterBoundaryDocument {
 }
 
 /// Kinds of waves and their colours.
-const KINDS: [(RasterKindName, ColourName); 3] = [
-    (RasterKindName::Ripples, ColourName::Blue),
-    (RasterKindName::Bunching, ColourName::Vermillion),
-    (RasterKindName::Snaking, ColourName::Green),
+const KINDS: [(RasterKind, ColourName); 3] = [
+    (RasterKind::Ripples, ColourName::Blue),
+    (RasterKind::Bunching, ColourName::Vermillion),
+    (RasterKind::Snaking, ColourName::Green),
 ];
 
 fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
     let ThresholdColumns { ripples, bunching, snaking, .. } = columns;
     let curves = KINDS.iter().zip([ripples, bunching, snaking]);
     let drawn = curves.filter(|(_, alpha)| alpha.iter().any(Option::is_some));
-    let curve = |((kind, colour), alpha): (&(RasterKindName, ColourName), &Vec<Option<f64>>)| {
+    let curve = |((kind, colour), alpha): (&(RasterKind, ColourName), &Vec<Option<f64>>)| {
         CurveDocument::with_gaps(StyleName::Line, kind.as_str(), pitch, alpha.clone())
             .coloured(*colour)
     };
@@ -96,13 +96,13 @@ fn by_kind(pitch: &[f64], columns: &ThresholdColumns) -> Vec<CurveDocument> {
 }
 
 /// Angles of the critical waves, interrupted where their kind changes.
-fn angles(pitch: &[f64], angle: &[f64], first: &[RasterKindName]) -> Vec<CurveDocument> {
-    let of = |kind: RasterKindName| {
+fn angles(pitch: &[f64], angle: &[f64], first: &[RasterKind]) -> Vec<CurveDocument> {
+    let of = |kind: RasterKind| {
         let rows = angle.iter().zip(first);
         rows.map(|(angle, first)| (*first == kind).then_some(*angle)).collect()
     };
     let kinds = KINDS.iter().filter(|(kind, _)| first.contains(kind));
-    let curve = |(kind, colour): &(RasterKindName, ColourName)| {
+    let curve = |(kind, colour): &(RasterKind, ColourName)| {
         CurveDocument::with_gaps(StyleName::Line, "", pitch, of(*kind)).coloured(*colour)
     };
     kinds.map(curve).collect()

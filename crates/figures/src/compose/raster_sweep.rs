@@ -7,8 +7,8 @@ use crate::cells::{ascending, edges, sorted};
 use crate::error::FigureError;
 use crate::number::short;
 use stickslip::{
-    ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument, PathName,
-    PatternDocument, RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
+    ColourName, CurveDocument, FigureDocument, NoteDocument, PanelDocument, PathName, Pattern,
+    RasterRegimeName, RasterSweepDocument, RasterSweepPoint, StyleName,
 };
 
 /// Regimes with their colours, in the order of the legend.
@@ -122,7 +122,7 @@ fn threshold(document: &RasterSweepDocument) -> Option<CurveDocument> {
 
 /// Wavelength, angle and coherence of ripples against the parameter that varies.
 fn row(document: &RasterSweepDocument, label: &str, values: &[f64]) -> Vec<PanelDocument> {
-    type Measure = fn(&PatternDocument) -> Option<f64>;
+    type Measure = fn(&Pattern) -> Option<f64>;
     let measures: [(&str, Measure); 3] = [
         ("wavelength (σ)", |p| p.wavelength),
         ("crests to scan axis (°)", |p| p.crest_angle),

@@ -17,9 +17,7 @@ use crate::number::short;
 #[cfg(feature = "animation")]
 use crate::scene::{Scene, Shot};
 use ground::{Ground, MARGIN};
-use stickslip::{
-    CurveDocument, FigureDocument, PanelDocument, PulseParameters, Run, RunDocument, StyleName,
-};
+use stickslip::{CurveDocument, FigureDocument, PanelDocument, Pulse, Run, RunDocument, StyleName};
 use stickslip_surface::Surface;
 use stickslip_tip::sorting::sort_numbers;
 use stickslip_tip::{Scenario, Step, Support, Trajectory};
@@ -225,9 +223,7 @@ fn force(run: &Run, (from, to): (f64, f64)) -> Option<PanelDocument> {
         return None;
     }
     let force = run.scenario().ok()?.force;
-    let near = |p: &PulseParameters| {
-        evenly([p.time - 5.0 * p.width, p.time + 5.0 * p.width], PULSE_POINTS)
-    };
+    let near = |p: &Pulse| evenly([p.time - 5.0 * p.width, p.time + 5.0 * p.width], PULSE_POINTS);
     let table = run.force.iter().flat_map(|table| table.t.iter().copied());
     let pulses = run.pulses.iter().flat_map(near);
     let mut t: Vec<f64> = evenly([from, to], FORCE_POINTS).chain(pulses).chain(table).collect();

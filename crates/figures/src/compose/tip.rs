@@ -3,8 +3,7 @@
 use super::quantity::Quantity;
 use crate::number::{seven_digits, short};
 use stickslip::{
-    GaussianDocument, Law, ModelParameters, PathName, Raster, RunDocument, TipDocument,
-    to_its_digits,
+    Gaussian, Law, ModelParameters, PathName, Raster, RunDocument, TipDocument, to_its_digits,
 };
 use stickslip_tip::sorting::sort_by_number;
 
@@ -89,7 +88,7 @@ pub(crate) fn terms_name(law: &Law) -> String {
     there.map(said).collect()
 }
 
-fn gaussians_name(gaussians: &[GaussianDocument]) -> String {
+fn gaussians_name(gaussians: &[Gaussian]) -> String {
     if let Some((beta, width)) = triple(gaussians) {
         return with_width(&format!("β = {}", short(beta)), width);
     }
@@ -119,7 +118,7 @@ fn is(a: f64, b: f64) -> bool {
 }
 
 /// β and the width of a triple Gaussian (48), exp(-x²/2w²) - β exp(-(x ± 2w)²/2w²)…; `None` for any other sum.
-fn triple(gaussians: &[GaussianDocument]) -> Option<(f64, f64)> {
+fn triple(gaussians: &[Gaussian]) -> Option<(f64, f64)> {
     let [a, b, c] = gaussians else { return None };
     let mut all = [a, b, c];
     sort_by_number(&mut all, |item| item.center);

@@ -8,7 +8,7 @@ use crate::files::distinct::Named;
 use crate::session::Session;
 use std::path::Path;
 use stickslip::{
-    Ask, ForceTable, KnownScales, NoiseParameters, Profile, Run, RunScenario, SupportPathParameters,
+    Ask, ForceTable, KnownScales, Noise, Profile, Run, RunScenario, SupportPathParameters,
 };
 use stickslip_tip::Pulse;
 
@@ -54,9 +54,9 @@ fn with_files(
         run.pulses = parse_pulses(&arguments.pulse)?;
     }
     if let Some(amplitude) = arguments.noise {
-        let spacing = arguments.noise_spacing.unwrap_or(NoiseParameters::SPACING);
-        let seed = arguments.seed.unwrap_or(NoiseParameters::SEED);
-        run.noise = Some(NoiseParameters { amplitude, spacing, seed });
+        let spacing = arguments.noise_spacing.unwrap_or(Noise::SPACING);
+        let seed = arguments.seed.unwrap_or(Noise::SEED);
+        run.noise = Some(Noise { amplitude, spacing, seed });
     } else if let Some(name) = arguments.of_noise() {
         return Err(Failure::input(name, "has no effect without noise: give --noise too"));
     }

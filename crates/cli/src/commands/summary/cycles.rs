@@ -4,7 +4,7 @@ use super::{Summary, again, amplitude_of_u, digits};
 use crate::commands::job::Product;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
-    SpecialName, StatisticsDocument, SweepDocument, SweepPoint, to_its_digits,
+    SpecialKind, StatisticsDocument, SweepDocument, SweepPoint, to_its_digits,
 };
 
 impl Product for CycleDocument {
@@ -85,14 +85,14 @@ fn why(end: EndName) -> &'static str {
     }
 }
 
-fn name(kind: SpecialName) -> &'static str {
+fn name(kind: SpecialKind) -> &'static str {
     match kind {
-        SpecialName::Hopf => "onset (Hopf)",
-        SpecialName::Fold => "fold",
-        SpecialName::PeriodDoubling => "period doubling",
-        SpecialName::PeriodHalving => "period halving",
-        SpecialName::BranchPoint => "branch point",
-        SpecialName::Torus => "torus",
+        SpecialKind::Hopf => "onset (Hopf)",
+        SpecialKind::Fold => "fold",
+        SpecialKind::PeriodDoubling => "period doubling",
+        SpecialKind::PeriodHalving => "period halving",
+        SpecialKind::BranchPoint => "branch point",
+        SpecialKind::Torus => "torus",
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Summary, again, digits, extremes};
 use crate::commands::job::Product;
 use stickslip::{
-    BoundaryDocument, CertificateDocument, ComplexDocument, CriticalityName, LimitColumns,
+    BoundaryDocument, CertificateDocument, ComplexDocument, Criticality, LimitColumns,
     ResponseDocument, SnakingDocument, StabilityDocument, WalkDocument, WalkingDocument,
     to_its_digits,
 };
@@ -97,10 +97,10 @@ fn across(summary: Summary, snaking: Option<&SnakingDocument>) -> Summary {
         .row("wavelength of snaking", format!("{} σ", digits(at.wavelength, CRITICAL)))
 }
 
-fn criticality(name: CriticalityName) -> &'static str {
+fn criticality(name: Criticality) -> &'static str {
     match name {
-        CriticalityName::Supercritical => "supercritical: a small stable oscillation above",
-        CriticalityName::Subcritical => "subcritical: an unstable oscillation below",
+        Criticality::Supercritical => "supercritical: a small stable oscillation above",
+        Criticality::Subcritical => "subcritical: an unstable oscillation below",
     }
 }
 
@@ -117,7 +117,7 @@ impl Product for BoundaryDocument {
         let summary =
             Summary::new(format!("αc from {low} to {high} at {points} r from {first} to {last}"));
         let sub = self.onset.criticality.iter();
-        let sub = sub.filter(|c| **c == Some(CriticalityName::Subcritical)).count();
+        let sub = sub.filter(|c| **c == Some(Criticality::Subcritical)).count();
         let summary = summary
             .row("r", format!("{points} from {first} to {last}"))
             .row("αc", format!("from {low} to {high}"));

@@ -4,10 +4,9 @@ use super::others::differences;
 use super::{Summary, again, digits, ends, extremes, times};
 use crate::commands::job::Product;
 use stickslip::{
-    HeightMap, LoadMapDocument, PathName, PatternDocument, RasterBoundaryDocument,
-    RasterCompareDocument, RasterCompareFound, RasterCriticalDocument, RasterDocument,
-    RasterKindName, RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument,
-    SnakingBoundaryDocument,
+    HeightMap, LoadMapDocument, PathName, Pattern, RasterBoundaryDocument, RasterCompareDocument,
+    RasterCompareFound, RasterCriticalDocument, RasterDocument, RasterKind,
+    RasterStabilityDocument, RasterSurfaceDocument, RasterSweepDocument, SnakingBoundaryDocument,
 };
 
 impl Product for RasterDocument {
@@ -15,11 +14,11 @@ impl Product for RasterDocument {
         let (count, regime) = (self.lines.len(), self.regime);
         let of = |value: f64, unit: &str| format!("{} {unit}", digits(value, 4));
         let pattern = self.pattern.as_ref();
-        let [wavelength, angle] = pattern.map(PatternDocument::in_words).unwrap_or_default();
+        let [wavelength, angle] = pattern.map(Pattern::in_words).unwrap_or_default();
         let mut headline = format!("{count} lines: {regime}");
         headline.extend(wavelength.iter().map(|words| format!(", wavelength {words}")));
         headline.extend(angle.iter().map(|words| format!(", crests at {words} to the scan axis")));
-        let coherence = |p: &PatternDocument| {
+        let coherence = |p: &Pattern| {
             let error = p.coherence_error.map(|error| format!(" ± {}", digits(error, 2)));
             digits(p.coherence, 4) + &error.unwrap_or_default()
         };
@@ -75,7 +74,7 @@ impl Product for RasterStabilityDocument {
         let summary = others.fold(summary, |summary, at| {
             let crests = angle(at).map(|angle| format!(", crests at {angle}")).unwrap_or_default();
             summary.row(
-                &format!("{} above", at.kind.map_or("", RasterKindName::as_str)),
+                &format!("{} above", at.kind.map_or("", RasterKind::as_str)),
                 format!("α = {}, q = {} 1/σ{crests}", number(at.alpha), digits(at.q, 7)),
             )
         });
@@ -94,10 +93,10 @@ fn across_crests(at: &RasterCriticalDocument) -> Option<String> {
 /// Description of the motion that grows above a threshold.
 fn grows(at: &RasterCriticalDocument) -> &'static str {
     match at.kind {
-        Some(RasterKindName::Bunching) if at.wavelength_x.is_none() => "lines bunch in pairs",
-        Some(RasterKindName::Bunching) => "lines bunch",
-        Some(RasterKindName::Snaking) => "lines snake",
-        Some(RasterKindName::Ripples) | None => "ripples grow from line to line",
+        Some(RasterKind::Bunching) if at.wavelength_x.is_none() => "lines bunch in pairs",
+        Some(RasterKind::Bunching) => "lines bunch",
+        Some(RasterKind::Snaking) => "lines snake",
+        Some(RasterKind::Ripples) | None => "ripples grow from line to line",
     }
 }
 

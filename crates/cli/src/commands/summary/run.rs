@@ -5,9 +5,9 @@ use crate::commands::job::Product;
 use crate::commands::verify::claims::described;
 use crate::commands::verify::kept;
 use stickslip::{
-    CircleDocument, HoldDocument, LargestDifferenceDocument, Law, LoopDocument, ModelParameters,
-    OrbitDocument, OscillationDocument, RegimeName, RunDocument, RunEnd, VerifyDocument,
-    WalkerDocument, WalkerRegime, to_its_digits,
+    CircleDocument, Difference, Hold, Law, Loop, ModelParameters, OrbitDocument,
+    OscillationDocument, RegimeName, RunDocument, RunEnd, VerifyDocument, WalkerDocument,
+    WalkerRegime, to_its_digits,
 };
 
 /// The summary of a run with the result `end`.
@@ -22,11 +22,11 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summa
         Some(found) => oscillation(summary, found, &document.parameters.law),
         None => summary,
     };
-    let worked = |loops: &Vec<LoopDocument>| {
+    let worked = |loops: &Vec<Loop>| {
         loops.last().map(|l| format!("{} kσ², t = {} to {}", digits(l.work, 7), l.from, l.to))
     };
     let summary = summary.maybe("work of a loop", document.loops.as_ref().and_then(worked));
-    let peak = |holds: &Vec<HoldDocument>| holds.last().map(peak_after);
+    let peak = |holds: &Vec<Hold>| holds.last().map(peak_after);
     let summary = summary.maybe("peak after the hold", document.holds.as_ref().and_then(peak));
     let velocity = end.drifting.as_ref().map(|d| to_its_digits(d.velocity, d.velocity_error));
     let (creep, steady) = (end.creep.as_ref(), document.steady_state.as_ref());
@@ -44,7 +44,7 @@ pub(in crate::commands) fn of_run(document: &RunDocument, end: &RunEnd) -> Summa
     summary.next(again(&format!("--until {}", digits(end.end + longer, 2))))
 }
 
-fn peak_after(hold: &HoldDocument) -> String {
+fn peak_after(hold: &Hold) -> String {
     let rest = format!("hold from t = {} to {}", hold.from, hold.to);
     match &hold.peak {
         Some(peak) => format!("{} kσ at t = {}, {rest}", digits(peak.lag, 7), digits(peak.t, 7)),
@@ -169,8 +169,8 @@ impl Product for VerifyDocument {
     }
 }
 
-fn difference(found: &LargestDifferenceDocument, at: &str) -> String {
-    let LargestDifferenceDocument { largest, at: place, allowed } = found;
+fn difference(found: &Difference, at: &str) -> String {
+    let Difference { largest, at: place, allowed } = found;
     format!("{largest:.1e} at {at} = {}, {allowed:.1e} allowed", digits(*place, 7))
 }
 

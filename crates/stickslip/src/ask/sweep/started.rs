@@ -1,7 +1,7 @@
 //! A point that is a run: the result of `stickslip run` with the same options.
 
 use crate::{
-    Ask, Context, Failure, Indentation, NoiseParameters, OscillationDocument, Run, SweepPoint,
+    Ask, Context, Failure, Indentation, Noise, OscillationDocument, Run, SweepPoint,
     SweepRunParameters, Tip,
 };
 use std::collections::VecDeque;
@@ -16,11 +16,11 @@ pub(super) fn scenario(
     run: &SweepRunParameters,
     tolerance: f64,
 ) -> Result<Scenario, Failure> {
-    let noise = run.noise.map(|amplitude| NoiseParameters {
+    let noise = run.noise.map(|amplitude| Noise {
         amplitude,
-        spacing: run.noise_spacing.unwrap_or(NoiseParameters::SPACING),
+        spacing: run.noise_spacing.unwrap_or(Noise::SPACING),
         // Judged to be whole.
-        seed: run.seed.map_or(NoiseParameters::SEED, |seed| seed as u64),
+        seed: run.seed.map_or(Noise::SEED, |seed| seed as u64),
     });
     let question = Run {
         law: (*model.wider()).into(),

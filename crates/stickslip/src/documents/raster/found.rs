@@ -2,7 +2,7 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::schema::JsonSchema;
-use crate::{PatternDocument, RasterHistory, RasterLine, RasterSamples};
+use crate::{Pattern, RasterHistory, RasterLine, RasterSamples};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Regime, Written, pattern, volume};
@@ -18,7 +18,7 @@ pub struct RasterFound {
     /// The regime of the surface.
     pub regime: Regime,
     /// The ripple; null where there is none.
-    pub pattern: Option<PatternDocument>,
+    pub pattern: Option<Pattern>,
     /// ∫∫ u dx dy, in kσ⁴/a; in the basic model -α (X/r) ∫∫f for each line.
     pub volume: f64,
     /// The dense history of all lines, from which `surface` is computed.

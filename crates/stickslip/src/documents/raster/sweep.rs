@@ -2,7 +2,7 @@
 
 use crate::documents::table::{Column, Named, Tabular};
 use crate::schema::JsonSchema;
-use crate::{PatternDocument, RasterRegimeName};
+use crate::{Pattern, RasterRegimeName};
 use serde::{Deserialize, Serialize};
 use stickslip_raster::Written;
 
@@ -35,7 +35,7 @@ pub struct RasterSweepPoint {
     /// The regime of the surface; null if `error` is given.
     pub regime: Option<RasterRegimeName>,
     /// The ripple; null where there is none.
-    pub pattern: Option<PatternDocument>,
+    pub pattern: Option<Pattern>,
     /// Number of lines on which the tip did not leave the pit at one end.
     pub stuck_lines: Option<usize>,
     /// Warnings: a part of the pattern is unknown, or may differ after more lines.
@@ -69,7 +69,7 @@ impl Tabular for RasterSweepFound {
     fn columns(&self) -> Vec<Named<'_>> {
         let of =
             |value: fn(&RasterSweepPoint) -> Option<f64>| self.points.iter().map(value).collect();
-        let pattern = |value: fn(&PatternDocument) -> Option<f64>| {
+        let pattern = |value: fn(&Pattern) -> Option<f64>| {
             self.points.iter().map(|point| point.pattern.as_ref().and_then(value)).collect()
         };
         let regime = |point: &RasterSweepPoint| {

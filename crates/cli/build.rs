@@ -13,7 +13,7 @@ fn main() {
         // With the system's libraries inside: to look for three of them, and to connect them, takes half a millisecond,
         // as long as all the rest of the start. (`-C target-feature=+crt-static` does it too, but no manifest can
         // contain it, and where the static libraries are missing the program would not link at all.)
-        for argument in static_libraries().unwrap_or_default() {
+        for argument in static_libraries().into_iter().flatten() {
             println!("cargo:rustc-link-arg-bins={argument}");
         }
     }

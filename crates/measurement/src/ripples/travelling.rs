@@ -38,6 +38,10 @@ const ITERATIONS: usize = 30;
 const ENOUGH: f64 = 1e-11;
 /// Distance, in widths across, at which earlier lines are negligible: e^{-32} = 1e-14.
 const WIDTHS: f64 = 8.0;
+/// Step in q for derivatives of the transforms of layers.
+const STEP: f64 = 1e-6;
+/// Number of nodes whose powers are computed side by side: each power is computed from the one before.
+const ABREAST: usize = 8;
 /// Panels of the Gauss-Legendre rule per unit length, and its positive nodes and weights (order 8).
 const PANELS: f64 = 2.0;
 const NODES: [f64; 4] = [
@@ -131,19 +135,11 @@ impl Lines {
         Self { stiffness, ..self.clone() }
     }
 
-    /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, divided by α.
-    fn responses(&self, q: f64, kappa: f64, count: usize) -> Vec<Complex64> {
-        let mut own = vec![Complex64::new(0.0, 0.0); count];
-        for (x, weight) in &self.rule {
-            let turn = Complex64::from_polar(1.0, -q * x);
-            let mut power = Complex64::new(*weight, 0.0);
-            for sum in &mut own {
-                power *= turn;
-                *sum += power;
-            }
-        }
+    /// Responses of the slope at the tip to the harmonics 1, 2, …, `count`, divided by α, each with its derivative by q.
+    fn responses(&self, q: f64, kappa: f64, count: usize) -> Vec<(Complex64, Complex64)> {
+        let mut responses = self.own_responses(q, count);
         for layer in &self.layers {
-            let mut earlier = vec![Complex64::new(0.0, 0.0); count];
+            let mut earlier = vec![Complex64::ZERO; count];
             for j in 1..=self.earlier {
                 let away = f64::from(j) * self.pitch;
                 let turn = Complex64::from_polar(1.0, -kappa * away);
@@ -153,12 +149,49 @@ impl Lines {
                     *sum += power;
                 }
             }
-            for ((own, earlier), k) in own.iter_mut().zip(earlier).zip(1_u32..) {
-                let k = f64::from(k) * q;
-                *own += Complex64::new(0.0, k * layer.along.fourier(k)) * earlier;
+            for (((response, slope), earlier), k) in responses.iter_mut().zip(earlier).zip(1_u32..)
+            {
+                let groove = |q: f64| {
+                    let k = f64::from(k) * q;
+                    Complex64::new(0.0, k * layer.along.fourier(k)) * earlier
+                };
+                let here = groove(q);
+                *response += here;
+                *slope += (groove(q + STEP) - here) / STEP;
             }
         }
-        own
+        responses
+    }
+
+    /// The part of the responses that is due to the groove of the line itself.
+    fn own_responses(&self, q: f64, count: usize) -> Vec<(Complex64, Complex64)> {
+        // Real and imaginary parts of the sums over f' e^{-ikqξ} and over ξ f' e^{-ikqξ}.
+        let mut sums = vec![[[0.0; ABREAST]; 4]; count];
+        for nodes in self.rule.chunks(ABREAST) {
+            let [mut x, mut cosine, mut sine, mut re, mut im] = [[0.0; ABREAST]; 5];
+            for (i, (node, weight)) in nodes.iter().enumerate() {
+                (sine[i], cosine[i]) = (-q * node).sin_cos();
+                (x[i], re[i]) = (*node, *weight);
+            }
+            for [sum_re, sum_im, moment_re, moment_im] in &mut sums {
+                for i in 0..ABREAST {
+                    (re[i], im[i]) =
+                        (re[i] * cosine[i] - im[i] * sine[i], re[i] * sine[i] + im[i] * cosine[i]);
+                    sum_re[i] += re[i];
+                    sum_im[i] += im[i];
+                    moment_re[i] += x[i] * re[i];
+                    moment_im[i] += x[i] * im[i];
+                }
+            }
+        }
+        let all = |parts: &[f64; ABREAST]| parts.iter().sum::<f64>();
+        let response = |(parts, k): (&[[f64; ABREAST]; 4], u32)| {
+            let [re, im, moment_re, moment_im] = parts.each_ref().map(all);
+            // d/dq e^{-ikqξ} = -ikξ e^{-ikqξ}.
+            let slope = Complex64::new(moment_re, moment_im) * Complex64::new(0.0, -f64::from(k));
+            (Complex64::new(re, im), slope)
+        };
+        sums.iter().zip(1..).map(response).collect()
     }
 
     /// α and r of the neutral wave (q, κ) by linear theory; `None` if there is none with α, r > 0.
@@ -171,7 +204,7 @@ impl Lines {
 
     pub(super) fn neutral_rigid(&self, q: f64, kappa: f64) -> Option<(f64, f64)> {
         // 0 = 1 + irq + iq (α/r) r W with W the response: -r² c_1 = α c_1 W + r c_1/(iq).
-        let w = self.responses(q, kappa, 1)[0] * Complex64::new(0.0, -q);
+        let w = self.responses(q, kappa, 1)[0].0 * Complex64::new(0.0, -q);
         // 1 + irq = (α/r) w.
         let ratio = 1.0 / w.re;
         let r = ratio * w.im / q;
@@ -237,9 +270,8 @@ impl Lines {
         at: &Unknowns,
     ) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let count = 2 * HARMONICS + 1;
-        let step = 1e-6;
-        let here = self.responses(at.q, kappa, HARMONICS);
-        let beside = self.responses(at.q + step, kappa, HARMONICS);
+        let (here, slopes): (Vec<_>, Vec<_>) =
+            self.responses(at.q, kappa, HARMONICS).into_iter().unzip();
         let position = |k: usize, q: f64| Complex64::new(0.0, -r / (k as f64 * q));
         let own = -self.tip.value(0.0) / r;
         let slowness: Vec<f64> = (0..POINTS)
@@ -251,8 +283,11 @@ impl Lines {
         if !slowness.iter().all(|s| *s > 0.0) {
             return None;
         }
-        let inverse = self.harmonics(&slowness.iter().map(|s| 1.0 / s).collect::<Vec<f64>>());
-        let square = self.harmonics(&slowness.iter().map(|s| -1.0 / (s * s)).collect::<Vec<f64>>());
+        let of = |function: fn(f64) -> f64| -> Vec<f64> {
+            slowness.iter().map(|s| function(*s)).collect()
+        };
+        let inverse = self.harmonics(&of(|s| 1.0 / s), HARMONICS);
+        let square = self.harmonics(&of(|s| -1.0 / (s * s)), 2 * HARMONICS);
         let mut residual = vec![inverse[0].re - at.alpha * own - r * at.mean];
         for k in 1..=HARMONICS {
             let force = at.c[k - 1] * (at.alpha * here[k - 1] + position(k, at.q));
@@ -272,10 +307,7 @@ impl Lines {
             std::iter::once(Complex64::new(mean, 0.0)).chain((1..=HARMONICS).map(of)).collect()
         };
         fill(0, &by(&|k| -at.c[k - 1] * here[k - 1], -own));
-        let moved = |k: usize| {
-            let response = (beside[k - 1] - here[k - 1]) * (at.alpha / step);
-            -at.c[k - 1] * (response - position(k, at.q) / at.q)
-        };
+        let moved = |k: usize| -at.c[k - 1] * (at.alpha * slopes[k - 1] - position(k, at.q) / at.q);
         fill(1, &by(&moved, 0.0));
         fill(2, &by(&|_| zero, -r));
         // The change of 1/θ' by c_k is -θ'^-2 times a wave: shifted harmonics of the first factor.
@@ -301,13 +333,13 @@ impl Lines {
         self.turns[i % POINTS]
     }
 
-    /// Complex amplitudes 0 to `2 HARMONICS` of values over a wavelength.
-    fn harmonics(&self, values: &[f64]) -> Vec<Complex64> {
+    /// Complex amplitudes 0 to `last` of values over a wavelength.
+    fn harmonics(&self, values: &[f64], last: usize) -> Vec<Complex64> {
         let of = |k: usize| {
             let turned = values.iter().enumerate().map(|(i, v)| self.wave(k * i).conj() * *v);
             turned.sum::<Complex64>() / POINTS as f64
         };
-        (0..=2 * HARMONICS).map(of).collect()
+        (0..=last).map(of).collect()
     }
 
     fn found(&self, at: Unknowns, kappa: f64) -> Option<Travelling> {
@@ -410,6 +442,18 @@ mod tests {
             }
         }
         assert!((least - 0.805_167).abs() < 2e-6, "{least}");
+    }
+
+    /// Central differences have an error of the square of their step.
+    #[test]
+    fn slopes_of_the_responses_are_their_derivatives() {
+        let (lines, q, kappa, step) = (lines(1.0), 0.83, -0.65, 1e-4);
+        let [before, here, after] =
+            [q - step, q, q + step].map(|q| lines.responses(q, kappa, HARMONICS));
+        for ((before, here), after) in before.iter().zip(&here).zip(&after) {
+            let slope = (after.0 - before.0) / (2.0 * step);
+            assert!((here.1 - slope).norm() < 1e-5 * (1.0 + slope.norm()), "{here:?} {slope}");
+        }
     }
 
     /// α and q of small waves differ from linear theory by the square of the amplitude.

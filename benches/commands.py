@@ -12,6 +12,7 @@ import json
 import os
 import platform
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -70,7 +71,7 @@ def printed(*command):
 
 
 def main():
-    program, output = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
+    program, output = Path(sys.argv[1]), Path(sys.argv[2])
     data = Path(__file__).resolve().parents[1] / "data"
     if output.resolve().parent == data and printed("git", "status", "--porcelain", "--untracked-files=no"):
         sys.exit("the tree has changes that no commit names: commit them, or write to another folder than data")
@@ -89,6 +90,8 @@ def main():
         "commands": {},
     }
     with tempfile.TemporaryDirectory() as folder:
+        # A copy, as an installed program is: the system maps the pages of a file that a linker wrote one by one.
+        program = shutil.copy(program, folder)
         for name, (command, count) in COMMANDS.items():
             seconds, megabytes = zip(*(once(program, command, folder) for _ in range(count)))
             largest = None if None in megabytes else max(megabytes)

@@ -25,7 +25,7 @@ pub struct FrictionLoop {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopNumbers {
     /// Kinetic friction force: half of the mean difference of both ways, over positions more than twice as far from the
-    /// reversals as the static peak.
+    /// reversals as the static peak; if there is no peak and too little of such a way, over all positions behind the rise.
     pub friction: Estimate,
     /// Half of the mean difference of both ways along the whole loop: ∮ F dx over twice its length.
     pub mean: Estimate,
@@ -61,6 +61,12 @@ pub enum LoopError {
          is the smaller one: are trace and retrace exchanged, or is the sign of the force the other?"
     )]
     NoSliding,
+    /// The force falls from a peak too far from the reversal, or has only just risen.
+    #[error(
+        "the tip slides steadily on too little of the way: the force is largest {0} of {1} rows after the reversal, and the part of \
+         the way that is more than twice as far from either end has fewer than {least} rows: scan further", least = FEWEST / 2
+    )]
+    Short(usize, usize),
 }
 
 /// Smallest number of rows.
@@ -138,9 +144,16 @@ impl FrictionLoop {
         let there = Way { x: self.x.clone(), force: self.there.clone() };
         let peaks = [there.peak(noise)?, back.peak(noise)?];
         // The fall from the peak takes about as long as the rise to it.
-        let both = (2 * peaks[0].at).min(rows)..rows.saturating_sub(2 * peaks[1].at);
+        let beyond = |times: fn(&Peak) -> usize| {
+            let [there, back] = peaks.each_ref().map(|peak| times(peak) * peak.at);
+            there.min(rows)..rows.saturating_sub(back)
+        };
+        let mut both = beyond(|_| 2);
         if both.len() < FEWEST / 2 {
-            return Err(LoopError::NoSliding);
+            both = beyond(|peak| if peak.falls { 2 } else { 1 });
+        }
+        if both.len() < FEWEST / 2 {
+            return Err(LoopError::Short(peaks[0].at.max(peaks[1].at) + 1, rows));
         }
         let pairs = || self.there[both.clone()].iter().zip(&self.back[both.clone()]);
         let friction = mean(&pairs().map(|(a, b)| 0.5 * (a - b)).collect::<Vec<f64>>());
@@ -221,6 +234,8 @@ struct Peak {
     error: f64,
     /// Distance from the reversal.
     way: f64,
+    /// Whether the force falls after it.
+    falls: bool,
 }
 
 impl Way {
@@ -240,8 +255,9 @@ impl Way {
         let settled = self.force[self.force.len() / 2..].iter().sum::<f64>()
             / (self.force.len() - self.force.len() / 2) as f64;
         let enough = settled - 2.0 * noise;
+        let falls = self.force[at] - settled > FALL * noise.max(1e-12 * settled.abs());
         if let Some(first) = self.force.iter().position(|force| *force >= enough)
-            && self.force[at] - settled < FALL * noise
+            && !falls
         {
             at = first;
         }
@@ -249,7 +265,7 @@ impl Way {
             return Err(LoopError::NoSliding);
         }
         let (height, error) = self.height(at, noise);
-        Ok(Peak { at, height, error, way: self.x[at] - self.x[0] })
+        Ok(Peak { at, height, error, way: self.x[at] - self.x[0], falls })
     }
 
     /// Height of a peak, and its standard deviation from the noise and from the rise between two rows. The height is the end

@@ -128,6 +128,29 @@ fn two_tracks_are_a_loop_where_they_overlap() {
     assert_eq!(FrictionLoop::of_tracks((x, there), twice), Err(LoopError::Value(2)));
 }
 
+/// Without a static peak the tip slides as soon as the force has risen, here after a quarter of the way and more.
+#[test]
+fn a_loop_that_rises_long_slides_where_it_has_risen() {
+    let x: Vec<f64> = (0..400).map(f64::from).collect();
+    for rise in [100.0, 150.0] {
+        for noise in [0.0, 0.01] {
+            let rough = |x: &f64| noise * (1e4 * (x + 1.0).sin()).sin();
+            let there = x.iter().map(|x| (2.0 * x / rise - 1.0).min(1.0) + rough(x)).collect();
+            let back = x.iter().map(|x| (1.0 - 2.0 * (399.0 - x) / rise).max(-1.0) + rough(&-x));
+            let found = FrictionLoop::new(x.clone(), there, back.collect()).unwrap().numbers();
+            let found = found.unwrap();
+            assert!((found.friction.value - 1.0).abs() < 0.5 * noise + 1e-9, "{found:?}");
+            assert!(found.offset.value.abs() < 0.5 * noise + 1e-9, "{found:?}");
+        }
+    }
+    // Behind a peak that late nothing of the way is left.
+    let peaked = |x: f64| if x < 150.0 { x / 75.0 - 1.0 } else { 0.5 };
+    let there: Vec<f64> = x.iter().map(|x| peaked(*x)).collect();
+    let back = x.iter().map(|x| -peaked(399.0 - x)).collect();
+    let refused = FrictionLoop::new(x, there, back).unwrap().numbers();
+    assert_eq!(refused, Err(LoopError::Short(150, 400)));
+}
+
 #[test]
 fn what_is_no_loop_is_refused() {
     let x: Vec<f64> = (0..50).map(f64::from).collect();

@@ -21,7 +21,8 @@ pub struct FrictionFound {
     /// length.
     pub work_unit: Option<String>,
     /// Kinetic friction force: half of the mean difference between trace and retrace, over positions more than twice as
-    /// far from the reversals as the static peak.
+    /// far from the reversals as the static peak; if there is no peak and too little of such a way, over all positions
+    /// behind the rise.
     pub kinetic: EstimateDocument,
     /// Mean friction force: half of the mean difference between trace and retrace along the whole loop.
     pub mean: EstimateDocument,

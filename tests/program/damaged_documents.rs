@@ -180,7 +180,7 @@ fn a_cycle_is_drawn_from_its_motion() {
 
 #[test]
 fn ranges_that_no_axis_shows_are_refused() {
-    let folder = Folder::new("ranges");
+    let folder = Folder::new("damaged_ranges");
     folder.prints("run --alpha 1.2 --r 1 --kick 0.05 --until 30 --tolerance 1e-6 -o run.json");
     for range in ["0:1e-310", "0:5e-324", "1:1.0000000000000002", "-1e-200:1e-200", "1e99:1e101"] {
         for option in ["--x-range", "--y-range"] {

@@ -108,7 +108,7 @@ fn an_image_in_sigma_needs_no_units() {
 
 #[test]
 fn what_an_image_lacks_is_named() {
-    let folder = scanned("image_refusals");
+    let folder = scanned("image_fit_refusals");
     folder.write("loop.csv", "x,trace,retrace\n0,1,-1\n");
     for (line, words) in [
         (LINE, ["--width", "σ of the tip is needed"]),

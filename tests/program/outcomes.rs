@@ -87,7 +87,7 @@ fn no_number_in_words_has_hundreds_of_digits() {
 
 #[test]
 fn a_field_is_printed_by_the_end_of_its_path() {
-    let folder = Folder::new("fields");
+    let folder = Folder::new("outcome_fields");
     let run = "run --alpha 1.2 --r 1 --kick 0.1 --until 200 --print";
     let print = |field: &str| folder.stickslip(&format!("{run} {field}"));
     assert_eq!(print("period").stdout, print("oscillation.period").stdout);

@@ -338,7 +338,7 @@ fn tips_tell_their_width_and_pictures_are_in_units() {
 /// r and α are velocities of the support, r kσ/Γ, and indentation rates, α k²σ²/(aΓ), as `units` computes them.
 #[test]
 fn axes_of_r_and_alpha_are_velocities_and_indentation_rates_in_units() {
-    let (folder, _) = furnished("physical_axes");
+    let (folder, _) = furnished("physical_axes_of_boundaries");
     let at = |r: f64, alpha: f64| {
         let lever = "--damping 3.2mNs/m --stiffness 0.2N/m --tip-width 20nm --slope-force 5nN";
         let found = folder.prints_json(&format!("units {lever} --r {r} --alpha {alpha}"));

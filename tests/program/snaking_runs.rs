@@ -145,7 +145,7 @@ fn runs_across_are_written_as_lines_saved_and_resumed() {
 /// A ridge beside the line pushes the tip off it, and a table that does not depend on y is a profile.
 #[test]
 fn tables_across_are_read() {
-    let folder = Folder::new("across_tables");
+    let folder = Folder::new("snaking_tables");
     let table = |height: &dyn Fn(f64, f64) -> f64| {
         let points =
             (0..30).flat_map(|i| (-4..=4).map(move |j| (f64::from(i) + 8.0, f64::from(j))));
@@ -268,7 +268,7 @@ fn each_memory_follows_a_tip_across_the_scan() {
 
 #[test]
 fn what_is_not_there_across_the_scan_is_refused_by_name() {
-    let folder = Folder::new("across_refused");
+    let folder = Folder::new("snaking_refused");
     let line = "run --alpha 1 --r 1 --until 40";
     folder.prints(&format!("{line} --stiffness-across 1 -o run.json"));
     for (options, words) in [

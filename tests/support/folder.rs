@@ -4,10 +4,12 @@
 
 use assert_cmd::cargo::{cargo_bin, cargo_bin_cmd};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::thread::{JoinHandle, sleep, spawn};
 use std::time::{Duration, Instant};
 use wait4::Wait4;
@@ -44,9 +46,14 @@ pub fn measured(command: &mut Command) -> Measured {
 /// A folder under the target directory, empty at first.
 pub struct Folder(PathBuf);
 
+/// The folders of the tests of this process, which run side by side.
+static TAKEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
 impl Folder {
     pub fn new(name: &str) -> Self {
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let is_new = TAKEN.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
+        assert!(is_new, "another test has the folder {name}");
         if path.exists() {
             fs::remove_dir_all(&path).unwrap();
         }

@@ -35,10 +35,12 @@ const LIBRARIES: [(&str, &str); 7] = [
 /// The arguments with which the linker takes static libraries; `None` where they are missing, where a program linked
 /// with them does not run, for another machine, or with another linker.
 fn static_libraries() -> Option<[String; 2]> {
-    let is_own = env::var("HOST") == env::var("TARGET") && env::var_os("RUSTC_LINKER").is_none();
+    if env::var("HOST") != env::var("TARGET") || env::var_os("RUSTC_LINKER").is_some() {
+        return None;
+    }
     let folder = PathBuf::from(env::var_os("OUT_DIR")?).join("static");
     fs::create_dir_all(&folder).ok()?;
-    for (name, library) in LIBRARIES.iter().filter(|_| is_own) {
+    for (name, library) in LIBRARIES {
         let file = found(&format!("lib{library}.a"))?;
         println!("cargo:rerun-if-changed={}", file.display());
         // The linker looks into this folder first: a name in it stands before the shared library of that name.
@@ -46,7 +48,7 @@ fn static_libraries() -> Option<[String; 2]> {
             .ok()?;
     }
     let arguments = ["-static".into(), format!("-L{}", folder.display())];
-    (is_own && runs(&folder, &arguments).unwrap_or(false)).then_some(arguments)
+    runs(&folder, &arguments).unwrap_or(false).then_some(arguments)
 }
 
 /// Where the linker finds this file.

@@ -7,12 +7,12 @@ use crate::arguments::BoundaryArguments;
 use crate::failure::Failure;
 use crate::files::distinct::distinct;
 use crate::files::measured::read_measured;
-use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::{Value, json};
 use std::path::Path;
 use stickslip::{Boundary, BoundaryDocument, LoadMap, RasterBoundary, SnakingBoundary, parameter};
 use stickslip_figures::{Size, View};
+use stickslip_tables::Sheet;
 use stickslip_tip::sorting::sort_by_number;
 use stickslip_units::Unit;
 

@@ -7,13 +7,12 @@ use super::model::tip_and_draws;
 use super::tip::in_unit;
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
-use crate::files::heading::Heading;
 use crate::files::measured::{Common, ratio, read_measured};
-use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::{Value, json};
 use std::path::Path;
 use stickslip::{Ask, Fit, FitDocument, Measured, Tip, parameter};
+use stickslip_tables::{Heading, Sheet};
 use stickslip_units::Unit;
 
 pub(crate) fn fit(session: &Session, arguments: &FitArguments) -> Result<(), Failure> {

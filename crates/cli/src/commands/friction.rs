@@ -6,11 +6,11 @@ use crate::arguments::FrictionArguments;
 use crate::failure::Failure;
 use crate::files::input::run_in;
 use crate::files::measured::{Common, ratio, read_measured};
-use crate::files::sheet::Sheet;
 use crate::session::Session;
 use serde_json::Value;
 use std::path::Path;
 use stickslip::{Ask, ForceTrack, Friction, FrictionDocument, Refused, RunForces, parameter};
+use stickslip_tables::Sheet;
 use stickslip_units::Unit;
 
 const TRACE: &str = "TRACE.csv";

@@ -8,7 +8,7 @@ use crate::arguments::{FieldArguments, Format, OutletArguments};
 use crate::failure::Failure;
 use crate::files::distinct::{Named, distinct};
 use crate::files::output::{Output, format_of};
-use crate::files::table::{write_csv, write_npz};
+use crate::files::table::{write_arrays, write_csv};
 use crate::session::Session;
 use crate::sign_of_life;
 use std::io::{self, IsTerminal, Write};
@@ -117,7 +117,7 @@ impl Job {
             match self.format {
                 Format::Json => self.output.write_json(document)?,
                 Format::Csv => write_csv(table, self.output)?,
-                Format::Npz => write_npz(table, self.output)?,
+                Format::Npz => write_arrays(table, self.output)?,
                 Format::Text => self.output.write_bytes(summary.text().as_bytes())?,
             }
         }

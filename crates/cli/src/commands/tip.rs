@@ -4,9 +4,8 @@ use super::ask::{context, refusal};
 use super::job::{Job, judge_places};
 use crate::arguments::{Length, MeasuredTipArguments};
 use crate::failure::Failure;
-use crate::files::gsf::read_gsf;
-use crate::files::heading::Heading;
 use crate::files::measured::read_measured;
+use crate::files::text::read_gsf;
 use crate::session::Session;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -14,6 +13,7 @@ use stickslip::{
     Ask, Dimension, MeasuredImage, MeasuredProfile, MeasuredTip, MeasuredTipDocument, Refused,
     parameter,
 };
+use stickslip_tables::Heading;
 use stickslip_units::Unit;
 
 const OPTION: &str = "MEASURED.csv";

@@ -1,12 +1,12 @@
 //! Tables of two or three columns from users, without missing values.
 
-use super::heading::Heading;
-use super::sheet::{Sheet, Table};
+use super::text::read_table;
 use crate::failure::Failure;
 use crate::session::Session;
 use std::path::Path;
 use stickslip::{Dimension, KnownScales, SurfaceTable};
 use stickslip_raster::AreaLine;
+use stickslip_tables::{Heading, Sheet, Table};
 use stickslip_tip::sorting::sort_numbers;
 use stickslip_units::Unit;
 
@@ -21,7 +21,7 @@ pub(crate) fn read_columns(
     heading: &str,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    Table::read(session, option, path, |table| parse_columns(table, heading, scales))
+    read_table(session, option, path, |table| parse_columns(table, heading, scales))
 }
 
 /// Lines of an area, y,start,length.
@@ -32,7 +32,7 @@ pub(crate) fn read_area(
     scales: Option<&KnownScales>,
 ) -> Result<Vec<AreaLine>, Failure> {
     let parse = |table: &Table| parse_table(table, "y,start,length", scales);
-    let [y, start, length] = Table::read(session, option, path, parse)?;
+    let [y, start, length] = read_table(session, option, path, parse)?;
     let columns = y.into_iter().zip(start).zip(length);
     Ok(columns.map(|((y, start), length)| AreaLine { y, start, length }).collect())
 }
@@ -45,7 +45,7 @@ pub(crate) fn read_surface_table(
     scales: Option<&KnownScales>,
 ) -> Result<SurfaceTable, Failure> {
     let parse = |table: &Table| surface_table(parse_table(table, "x,y,u", scales)?);
-    Table::read(session, option, path, parse)
+    read_table(session, option, path, parse)
 }
 
 fn surface_table([x, y, u]: [Vec<f64>; 3]) -> Result<SurfaceTable, String> {
@@ -84,7 +84,7 @@ pub(crate) fn read_profile(
     path: &Path,
     scales: Option<&KnownScales>,
 ) -> Result<Columns, Failure> {
-    Table::read(session, option, path, |table| parse_profile(table, scales))
+    read_table(session, option, path, |table| parse_profile(table, scales))
 }
 
 pub(crate) fn parse_profile(

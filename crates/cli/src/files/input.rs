@@ -1,8 +1,7 @@
 //! Input files from users or from a host: tip functions and documents, with all their errors.
 
 use super::columns::{Columns, whole};
-use super::sheet::Table;
-use super::text::unreadable;
+use super::text::{read_table, unreadable};
 use crate::failure::Failure;
 use crate::session::Session;
 use serde::Deserialize;
@@ -11,6 +10,7 @@ use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 use stickslip::{self as documents, MeasuredTipDocument, RasterDocument, RunDocument, Unusable};
 use stickslip_saved::Saved;
+use stickslip_tables::Table;
 
 /// Largest size of a document: a run of some ten million steps.
 const LARGEST_DOCUMENT: u64 = 4 << 30;
@@ -47,7 +47,7 @@ pub(crate) struct GaussianEntry {
 
 pub(crate) fn read_tip(session: &Session, path: &Path) -> Result<TipFile, Failure> {
     const OPTION: &str = "--tip-file";
-    Table::read(session, OPTION, path, parse_tip)
+    read_table(session, OPTION, path, parse_tip)
 }
 
 pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {

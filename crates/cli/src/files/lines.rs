@@ -183,7 +183,7 @@ impl<R: BufRead> Lines<R> {
             if extent.end.is_some() {
                 return Err(self.damaged("it comes after the end of the run"));
             }
-            match self.parse::<SampleLine>() {
+            match SampleLine::on(&self.line) {
                 Ok(sample) => {
                     self.judge_time(sample.t, &extent, span)?;
                     extent.samples += 1;
@@ -209,7 +209,7 @@ impl<R: BufRead> Lines<R> {
     /// Reads the next line, which must be a sample.
     pub(crate) fn sample(&mut self) -> Result<SampleLine, Flaw> {
         self.advance(LONGEST_LINE)?;
-        self.parse().map_err(|_| Flaw::Damaged("it changed while it was read".into()))
+        SampleLine::on(&self.line).map_err(|_| Flaw::Damaged("it changed while it was read".into()))
     }
 
     fn judge_time(&self, t: f64, extent: &Extent, span: &RangeInclusive<f64>) -> Result<(), Flaw> {

@@ -1,11 +1,11 @@
 //! Measured columns from instruments, and the common units of several files.
 
-use super::heading::Heading;
-use super::sheet::{Sheet, Table};
+use super::text::read_table;
 use crate::failure::Failure;
 use crate::session::Session;
 use std::path::Path;
 use stickslip::Refused;
+use stickslip_tables::{Heading, Sheet, Table};
 use stickslip_units::Unit;
 
 /// The table in a file, with one of these numbers of columns. Rows with missing values are omitted, with a warning.
@@ -15,7 +15,7 @@ pub(crate) fn read_measured(
     path: &Path,
     columns: &[usize],
 ) -> Result<Sheet, Failure> {
-    let sheet = Table::read(session, option, path, |table| parse_measured(table, columns))?;
+    let sheet = read_table(session, option, path, |table| parse_measured(table, columns))?;
     if let Some(first) = sheet.missing.first() {
         let (count, all) = (sheet.missing.len(), sheet.missing.len() + sheet.columns[0].len());
         session.remark(format_args!(

@@ -1,11 +1,11 @@
 //! Output of tables: CSV and NumPy archives of documents with columns and arrays.
 
-use super::npz;
 use super::output::Output;
 use crate::failure::Failure;
 use crate::message::harmless;
 use std::io::{self, Write};
 use stickslip::{Column, Tabular, arrays_in_units, columns_in_units};
+use stickslip_tables::{NamedArray, write_npz};
 
 /// Writes the columns as CSV, with their names and a line for each row.
 pub(crate) fn write_csv(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
@@ -67,8 +67,15 @@ fn cells<'a>(column: &'a Column) -> Cells<'a> {
 }
 
 /// Writes the arrays as a NumPy archive.
-pub(crate) fn write_npz(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
-    output.write_with(|out| npz::write(arrays_in_units(table), out))
+pub(crate) fn write_arrays(table: &dyn Tabular, output: Output) -> Result<(), Failure> {
+    output.write_with(|out| {
+        let mut arrays = arrays_in_units(table).map(|(name, array)| NamedArray {
+            name,
+            shape: array.shape,
+            values: array.values,
+        });
+        write_npz(&mut arrays, out)
+    })
 }
 
 #[cfg(test)]

@@ -1,14 +1,37 @@
 //! Text files from users or from a host, with a size limit.
 
-use super::decode::decoded;
 use crate::failure::Failure;
 use crate::session::Session;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use stickslip_tables::{Image, Table, decoded, parse_gsf};
 
 /// Largest size of a measured series: more than a million rows.
 pub(crate) const LARGEST_TABLE: u64 = 64 << 20;
+
+/// Largest image: 4,096 × 4,096 pixels with the header.
+const LARGEST_IMAGE: u64 = (4 << 24) + (1 << 16);
+
+/// The result of parsing the table in a file, or the columns that a host supplies.
+pub(crate) fn read_table<T>(
+    session: &Session,
+    option: &str,
+    path: &Path,
+    parse: impl FnOnce(&Table) -> Result<T, String>,
+) -> Result<T, Failure> {
+    let table = match session.columns(path) {
+        Some(columns) => Table::Columns(columns),
+        None => Table::Text(read_text(session, option, path, LARGEST_TABLE)?),
+    };
+    parse(&table).map_err(|message| Failure::file(option, path, message))
+}
+
+/// The image in a .gsf file.
+pub(crate) fn read_gsf(session: &Session, option: &str, path: &Path) -> Result<Image, Failure> {
+    let bytes = read_bytes(session, option, path, LARGEST_IMAGE)?;
+    parse_gsf(&bytes).map_err(|message| Failure::file(option, path, message))
+}
 
 /// The text of a file (`-`: standard input) in any usual encoding; an error if it is larger than `most` bytes.
 pub(crate) fn read_text(
@@ -24,12 +47,7 @@ pub(crate) fn read_text(
 }
 
 /// The bytes of a file, with the same limit.
-pub(super) fn read_bytes(
-    session: &Session,
-    option: &str,
-    path: &Path,
-    most: u64,
-) -> Result<Vec<u8>, Failure> {
+fn read_bytes(session: &Session, option: &str, path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let bytes = if let Some(bytes) = session.bytes(path) {
         bytes_of(&*bytes, most)
     } else if path == Path::new("-") {

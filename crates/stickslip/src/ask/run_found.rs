@@ -147,6 +147,17 @@ pub struct SampleLine {
     pub velocity_y: Option<f64>,
 }
 
+impl SampleLine {
+    /// The sample on a line of a file.
+    ///
+    /// # Errors
+    ///
+    /// The line is another, or damaged.
+    pub fn on(line: &[u8]) -> serde_json::Result<Self> {
+        serde_json::from_slice(line)
+    }
+}
+
 /// The result of a run; in a file of lines it is the last line.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -11,7 +11,6 @@ use crate::commands::in_units::in_metres;
 use crate::failure::Failure;
 use crate::files::columns::read_area;
 use crate::files::distinct::{Named, distinct};
-use crate::files::gsf::{Frame, gsf};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
@@ -20,6 +19,7 @@ use stickslip::{
     parameter,
 };
 use stickslip_raster::Plan;
+use stickslip_tables::{Frame, gsf};
 
 pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;

@@ -5,7 +5,6 @@ use crate::arguments::{Format, SurfaceArguments};
 use crate::commands::in_units::{in_metres, scales_of};
 use crate::commands::job::{Job, format};
 use crate::failure::Failure;
-use crate::files::gsf::{Frame, gsf, header, pixels};
 use crate::files::output::Output;
 use crate::session::Session;
 use ndarray::Array2;
@@ -14,6 +13,7 @@ use stickslip::{
     Document, InUnits, KnownScales, Physical, SurfaceCurve, SurfaceDocument, SurfaceFound,
     SurfaceImage, SurfaceParameters,
 };
+use stickslip_tables::{Frame, gsf, header, pixels};
 
 /// The output: a document, or an image alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -187,7 +187,8 @@ pub(super) fn large(
         out.write_all(&header(&frame))?;
         y.chunks(ROWS).try_for_each(|y| {
             let heights = rows(y).map_err(io::Error::other)?;
-            out.write_all(&pixels(&heights, height))
+            let heights = heights.as_standard_layout();
+            out.write_all(&pixels(heights.as_slice().unwrap_or_default(), height))
         })
     })
 }

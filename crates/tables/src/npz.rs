@@ -1,22 +1,37 @@
 //! NumPy archives: a ZIP file without compression that has an array in each of its files, as `numpy.load` reads it.
 
 use crc32fast::Hasher;
+use std::borrow::Cow;
 use std::io::{self, ErrorKind, Write};
-use stickslip::Array;
 
 /// The first second that a ZIP file can name, 1980-01-01: archives do not depend on when they are written.
 const TIME_AND_DATE: [u8; 4] = [0, 0, 0x21, 0];
 /// Version of ZIP that a reader needs.
 const NEEDS: u16 = 20;
 
-/// Writes the arrays, each under its name.
-pub(super) fn write<'a>(
-    arrays: impl IntoIterator<Item = (impl AsRef<str>, Array<'a>)>,
+/// An array in row-major order, with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedArray<'a> {
+    /// Name under which `numpy.load` finds it.
+    pub name: Cow<'a, str>,
+    /// Lengths of the axes.
+    pub shape: Vec<usize>,
+    /// Values; their number is the product of the lengths in `shape`.
+    pub values: Cow<'a, [f64]>,
+}
+
+/// Writes the arrays one after the other, each under its name.
+///
+/// # Errors
+///
+/// The error of writing, or of an archive above 4 GiB.
+pub fn write_npz<'a>(
+    arrays: &mut dyn Iterator<Item = NamedArray<'a>>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (mut index, mut at, mut number) = (vec![], 0_u32, 0_u16);
-    for (name, array) in arrays {
-        let name = format!("{}.npy", name.as_ref());
+    for array in arrays {
+        let name = format!("{}.npy", array.name);
         let header = header(&array.shape);
         let length = within(header.len() as u64 + 8 * array.values.len() as u64)?;
         let is_utf8 = if name.is_ascii() { 0 } else { 8 };
@@ -91,22 +106,24 @@ mod tests {
     /// Read back by a crate that shares no code with this.
     #[test]
     fn arrays_are_read_back_to_the_last_bit() {
-        let array = |shape: &[usize], values: Vec<f64>| Array {
+        let array = |name: &'static str, shape: &[usize], values: Vec<f64>| NamedArray {
+            name: name.into(),
             shape: shape.into(),
             values: values.into(),
         };
         let arrays = [
-            ("t", array(&[3], vec![0.1, -0.0, f64::MIN_POSITIVE])),
-            ("u", array(&[2, 3], (0..6).map(|i| f64::from(i) / 7.0).collect())),
-            ("empty", array(&[0], vec![])),
-            ("number", array(&[], vec![std::f64::consts::PI])),
-            ("long", array(&[70_000], (0..70_000).map(f64::from).collect())),
+            array("t", &[3], vec![0.1, -0.0, f64::MIN_POSITIVE]),
+            array("u", &[2, 3], (0..6).map(|i| f64::from(i) / 7.0).collect()),
+            array("empty", &[0], vec![]),
+            array("number", &[], vec![std::f64::consts::PI]),
+            array("long", &[70_000], (0..70_000).map(f64::from).collect()),
         ];
         let mut bytes = vec![];
-        write(arrays.clone(), &mut bytes).unwrap();
+        write_npz(&mut arrays.clone().into_iter(), &mut bytes).unwrap();
         let mut read = NpzReader::new(Cursor::new(bytes)).unwrap();
         assert_eq!(read.names().unwrap(), ["t", "u", "empty", "number", "long"]);
-        for (name, wanted) in &arrays {
+        for wanted in &arrays {
+            let name = &*wanted.name;
             let found: ArrayD<f64> = read.by_name(name).unwrap();
             assert_eq!(found.shape(), wanted.shape, "{name}");
             let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();

@@ -8,7 +8,11 @@ const WINDOWS_1252: [char; 32] = [
 ];
 
 /// The text of a file, without a byte order mark.
-pub(crate) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
+///
+/// # Errors
+///
+/// The bytes are not text, with the first line that is not.
+pub fn decoded(bytes: Vec<u8>) -> Result<String, String> {
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => {
             Err("is text in UTF-32: save it in UTF-8".into())
@@ -96,7 +100,7 @@ fn lines_in(text: &str) -> usize {
 }
 
 /// The lines of a text, with any line end: LF, CR LF, CR, and the separators of Unicode.
-pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = text;
     std::iter::from_fn(move || {
         if rest.is_empty() {

@@ -2,7 +2,7 @@
 
 /// Separators of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Separator {
+pub(crate) enum Separator {
     Mark(char),
     /// Any number of blanks and tabs.
     Blanks,
@@ -10,9 +10,9 @@ pub(super) enum Separator {
 
 /// Separator and decimal mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Dialect {
-    pub(super) separator: Separator,
-    pub(super) decimal: char,
+pub(crate) struct Dialect {
+    pub(crate) separator: Separator,
+    pub(crate) decimal: char,
 }
 
 const fn dialect(separator: Separator, decimal: char) -> Dialect {
@@ -20,7 +20,7 @@ const fn dialect(separator: Separator, decimal: char) -> Dialect {
 }
 
 /// All known dialects. A comma may separate numbers with decimal commas if these are quoted.
-pub(super) const DIALECTS: [Dialect; 8] = [
+pub(crate) const DIALECTS: [Dialect; 8] = [
     dialect(Separator::Mark(','), '.'),
     dialect(Separator::Mark(';'), '.'),
     dialect(Separator::Mark(';'), ','),
@@ -33,7 +33,7 @@ pub(super) const DIALECTS: [Dialect; 8] = [
 
 /// The content of a field.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Cell {
+pub(crate) enum Cell {
     Number(f64),
     /// Empty, or a word for a missing value.
     Missing,
@@ -78,7 +78,7 @@ const MINUS: [char; 7] =
     ['\u{2212}', '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{fe63}', '\u{ff0d}'];
 
 impl Dialect {
-    pub(super) fn cell(self, field: &str) -> Cell {
+    pub(crate) fn cell(self, field: &str) -> Cell {
         match self.number(field) {
             Some(number) if number.is_finite() => Cell::Number(number),
             Some(_) => Cell::TooLarge,
@@ -115,7 +115,7 @@ fn is_missing(field: &str) -> bool {
 
 impl Separator {
     /// Splits a line into fields without surrounding blanks and quotes.
-    pub(super) fn fields<'a>(self, line: &'a str, found: &mut Vec<&'a str>) {
+    pub(crate) fn fields<'a>(self, line: &'a str, found: &mut Vec<&'a str>) {
         found.clear();
         let mut is_quoted = false;
         let mut separates = |c: char| match (c, self) {

@@ -4,7 +4,7 @@ use stickslip_units::Unit;
 
 /// The heading of a column; may be empty.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Heading {
+pub struct Heading {
     text: String,
     /// The unit as written, known or not.
     unit: Option<String>,
@@ -20,12 +20,13 @@ const OTHERS: [&str; 14] =
 
 impl Heading {
     /// A heading, with its unit if it contains one.
-    pub(crate) fn of(text: &str) -> Self {
+    #[must_use]
+    pub fn of(text: &str) -> Self {
         Self { text: text.to_owned(), unit: unit_in(text).map(|(_, unit)| unit) }
     }
 
     /// The heading with a unit that is given elsewhere.
-    pub(super) fn with_unit(self, unit: &str) -> Result<Self, String> {
+    pub(crate) fn with_unit(self, unit: &str) -> Result<Self, String> {
         let unit = unit.trim();
         let is_same = |own: &str| {
             own == unit
@@ -42,23 +43,30 @@ impl Heading {
     }
 
     /// The heading as written.
-    pub(crate) fn text(&self) -> &str {
+    #[must_use]
+    pub fn text(&self) -> &str {
         &self.text
     }
 
     /// The unit as written, known or not.
-    pub(crate) fn written_unit(&self) -> Option<&str> {
+    #[must_use]
+    pub fn written_unit(&self) -> Option<&str> {
         self.unit.as_deref()
     }
 
     /// Its name without the unit.
-    pub(crate) fn name(&self) -> &str {
+    #[must_use]
+    pub fn name(&self) -> &str {
         let name = unit_in(&self.text).and_then(|(start, _)| self.text.get(..start));
         name.unwrap_or(&self.text).trim()
     }
 
     /// The unit of a quantity, and its value in SI units; `None` if there is none.
-    pub(crate) fn unit(&self, of: Unit) -> Result<Option<(&str, f64)>, String> {
+    ///
+    /// # Errors
+    ///
+    /// The heading has the unit of another quantity.
+    pub fn unit(&self, of: Unit) -> Result<Option<(&str, f64)>, String> {
         let Some(unit) = self.unit.as_deref() else { return Ok(None) };
         match of.one(unit) {
             Some(one) => Ok(Some((unit, one))),
@@ -127,7 +135,7 @@ fn after_mark(text: &str) -> Option<(usize, String)> {
 }
 
 /// The units in a row of units; `None` for any other row.
-pub(super) fn units_of_row(fields: &[&str]) -> Option<Vec<String>> {
+pub(crate) fn units_of_row(fields: &[&str]) -> Option<Vec<String>> {
     let unit = |field: &&str| {
         let inner = ["()", "[]", "{}", "<>"].into_iter().find_map(|pair| {
             let mut ends = pair.chars();
@@ -147,7 +155,7 @@ pub(super) fn units_of_row(fields: &[&str]) -> Option<Vec<String>> {
 }
 
 /// Units of columns on a separate line, such as `units: nm nm` or `XUnit = µm`; may be empty.
-pub(super) fn units_of_line(line: &str, columns: usize) -> Vec<(usize, String)> {
+pub(crate) fn units_of_line(line: &str, columns: usize) -> Vec<(usize, String)> {
     let Some((key, value)) = line.split_once([':', '=', '\t']) else { return vec![] };
     let key: String = key.to_lowercase().chars().filter(char::is_ascii_lowercase).collect();
     let units: Vec<String> = value

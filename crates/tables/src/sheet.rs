@@ -5,29 +5,26 @@
 //! row are headings if they begin with a letter; other lines are errors. Rows with missing values are counted, with
 //! their line numbers.
 
-use super::decode::lines;
-use super::dialect::{Cell, DIALECTS, Dialect, Separator};
-use super::heading::{Heading, units_of_line, units_of_row};
-use super::text::{LARGEST_TABLE, read_text};
-use crate::failure::Failure;
-use crate::session::Session;
-use std::path::Path;
+use crate::decode::lines;
+use crate::dialect::{Cell, DIALECTS, Dialect, Separator};
+use crate::heading::{Heading, units_of_line, units_of_row};
 
 /// A table as it was read; without columns if the text has no rows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Sheet {
+pub struct Sheet {
     /// Heading of each column; may be empty.
-    pub(crate) headings: Vec<Heading>,
+    pub headings: Vec<Heading>,
     /// The rows without missing values, as columns.
-    pub(crate) columns: Vec<Vec<f64>>,
+    pub columns: Vec<Vec<f64>>,
     /// Numbers of the lines or rows with missing values, from 1.
-    pub(crate) missing: Vec<usize>,
+    pub missing: Vec<usize>,
     /// The unit that these numbers count: `line` of a text, or `row` of columns.
-    pub(crate) counted: &'static str,
+    pub counted: &'static str,
 }
 
 /// A table before it is read.
-pub(crate) enum Table<'a> {
+pub enum Table<'a> {
+    /// A text, in any dialect.
     Text(String),
     /// Columns with their headings; NaN where a value is missing.
     Columns(&'a [(String, Vec<f64>)]),
@@ -39,28 +36,13 @@ impl From<&str> for Table<'_> {
     }
 }
 
-impl<'a> Table<'a> {
-    /// The table in a file, or the columns that a host supplies.
-    pub(crate) fn open(session: &'a Session, option: &str, path: &Path) -> Result<Self, Failure> {
-        match session.columns(path) {
-            Some(columns) => Ok(Self::Columns(columns)),
-            None => read_text(session, option, path, LARGEST_TABLE).map(Self::Text),
-        }
-    }
-
-    /// The result of parsing the table in a file.
-    pub(crate) fn read<T>(
-        session: &'a Session,
-        option: &str,
-        path: &Path,
-        parse: impl FnOnce(&Self) -> Result<T, String>,
-    ) -> Result<T, Failure> {
-        let table = Self::open(session, option, path)?;
-        parse(&table).map_err(|message| Failure::file(option, path, message))
-    }
-
+impl Table<'_> {
     /// The sheet of this table, with one of the numbers of columns in `admissible`.
-    pub(crate) fn sheet(&self, admissible: &[usize]) -> Result<Sheet, String> {
+    ///
+    /// # Errors
+    ///
+    /// The reason why it is not a table of numbers, with the line or row.
+    pub fn sheet(&self, admissible: &[usize]) -> Result<Sheet, String> {
         match self {
             Self::Text(text) => parse_sheet(text, admissible),
             Self::Columns(columns) => Sheet::of_columns(columns, admissible),
@@ -111,7 +93,7 @@ fn needed(count: usize, admissible: &[usize]) -> String {
 }
 
 /// The table in a text, with one of the numbers of columns in `admissible`.
-pub(crate) fn parse_sheet(text: &str, admissible: &[usize]) -> Result<Sheet, String> {
+fn parse_sheet(text: &str, admissible: &[usize]) -> Result<Sheet, String> {
     // The end of a file on DOS.
     let text = text.trim_end_matches('\u{1a}');
     let mut furthest: Option<Flaw> = None;

@@ -3,30 +3,27 @@
 //! row, as little-endian single-precision numbers.
 //! <http://gwyddion.net/documentation/user-guide-en/gsf.html>
 
-use super::decode::{decoded, lines};
-use super::text::read_bytes;
-use crate::failure::Failure;
-use crate::session::Session;
+use crate::decode::{decoded, lines};
 use std::fmt::Write;
-use std::path::Path;
 use stickslip_units::Unit;
 
 /// Title, size, place and unit of an evenly spaced image.
-pub(crate) struct Frame<'a> {
+pub struct Frame<'a> {
     /// Title, without `=`, at which some readers would split it.
-    pub(crate) title: &'a str,
+    pub title: &'a str,
     /// Numbers of columns and rows.
-    pub(crate) counts: [usize; 2],
+    pub counts: [usize; 2],
     /// x and y of the centre of the first pixel.
-    pub(crate) first: [f64; 2],
+    pub first: [f64; 2],
     /// Distances of the pixels in x and y.
-    pub(crate) spacing: [f64; 2],
+    pub spacing: [f64; 2],
     /// Unit of lengths and of heights; empty for pure numbers.
-    pub(crate) unit: &'a str,
+    pub unit: &'a str,
 }
 
 /// The bytes before the pixels.
-pub(crate) fn header(frame: &Frame) -> Vec<u8> {
+#[must_use]
+pub fn header(frame: &Frame) -> Vec<u8> {
     let mut header = String::from("Gwyddion Simple Field 1.0\n");
     let mut line = |name: &str, value: &dyn std::fmt::Display| {
         // Writing to a String cannot fail.
@@ -52,43 +49,41 @@ pub(crate) fn header(frame: &Frame) -> Vec<u8> {
 }
 
 /// The bytes of these pixels, heights times a factor.
-pub(crate) fn pixels<'a>(heights: impl IntoIterator<Item = &'a f64>, factor: f64) -> Vec<u8> {
-    let bytes = heights.into_iter().map(|u| ((factor * u) as f32).to_le_bytes());
+#[must_use]
+pub fn pixels(heights: &[f64], factor: f64) -> Vec<u8> {
+    let bytes = heights.iter().map(|u| ((factor * u) as f32).to_le_bytes());
     bytes.collect::<Vec<_>>().into_flattened()
 }
 
 /// The bytes of the file with these rows of equal length, heights times a factor.
-pub(crate) fn gsf(frame: &Frame, rows: &[Vec<f64>], factor: f64) -> Vec<u8> {
+#[must_use]
+pub fn gsf(frame: &Frame, rows: &[Vec<f64>], factor: f64) -> Vec<u8> {
     let mut bytes = header(frame);
-    bytes.extend(pixels(rows.iter().flatten(), factor));
+    rows.iter().for_each(|row| bytes.extend(pixels(row, factor)));
     bytes
 }
 
 /// An image that was read; positions are in nm if they have a unit of length.
 #[derive(Debug)]
-pub(crate) struct Image {
+pub struct Image {
     /// Centres of the columns.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Centres of the rows.
-    pub(crate) y: Vec<f64>,
+    pub y: Vec<f64>,
     /// Heights, a row for each y.
-    pub(crate) rows: Vec<Vec<f64>>,
+    pub rows: Vec<Vec<f64>>,
     /// Whether positions are in nm.
-    pub(crate) in_nanometres: bool,
+    pub in_nanometres: bool,
     /// Unit of the heights: nm for lengths, nN for forces.
-    pub(crate) z_unit: Option<String>,
+    pub z_unit: Option<String>,
 }
 
-/// Largest file: an image of 4,096 × 4,096 pixels with its header.
-const LARGEST: u64 = (4 << 24) + (1 << 16);
-
-/// The image in a file.
-pub(crate) fn read_gsf(session: &Session, option: &str, path: &Path) -> Result<Image, Failure> {
-    let bytes = read_bytes(session, option, path, LARGEST)?;
-    parse_gsf(&bytes).map_err(|message| Failure::file(option, path, message))
-}
-
-fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
+/// The image in the bytes of a file.
+///
+/// # Errors
+///
+/// The reason why they are no such image.
+pub fn parse_gsf(bytes: &[u8]) -> Result<Image, String> {
     const MAGIC: &[u8] = b"Gwyddion Simple Field 1.0\n";
     let end = bytes.iter().position(|byte| *byte == 0).filter(|_| bytes.starts_with(MAGIC));
     let end =

@@ -301,7 +301,8 @@ struct Seen {
 impl Seen {
     fn of(plan: &Plan, sheets: &Sheets, lines: usize) -> Result<Self, Doubt> {
         let sheet = &sheets.surface;
-        let amplitude = sheet.amplitude() / sheets.depth;
+        // Of a tip that carves nothing the depth is 0.
+        let amplitude = sheet.amplitude() / sheets.depth.max(f64::MIN_POSITIVE);
         let amplitude = Estimate { value: amplitude, error: AMPLITUDE_ERROR * amplitude };
         let certain = Estimate { value: 1.0, error: 0.0 };
         let growing = growing(plan, sheets, lines);
@@ -319,7 +320,11 @@ impl Seen {
         let local = Local::of(sheet, wave);
         let vector = Vector::of(sheet, &local, &waves, lines);
         let is_upright = wave.kappa.abs() <= sheet.resolution().1;
-        let kept = if is_upright { sheets.kept(plan.path, &local) } else { certain };
+        let changes = vector.changes(sheet).map(|factor| factor * sheets.healed);
+        let changing = changing(changes);
+        // An oblique wave may still spread from the edge while it grows.
+        let is_of_the_edge = is_upright || changing.is_none();
+        let kept = if is_of_the_edge { sheets.kept(plan.path, &local) } else { certain };
         let is_alike = is_upright && unlike(sheet) < ALIKE;
         let is_wave = !is_alike || vector.is_wave();
         let own = Local::of(&sheets.own(), wave);
@@ -332,8 +337,7 @@ impl Seen {
         if !is_wave && measures.regime() != Regime::Steady {
             return Err(Doubt::NoWave(2.0 * length));
         }
-        let changes = vector.changes(sheet).map(|factor| factor * sheets.healed);
-        let mut doubts: Vec<Doubt> = changing(changes).into_iter().collect();
+        let mut doubts: Vec<Doubt> = changing.into_iter().collect();
         if measures.regime() == Regime::Steady {
             doubts.extend(growing);
             return Ok(Self { measures, pattern: None, doubts });

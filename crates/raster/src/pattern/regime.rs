@@ -60,7 +60,7 @@ pub(super) const PITTED: f64 = 0.12;
 pub(super) struct Measures {
     /// Half peak-to-peak, relative to the carved depth.
     pub(super) amplitude: Estimate,
-    /// For waves common to all lines: the fraction that remains away from the edges; 1 for other waves.
+    /// For waves common to all lines, and for settled ones: the fraction that remains away from the edges; 1 for others.
     pub(super) kept: Estimate,
     /// Straightness of the crests: see [`Sheet::straightness`](super::sheet::Sheet::straightness).
     pub(super) straightness: Estimate,

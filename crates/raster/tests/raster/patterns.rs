@@ -88,6 +88,9 @@ fn what_is_no_ripple_is_called_otherwise() {
     let (found, lines) = written(0.2, Path::OneWay, 0.5);
     assert_eq!(found, Written { regime: Regime::Steady, pattern: None, doubts: vec![] });
     assert!(lines.iter().all(|line| *line == LineRegime::Steady));
+    // A tip that carves nothing.
+    let (found, _) = written(0.0, Path::OneWay, 0.5);
+    assert_eq!(found, Written { regime: Regime::Steady, pattern: None, doubts: vec![] });
     let (found, _) = written(0.66, Path::OneWay, 0.5);
     assert_eq!(found.regime, Regime::Pits);
     let (found, lines) = written(0.9, Path::OneWay, 0.5);
@@ -112,6 +115,12 @@ fn marks_of_the_edge_are_no_ripples() {
     for length in [40.0, 60.0, 90.0] {
         let found = fast(length);
         assert_eq!((found.regime, found.pattern), (Regime::Steady, None), "{length}");
+    }
+    // The pit at the edge differs from line to line, and so do its marks: 8 % below the threshold.
+    for lines in [128, 256] {
+        let size = (0.6, lines, 80.0);
+        let (found, _) = under((round(), Wider::default()), (0.46, 1.0), Path::OneWay, size);
+        assert_eq!((found.regime, found.pattern), (Regime::Steady, None), "{lines}");
     }
 }
 

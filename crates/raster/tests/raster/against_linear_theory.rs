@@ -11,7 +11,7 @@
 use num_complex::Complex64;
 use stickslip_raster::{Line, Path, Plan, Scanning};
 use stickslip_stability::{Raster, RasterPath};
-use stickslip_tip::{Footprint, Force, Gaussian, Model, Pulse, TipFunction, Wider};
+use stickslip_tip::{Footprint, Force, Gaussian2d, Model, Pulse, TipFunction, Wider};
 
 /// Of the pulse; its square is what is not linear.
 const WEAK: f64 = 1e-4;
@@ -93,13 +93,20 @@ fn every_line_answers_to_those_before_as_theory_says() {
 fn lines_of_a_tip_with_two_sides_answer_as_theory_says() {
     let slope = |c: f64| c * (-0.5 * c * c).exp();
     let lobes = [(1.0, 0.0), (-0.4, 2.0), (-0.4 * slope(2.0) / slope(1.5), -1.5)];
-    let term = |(amplitude, center)| Gaussian { amplitude, center, width: 1.0 };
-    let tip = TipFunction::asymmetric_sum(lobes.map(term).to_vec()).unwrap();
+    let term = |(amplitude, center)| Gaussian2d {
+        amplitude,
+        center,
+        width: 1.0,
+        center_y: 0.0,
+        width_y: 1.0,
+    };
+    let footprint = Footprint::gaussian_sum(&lobes.map(term)).unwrap();
+    assert!(!footprint.is_even() && footprint.mirrored().layers().len() == 1);
     for path in [Path::OneWay, Path::Zigzag] {
         for q in [0.6, 1.2] {
             let mut plan = plan(0.0, 1.0, 0.4, path, (0.5, 8, 150.0));
-            plan.footprint = Footprint::separable(tip.clone(), 1.0).unwrap();
-            plan.law.model = Model::new(tip.clone(), 0.4, 1.0).unwrap();
+            plan.footprint = footprint.clone();
+            plan.law.model = Model::new(footprint.path().clone(), 0.4, 1.0).unwrap();
             let error = worst(&plan, 1.0, q);
             assert!(error < 1e-6, "{path:?} {q}: {error:e}");
         }

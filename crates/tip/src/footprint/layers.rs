@@ -21,7 +21,7 @@ pub(super) fn of(terms: &[Gaussian2d]) -> Result<Vec<Layer>, TipFunctionError> {
             .filter(|term| term.center_y >= 0.0 && same(&across_of(term), &across))
             .map(|t| Gaussian { amplitude: t.amplitude, center: t.center, width: t.width })
             .collect();
-        match TipFunction::gaussian_sum(along) {
+        match TipFunction::asymmetric_sum(along) {
             Ok(along) => layers.push(Layer { along, across }),
             // Terms of amplitude 0 make no layer.
             Err(TipFunctionError::Zero) => {}

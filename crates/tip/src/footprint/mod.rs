@@ -115,10 +115,11 @@ impl Footprint {
         Ok(Self { layers: vec![Layer { along: tip, across }], path })
     }
 
-    /// Any sum of two-dimensional Gaussians that is even in x and in y.
+    /// Any sum of two-dimensional Gaussians that is even in y. Its sides in x may differ.
     ///
     /// # Errors
-    /// A term is not finite, a width is not positive, or f is not even in x, not even in y, or 0 for y = 0.
+    /// A term is not finite, a width is not positive, f is not even in y or 0 for y = 0, or terms of the same width and
+    /// center across have together a slope at x = 0.
     pub fn gaussian_sum(terms: &[Gaussian2d]) -> Result<Self, TipFunctionError> {
         Self::from_layers(layers::of(terms)?)
     }

@@ -67,8 +67,9 @@ impl GaussianSum {
         TipFunctionError::NotEven { center: single.map_or(0.0, |term| term.center) }
     }
 
+    /// Whether f(-x) = f(x), and f(-x,y) = f(x,y) of a footprint, which may differ on other lines.
     pub(super) fn is_even(&self) -> bool {
-        self.is_even
+        self.is_even && self.footprint().is_none_or(Footprint::is_even)
     }
 
     /// f(-x)

@@ -283,6 +283,11 @@ fn lines_kept_are_taken_up_where_they_are_whole_and_of_this_raster() {
     assert!(words.contains("1 lines of") && words.contains("2 of 6 lines are in"), "{words}");
     assert_eq!(folder.read("a.json"), whole);
     folder.refuses(&format!("{line} -o b.json"), &["--output", "another raster"]);
+    // One that failed on its first line left none, and another takes its place.
+    let failing = format!("{line} --width 0.7 --memory modes --tolerance 1e-13 -o c.json");
+    assert_eq!(folder.stickslip(&failing).status.code(), Some(1));
+    assert!(folder.names().contains(&"c.json.partial".into()));
+    folder.prints(&format!("{line} -o c.json"));
 }
 
 /// The wider law on the command line: heights in samples, lines that take away less, and the same bytes after a resume.

@@ -175,6 +175,12 @@ fn a_shape_is_scanned_line_by_line() {
     assert_eq!(again["parameters"], pushed["parameters"]);
     let schema = folder.prints_json("schema raster");
     assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&pushed));
+    // Options that describe a rectangle replace the shape.
+    let again = folder.prints_json("raster --parameters a.json --pitch 1 --lines 2 --length 9");
+    assert_eq!(
+        (number(&again["lines"][1]["y"]), &again["parameters"]["area"]),
+        (1.0, &Value::Null)
+    );
     for name in ["a.csv", "a.npz", "a.gsf"] {
         folder.prints(&format!("{line} -o {name} --plot {name}.svg"));
     }
@@ -231,6 +237,19 @@ fn a_raster_is_compared_with_rows_of_cells() {
     folder
         .refuses("compare --alpha 1 --r 1 --until 20 --path zigzag", &["--path zigzag", "--lines"]);
     folder.refuses("compare --alpha 1 --r 1", &["is needed", "--until"]);
+}
+
+/// The parameters of a raster serve other rasters, its linear theory, and a run on one line.
+#[test]
+fn parameters_of_a_raster_serve_other_questions() {
+    let folder = Folder::new("raster_parameters");
+    folder.prints(&format!("{GAUSSIAN} --lines 2 --length 9 --sample-every 1 -o a.json"));
+    let repeated = folder.prints_json("raster --parameters a.json --path repeat --sample-at 1,2");
+    assert_eq!(repeated["lines"][1]["samples"]["t"], serde_json::json!([1.0, 2.0]));
+    let theory = folder.prints_json("stability --parameters a.json");
+    assert!((number(&theory["critical"]["alpha"]) - 0.418_787).abs() < 1e-6);
+    let run = folder.prints_json("run --parameters a.json --until 40");
+    assert_eq!(run["regime"], "steady");
 }
 
 /// Killed at whatever moment, it goes on from its last line and writes the same bytes.

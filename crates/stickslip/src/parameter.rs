@@ -382,7 +382,8 @@ pub fn unknown_parameter<Q: Parameters>(values: &Map<String, Value>) -> Option<&
 }
 
 /// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) + D
-/// replace each other, and a hold replaces the path of a support. A computed critical α or r is computed anew.
+/// replace each other, as do the two ways to give times of samples; a hold replaces the path of a support, and the measures
+/// of a rectangle replace an area; a line that is repeated has no pitch. A computed critical α or r is computed anew.
 pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Map<String, Value> {
     if base.remove("at_critical_point") == Some(Value::Bool(true)) {
         let is_r = base.get("solve_for").is_some_and(|name| name == "r");
@@ -397,6 +398,16 @@ pub fn overridden(mut base: Map<String, Value>, given: Map<String, Value>) -> Ma
     }
     if is_given("hold") {
         base.remove("support_path");
+    }
+    if is_given("sample_every") || is_given("sample_at") {
+        base.remove("sample_every");
+        base.remove("sample_at");
+    }
+    if ["pitch", "lines", "length"].into_iter().any(is_given) {
+        base.remove("area");
+    }
+    if given.get("path").is_some_and(|path| path == "repeat") {
+        base.remove("pitch");
     }
     base.extend(given);
     base

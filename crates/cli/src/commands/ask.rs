@@ -155,7 +155,11 @@ fn read_parameters(
     };
     if !formats().contains(&format.as_str()) {
         let known = known();
-        parameters.retain(|name, _| known.iter().any(|parameter| parameter.name == *name));
+        let knows = |name: &str| known.iter().any(|parameter| parameter.name == name);
+        parameters.retain(|name, _| knows(name));
+        for name in without_effect(&parameters, knows) {
+            parameters.remove(name);
+        }
         let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
         session.remark(format_args!(
             "stickslip: {}: a document {format}: its parameters {} are used",
@@ -164,6 +168,20 @@ fn read_parameters(
         ));
     }
     Ok(parameters)
+}
+
+/// Parameters of a raster that have no effect in another command, which rejects them as options.
+fn without_effect(
+    parameters: &Map<String, Value>,
+    knows: impl Fn(&str) -> bool,
+) -> Vec<&'static str> {
+    let has = |name: &str| parameters.get(name).is_some_and(|value| !value.is_null());
+    // The length of lines that are not scanned, on a surface that does not heal.
+    let length = !knows("lines") && !has("healing_time");
+    // The width across of a tip that stays on a single line.
+    let width = !knows("pitch") && !knows("pitch_range") && !has("stiffness_across");
+    let names = [("length", length), ("width_y", width)];
+    names.into_iter().filter_map(|(name, is_without)| is_without.then_some(name)).collect()
 }
 
 /// Answers a question, with results in physical units if requested.

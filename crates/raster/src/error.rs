@@ -35,7 +35,8 @@ pub enum RasterError {
     Lines(usize),
     /// An invalid line of an area.
     #[error(
-        "line {line} of the area: y must lie within ±1e9, start within ±{most:.1e}, and the length be above 0 and at most {most:.1e}, not {found:?}"
+        "line {line} of the area: y must lie within ±1e9, start within ±{most:.1e}, and the length be above 0 and at most {most:.1e}, not {}, {} and {}",
+        found.y, found.start, found.length
     )]
     AreaLine {
         /// Index of the line, from 1.
@@ -83,7 +84,9 @@ pub enum RasterError {
     #[error("a raster needs a spring: without one there is no support that moves along the lines")]
     NoSpring,
     /// A footprint without decay.
-    #[error("a raster needs a footprint that decays along the lines, which J0 does not")]
+    #[error(
+        "a raster needs a footprint that decays along the lines, which J0 and the cosine do not"
+    )]
     NeverFades,
     /// The tip function of the model is not f(x,0).
     #[error("the tip function of the law is not the footprint's section y = 0")]

@@ -9,7 +9,8 @@ use stickslip_tip::sorting::ascending;
 /// Times at which a motion is sampled; by default 2,001 times at even intervals.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Sampling {
-    /// Time between two samples, in Γ/k; by default a 2,000th of the duration of the motion.
+    /// Time between two samples, in Γ/k; by default a 2,000th of the duration of the motion; on the lines of a
+    /// raster the time in which the support moves a quarter of a width, if that is longer.
     #[schemars(extend("x-option" = option("DT", "Output", 60)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample_every: Option<f64>,

@@ -134,7 +134,7 @@ impl Cycles {
         let (new, waves) = match found {
             Some(found) => found,
             None => {
-                let found = cycle(model, TOLERANCE).ok()?;
+                let found = of_one_crest(model)?;
                 let waves = Waves::of(&found);
                 (Some(found), waves)
             }
@@ -149,9 +149,57 @@ impl Cycles {
     }
 }
 
+/// Ratio of α from one step to the next, and largest number of steps, in which a cycle is followed.
+const RATIO: f64 = 0.96;
+const STEPS: i32 = 12;
+
+/// The cycle of a model, with one crest in a wavelength if there is one.
+///
+/// Beyond a period doubling a search without a guess finds a stable cycle of twice the wavelength, and one from a guess
+/// nearby the cycle that doubled. A fit needs waves that do not depend on its way: they are those of the latter cycle.
+fn of_one_crest(model: &Model) -> Option<Cycle> {
+    let found = cycle(model, TOLERANCE).ok()?;
+    if found.slips() == 1 {
+        return Some(found);
+    }
+    Some(followed_from_below(model).unwrap_or(found))
+}
+
+/// The cycle with one crest, followed from an α at which a search without a guess finds it.
+fn followed_from_below(model: &Model) -> Option<Cycle> {
+    let below = |step: i32| {
+        let alpha = model.alpha() * RATIO.powi(step);
+        Model::under(*model.wider(), model.tip().clone(), alpha, model.r()).ok()
+    };
+    let (first, mut found) = (1..=STEPS)
+        .map_while(|step| Some((step, cycle(&below(step)?, TOLERANCE).ok()?)))
+        .find(|(_, found)| found.slips() == 1)?;
+    for step in (0..first).rev() {
+        found = cycle_near(&below(step)?, found.motion(), TOLERANCE).ok()?;
+    }
+    (found.slips() == 1).then_some(found)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use stickslip_tip::TipFunction;
+
+    /// α/αc = 1.21, just beyond a period doubling.
+    #[test]
+    fn waves_beyond_a_period_doubling_do_not_depend_on_those_before() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let last = |alphas: &[f64]| {
+            let cycles = Cycles::default();
+            let lengths = alphas.iter().map(|alpha| {
+                let model = Model::new(tip.clone(), *alpha, 2.056).unwrap();
+                cycles.waves(&model).unwrap().ripple.wavelength
+            });
+            lengths.last().unwrap()
+        };
+        let [alone, followed] = [last(&[4.6364]), last(&[4.2, 4.35, 4.5, 4.6364])];
+        assert!(followed < 10.0 && (alone - followed).abs() < 1e-4, "{alone} {followed}");
+    }
 
     #[test]
     fn the_mean_of_neighbours_is_that_of_the_values() {

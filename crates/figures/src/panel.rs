@@ -169,10 +169,12 @@ impl<'a> Panel<'a> {
                 drawing.text(Text { x, y, label, size, anchor: Anchor::Middle, upright: false });
             }
         }
+        let mut free = f64::INFINITY;
         for tick in &self.y.ticks {
             let Some(y) = self.y_of(tick.value, at) else { continue };
             drawing.segment((at.left - length(&tick.label), y), (at.left, y), ink);
-            if let Some(label) = tick.label.clone() {
+            if let Some(label) = tick.label.clone().filter(|_| y <= free) {
+                free = y - 1.2 * size;
                 let (x, y) = (at.left - 8.0, y + 0.36 * size);
                 drawing.text(Text { x, y, label, size, anchor: Anchor::End, upright: false });
             }

@@ -108,6 +108,16 @@ fn a_surface_has_one_scale_for_both_of_its_axes() {
 }
 
 #[test]
+fn numbers_beside_a_low_map_do_not_run_into_each_other() {
+    let panel = map_panel("", ("x (σ)", "y (σ)"), (70, 7));
+    let picture = svg(&figure(vec![panel]), &Size::default()).unwrap();
+    let of = |line: &str| line.split_once(" y=\"")?.1.split_once('"')?.0.parse::<f64>().ok();
+    let at: Vec<f64> =
+        picture.lines().filter(|line| line.contains("\"end\"")).filter_map(of).collect();
+    assert!(at.len() > 1 && at.windows(2).all(|pair| pair[0] - pair[1] > 14.0), "{at:?}");
+}
+
+#[test]
 fn panels_of_a_pair_are_of_one_size_whatever_their_headings() {
     let long =
         "ripples of a heading that is wrapped into some lines because it is so long: coherence 1";

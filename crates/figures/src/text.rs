@@ -62,6 +62,15 @@ pub(crate) fn spans(label: &str) -> Vec<Span> {
     spans
 }
 
+/// The label that shows a text as it is, such as the name of a file.
+pub(crate) fn literal(text: &str) -> String {
+    let escaped = |letter: char| match letter {
+        '_' | '^' | '\\' | '{' | '}' => format!("\\{letter}"),
+        _ => letter.to_string(),
+    };
+    text.chars().map(escaped).collect()
+}
+
 /// Width of a label set in DejaVu Sans, in the unit of `size`. Other fonts are narrower.
 pub(crate) fn width(label: &str, size: f64) -> f64 {
     let of = |span: &Span| {
@@ -121,6 +130,7 @@ mod tests {
         assert_eq!(levels("α − α_c"), of(&[("α − α", Line), ("c", Below)]));
         assert_eq!(levels("10^{-3} σ"), of(&[("10", Line), ("−3", Above), (" σ", Line)]));
         assert_eq!(levels(r"my\_tip"), of(&[("my_tip", Line)]));
+        assert_eq!(levels(&literal(r"a_1^{2}\3")), of(&[(r"a_1^{2}\3", Line)]));
         assert_eq!(levels("a_"), of(&[("a", Line), ("", Below)]));
         assert_eq!(levels("a_{b"), of(&[("a", Line), ("b", Below)]));
     }

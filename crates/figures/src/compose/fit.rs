@@ -4,6 +4,7 @@ use super::axes::{after_number, labelled, residual};
 use super::drawn::{Drawn, View};
 use super::measured_tip::with_error;
 use crate::error::FigureError;
+use crate::text::literal;
 use stickslip::{
     ColourName, CurveDocument, DataFitted, FigureDocument, FitDocument, Law, ModelParameters,
     NumberFitted, PanelDocument, StyleName, TipDocument,
@@ -80,7 +81,7 @@ fn panels(data: &DataFitted, unit: Option<&str>) -> [PanelDocument; 2] {
     // Documents of older versions have the unit of positions among the parameters alone.
     let x = labelled(x, data.x_unit.as_deref().or(unit.filter(|_| !is_series)));
     let y = labelled(y, data.y_unit.as_deref());
-    let mut above = PanelDocument::new(&data.source, (&x, &y));
+    let mut above = PanelDocument::new(&literal(&data.source), (&x, &y));
     let style = if is_series { StyleName::OpenDots } else { StyleName::Points };
     let measured = CurveDocument::new(style, "as measured", &data.x, &data.y);
     above.curves = vec![measured.coloured(ColourName::Grey)];

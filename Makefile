@@ -47,7 +47,7 @@ wheel: ## the Python package for Linux of glibc 2.28 and later, x86-64 and arm64
 	crates/python/wheel
 
 packages: ## the crates that are published, each built from its packaged sources, in target/package
-	$(CARGO) package --locked --workspace --exclude stickslip-cli --exclude stickslip-grid --exclude stickslip-reproduction --exclude stickslip-benches
+	$(CARGO) package --locked --workspace --exclude stickslip-cli --exclude stickslip-grid --exclude stickslip-reproduction --exclude stickslip-tables --exclude stickslip-benches
 
 deny: ## licences, sources and bans of all that is built, for each lock file
 	.ci/deny

@@ -274,9 +274,8 @@ fn open<P: Part>(
         let mut lines = BufReader::new(&file);
         let mut text = vec![];
         lines.read_until(b'\n', &mut text)?;
-        // A kill may have left a part of the first line, and work that failed at once left no part.
-        let is_bare = lines.fill_buf()?.is_empty();
-        if !first.starts_with(&text) && !is_bare {
+        // A kill may have left a part of the first line.
+        if text != first && !first.starts_with(&text) {
             return Err(io::Error::other(other::<P>(&text)));
         }
         if text == first {

@@ -47,7 +47,13 @@ pub(super) fn scan(
         unkept.is_none()
     };
     let scan = || scanning.scan_with(threads, text, &mut take);
-    stop::with_flag(interrupt.flag(), scan).map_err(Failure::run)?;
+    if let Err(error) = stop::with_flag(interrupt.flag(), scan) {
+        // A file without lines would only keep other rasters from this output.
+        if index == 0 && finished.parts().is_empty() {
+            finished.remove();
+        }
+        return Err(Failure::run(error));
+    }
     if let Some(error) = unkept {
         return Err(finished.unkept(error));
     }

@@ -75,6 +75,20 @@ fn runs_in_two_coordinates_keep_their_promise() {
     }
 }
 
+/// The period of a line that snakes is known so well that y0 is right after 35 periods. With an error of the exponentials
+/// as in one coordinate y0 is off by 18 and 12 tolerances.
+#[test]
+fn a_snaking_line_keeps_its_promise_for_long() {
+    let scenario = scenario(0.9, 0.25, Wider::default(), 600.0);
+    for tolerance in [1e-8, 1e-9] {
+        let scenario = with_tolerance(&scenario, tolerance);
+        let found = verified(&scenario, &run(&scenario).unwrap().trajectory);
+        let y = found.y.unwrap();
+        assert!(y.largest < tolerance, "at {tolerance:.0e}: {y:?}");
+        assert!(found.is_kept() && found.growth.amplification < 10.0, "{found:?}");
+    }
+}
+
 /// One step of the motion across, or along, is off by 100 tolerances; and a run of another spring.
 #[test]
 fn a_changed_motion_is_found_where_it_was_changed() {

@@ -50,6 +50,9 @@ pub enum ProductsError {
     Layer(#[from] TipFunctionError),
 }
 
+/// Finest accuracy of exponentials with the retreat of a resonant tip; it matters for tolerances below 1e-11, and for
+/// sums of several products.
+pub(super) const FINEST: f64 = 5e-14;
 /// Largest number of products: each costs as much as a separable footprint.
 const MOST: usize = 48;
 /// Share of the allowed error for the omitted products.
@@ -61,19 +64,26 @@ const POINTS_PER_WIDTH: f64 = 16.0;
 
 impl Products {
     /// As [`of`](Self::of), or an earlier result for the same arguments.
-    pub(super) fn cached(footprint: &Footprint, accuracy: f64) -> Result<Arc<Self>, ProductsError> {
-        type Known = Cache<(Footprint, u64), Result<Arc<Products>, ProductsError>>;
+    pub(super) fn cached(
+        footprint: &Footprint,
+        accuracies: [f64; 2],
+    ) -> Result<Arc<Self>, ProductsError> {
+        type Known = Cache<(Footprint, [u64; 2]), Result<Arc<Products>, ProductsError>>;
         static CACHE: Known = Cache::new(8);
-        let bits = accuracy.to_bits();
+        let bits = accuracies.map(f64::to_bits);
         CACHE.get(|(of, at)| *at == bits && of == footprint).unwrap_or_else(|| {
-            let products = Self::of(footprint, accuracy).map(Arc::new);
+            let products = Self::of(footprint, accuracies).map(Arc::new);
             CACHE.keep((footprint.clone(), bits), products.clone());
             products
         })
     }
 
-    /// The products that represent f and its slopes to this accuracy.
-    pub(super) fn of(footprint: &Footprint, accuracy: f64) -> Result<Self, ProductsError> {
+    /// The products that represent f and its slopes to the first accuracy; along the scan, exponentials are to fit them
+    /// to the second.
+    pub(super) fn of(
+        footprint: &Footprint,
+        [accuracy, of_slopes]: [f64; 2],
+    ) -> Result<Self, ProductsError> {
         let mut factors = vec![];
         for group in of_one_width(footprint.layers()) {
             factors.extend(Factors::of(&group)?);
@@ -92,7 +102,10 @@ impl Products {
         if count > MOST {
             return Err(ProductsError::TooMany { needed: count });
         }
-        let all = factors.into_iter().map(|factors| factors.product(accuracy, count)).collect();
+        let all = factors
+            .into_iter()
+            .map(|factors| factors.product([accuracy, of_slopes], count))
+            .collect();
         Ok(Self { all, error })
     }
 
@@ -192,20 +205,16 @@ impl Factors {
     }
 
     /// The product, with its share of the allowed error of f and its slopes.
-    fn product(self, accuracy: f64, count: usize) -> Product {
+    fn product(self, [accuracy, of_slopes]: [f64; 2], count: usize) -> Product {
         let Self { along, bells, along_most, across_most } = self;
         if count == 1 && bells.is_single() {
-            return Product {
-                along,
-                bells,
-                size: 1.0,
-                slope_error: accuracy,
-                layer_error: accuracy,
-            };
+            let (slope_error, layer_error) = (of_slopes, accuracy);
+            return Product { along, bells, size: 1.0, slope_error, layer_error };
         }
         let size = along_most[0] * bells.size();
         let share = accuracy / count as f64;
-        let slope_error = quarter_decade(share / across_most[0]);
+        let [coarse, fine] = [share, of_slopes / count as f64].map(|error| error / across_most[0]);
+        let slope_error = quarter_decade(fine.max(coarse.min(FINEST)));
         Product { along, bells, size, slope_error, layer_error: share / size }
     }
 }

@@ -1,6 +1,6 @@
 //! Scenarios in two coordinates: all parameters of a run, and errors in them.
 
-use super::products::{Products, ProductsError};
+use super::products::{FINEST, Products, ProductsError};
 use super::texture::{HeightTable, Texture, TextureError};
 use crate::memory::{FitError, accuracy_needed};
 use crate::run::{RunError, Scenario};
@@ -98,8 +98,9 @@ pub enum PlanarError {
     Along(#[from] RunError),
 }
 
-/// Finest accuracy of exponentials with the retreat of a resonant tip; it matters for tolerances below 1e-11.
-const FINEST: f64 = 5e-14;
+/// Factor of the error that exponentials may have, for a spring across as stiff as that along. The phase of a line that
+/// snakes is free: errors of its period add up, in 35 periods to a thousand times the error of the exponentials.
+const SHARE_ACROSS: f64 = 0.1;
 /// Least distance of rows of noise, in σ.
 const LEAST_SPACING: f64 = 0.01;
 
@@ -142,7 +143,9 @@ impl PlanarScenario {
             Some(_) => PlanarError::NoFootprint,
         })?;
         let accuracy = accuracy_needed(model, self.along.tolerance).max(FINEST);
-        Ok(Products::cached(footprint, accuracy)?)
+        let share = SHARE_ACROSS * self.stiffness_across.min(1.0);
+        let of_slopes = accuracy_needed(model, share * self.along.tolerance).max(FINEST);
+        Ok(Products::cached(footprint, [accuracy, of_slopes])?)
     }
 
     /// Checks all parameters.

@@ -309,7 +309,7 @@ mod tests {
         let layers =
             vec![of(1.0, Across::central(1.3)), of(1.2, Across { center: 0.7, width: 0.9 })];
         let footprint = Footprint::from_layers(layers).unwrap();
-        let products = Products::of(&footprint, 1e-10).unwrap();
+        let products = Products::of(&footprint, [1e-10; 2]).unwrap();
         let storage = Storage::Modes(Retreat::Small, false);
         let part = |product| {
             let mut part = Part::new(product, storage).unwrap();

@@ -273,7 +273,7 @@ fn places_that_cannot_be_written_are_found_before_the_run() {
 fn surfaces_that_cannot_be_had_are_refused() {
     let folder = Folder::new("surfaces");
     folder.prints("run --alpha 1.2 --r 1 --until 30 -o run.json");
-    let cases: [(&str, &[&str]); 23] = [
+    let cases: [(&str, &[&str]); 24] = [
         ("-o u.txt", &["--output u.txt", ".json, .csv, .gsf or .npz"]),
         ("--at 5", &["--at 5", "from 16.03", "to 30"]),
         ("--at 20,31", &["--at 31", "to 30"]),
@@ -295,6 +295,7 @@ fn surfaces_that_cannot_be_had_are_refused() {
         ("--spacing nan", &["--spacing NaN", "above 0"]),
         ("--spacing 1e-300", &["--spacing 1e-300", "or more"]),
         ("--range -1e300,1e300", &["--spacing 0.05", "or more"]),
+        ("--range 0:80:4000001", &["--range", "a spacing of", "or more"]),
         ("-o none/u.json", &["--output none/u.json", "choose a place"]),
         ("--plot u.jpg", &["--plot u.jpg", ".svg, .png or .pdf"]),
     ];

@@ -93,6 +93,8 @@ pub struct Raster {
 const FLATTEST: f64 = 22.5;
 /// Smallest T in the search for thresholds of a kind, as a fraction of the largest T.
 const LEAST_OF_KIND: f64 = 0.01;
+/// A wave number below this, in 1/σ, is 0: no line is as long as its wave.
+const STRAIGHT: f64 = 1e-12;
 /// Grooves that change a line by less than this are negligible.
 const ALONE: f64 = 1e-13;
 /// A T = r/a below this fraction of the largest possible one counts as 0: nothing grows.
@@ -234,18 +236,20 @@ impl Raster {
             growing_above: counted.and_then(|counted| counted.above),
         };
         let phase = if lines.is_alone() { 0.0 } else { Self::phase(lines, place) };
+        // The search approaches straight lines, an end of its interval, but need not reach them.
+        let q = if place.q < STRAIGHT { 0.0 } else { place.q };
         let across = phase.abs() / self.pitch;
-        let angle = place.q.atan2(across).to_degrees();
+        let angle = q.atan2(across).to_degrees();
         let kappa = (path == RasterPath::OneWay).then_some(phase / self.pitch);
         RasterCritical {
             kind: Self::kind(lines, place, angle),
             alpha: self.alpha(self.r / place.t),
             r: self.r,
-            q: place.q,
+            q,
             phase_per_line: phase,
             kappa,
-            crest_angle: kappa.map(|kappa| place.q.atan2(kappa.abs()).to_degrees()),
-            wavelength_x: 2.0 * PI / place.q,
+            crest_angle: kappa.map(|kappa| q.atan2(kappa.abs()).to_degrees()),
+            wavelength_x: 2.0 * PI / q,
             certificate,
         }
     }

@@ -33,6 +33,8 @@ struct Range {
     low: f64,
     high: f64,
     spacing: f64,
+    /// The option with the number of values, if that sets the spacing.
+    counted_by: Option<&'static str>,
 }
 
 impl Places {
@@ -79,7 +81,7 @@ impl Places {
             return Ok(Self { t, x: x.clone(), spacing: None, y, spacing_y });
         }
         let along = match &arguments.range {
-            None => Range { low, high, spacing },
+            None => Range { low, high, spacing, counted_by: None },
             Some(typed) => range(["--range", "--spacing"], typed, arguments.spacing, spacing)?,
         };
         let spacing = along.spacing;
@@ -117,7 +119,7 @@ fn times(arguments: &SurfaceArguments, trajectory: &Trajectory) -> Result<Vec<f6
 
 /// A range, with its spacing from its number of values, from the option `other`, or the default `spacing`.
 fn range(
-    [option, other]: [&str; 2],
+    [option, other]: [&'static str; 2],
     typed: &Interval,
     given: Option<f64>,
     spacing: f64,
@@ -125,7 +127,7 @@ fn range(
     let (low, high) = typed.ends(option)?;
     let points = typed.points(option, given.map(|_| other))?;
     let spacing = points.map_or(spacing, |points| (high - low) / (points - 1) as f64);
-    Ok(Range { low, high, spacing })
+    Ok(Range { low, high, spacing, counted_by: points.map(|_| option) })
 }
 
 impl Range {
@@ -135,15 +137,19 @@ impl Range {
 
     /// The points; an error if their number times `each` exceeds `most`.
     fn positions(&self, option: &str, each: f64, most: f64) -> Result<Vec<f64>, Failure> {
-        let Self { low, high, spacing } = *self;
+        let Self { low, high, spacing, counted_by } = *self;
         let points = self.points() * each;
         if points > most {
             let least = spacing * points / most;
             let message = format!(
-                "would make {points:.1e} points, more than fit in memory; take {least:.3e} or more{}",
+                "would make {points:.1e} points, more than fit in memory; take {} or more{}",
+                counted_by.map_or(format!("{least:.3e}"), |_| format!("a spacing of {least:.3e}")),
                 if most < MOST_PIXELS_OF_GSF { OR_GSF } else { "" }
             );
-            return Err(Failure::number(option, spacing, message));
+            return Err(match counted_by {
+                Some(range) => Failure::input(range, message),
+                None => Failure::number(option, spacing, message),
+            });
         }
         let intervals = ((high - low) / spacing + 1e-9).floor() as usize;
         Ok((0..=intervals).map(|i| low + spacing * i as f64).collect())

@@ -16,7 +16,11 @@ const DAMAGES: [Damage; 22] = [
     ("short", |d| drop(list(d, "t").pop()), "matching lengths"),
     ("short", |d| drop(list(d, "extension").pop()), "matching lengths"),
     ("short", |d| drop(list(d, "displacement").pop()), "matching lengths"),
-    ("stages", |d| d["history"]["displacement"][3] = json!([0.1]), "displacement 3 has 1 entries"),
+    (
+        "stages",
+        |d| d["history"]["displacement"][3] = json!([0.1]),
+        "invalid length 1, expected an array of length 6",
+    ),
     ("empty", forget, "matching lengths"),
     ("backwards", |d| list(d, "t").reverse(), "t does not increase"),
     ("nodes", |d| d["history"]["nodes"] = json!([0.5, 1.0]), "nodes and weights"),

@@ -29,14 +29,14 @@ pub struct History {
     /// R - x0 at the start of each step, in σ.
     pub extension: Vec<f64>,
     /// x0 at the nodes minus x0 at the start of the step, in σ.
-    pub displacement: Vec<Vec<f64>>,
+    pub displacement: Vec<[f64; STAGES]>,
     /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, if there is a depth
     /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height: Option<Vec<Vec<f64>>>,
+    pub height: Option<Vec<[f64; STAGES + 1]>>,
     /// y0 at the start of each step and at its nodes, in σ, if the tip is free to move across the scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub y0: Option<Vec<Vec<f64>>>,
+    pub y0: Option<Vec<[f64; STAGES + 1]>>,
 }
 
 impl From<&Trajectory> for History {
@@ -49,9 +49,8 @@ impl From<&planar::Trajectory> for History {
     /// The history of the motion along the scan, together with y0.
     fn from(trajectory: &planar::Trajectory) -> Self {
         let along: Vec<Step> = trajectory.steps().iter().map(|step| step.along).collect();
-        let y0 = trajectory.steps().iter().map(|step| {
-            [step.y].into_iter().chain(step.across.map(|across| step.y + across)).collect()
-        });
+        let y0 = trajectory.steps().iter();
+        let y0 = y0.map(|step| row(step.y, step.across.map(|across| step.y + across)));
         Self { y0: Some(y0.collect()), ..Self::of(&along) }
     }
 }
@@ -64,16 +63,23 @@ impl History {
             weights: weights.to_vec(),
             t: steps.iter().map(|s| s.t).chain(steps.last().map(Step::end)).collect(),
             extension: steps.iter().map(|s| s.extension).collect(),
-            displacement: steps.iter().map(|s| s.displacement.to_vec()).collect(),
-            height: steps.iter().map(|s| s.height.map(row)).collect(),
+            displacement: steps.iter().map(|s| s.displacement).collect(),
+            height: steps.iter().map(|s| s.height.map(|h| row(h.start, h.nodes))).collect(),
             y0: None,
         }
     }
 }
 
-/// The heights at the start of a step and at its nodes.
-fn row(heights: Heights) -> Vec<f64> {
-    [heights.start].into_iter().chain(heights.nodes).collect()
+/// The values at the start of a step and at its nodes, in a row.
+pub(super) fn row(start: f64, nodes: [f64; STAGES]) -> [f64; STAGES + 1] {
+    let mut row = [start; STAGES + 1];
+    row[1..].copy_from_slice(&nodes);
+    row
+}
+
+/// The values at the start of a step and at its nodes, from their row.
+pub(super) fn start_and_nodes(row: &[f64; STAGES + 1]) -> (f64, [f64; STAGES]) {
+    (row[0], std::array::from_fn(|i| row[i + 1]))
 }
 
 impl History {
@@ -130,13 +136,13 @@ impl History {
         if rows.len() != along.steps().len() {
             return Err(unusable("y0 does not have the length of extension"));
         }
-        let step = |(along, row): (&Step, &Vec<f64>)| {
-            let (y, nodes) = start_and_nodes(row)?;
+        let step = |(along, row): (&Step, &[f64; STAGES + 1])| {
+            let (y, nodes) = start_and_nodes(row);
             let step = planar::Step { along: *along, y, across: nodes.map(|node| node - y) };
             row.iter().all(|y| y.abs() <= FARTHEST).then_some(step)
         };
         let steps: Option<Vec<_>> = along.steps().iter().zip(rows).map(step).collect();
-        let steps = steps.ok_or_else(|| unusable("a row of y0 has no 7 finite entries"))?;
+        let steps = steps.ok_or_else(|| unusable(format!("y0 has numbers beyond {FARTHEST:e}")))?;
         let breaks = |pair: &[planar::Step]| {
             (pair[0].y_at_end() - pair[1].y).abs() > 1e-9 * pair[1].y.abs().max(1.0)
         };
@@ -168,29 +174,16 @@ impl History {
             return Err(unusable("t does not increase"));
         }
         let step = |i: usize| {
-            let displacement = displacement[i].as_slice().try_into();
-            let displacement = displacement.map_err(|_| {
-                let (found, needed) = (self.displacement[i].len(), nodes.len());
-                unusable(format!("displacement {i} has {found} entries, {needed} are needed"))
-            })?;
-            let height = height.as_ref().map(|height| heights(&height[i])).transpose()?;
+            let heights = |row| {
+                let (start, nodes) = start_and_nodes(row);
+                Heights { start, nodes }
+            };
+            let height = height.as_ref().map(|height| heights(&height[i]));
             let (h, extension) = (t[i + 1] - t[i], extension[i]);
-            Ok(Step { t: t[i], h, extension, displacement, height })
+            Step { t: t[i], h, extension, displacement: displacement[i], height }
         };
-        (0..steps).map(step).collect()
+        Ok((0..steps).map(step).collect())
     }
-}
-
-fn heights(row: &[f64]) -> Result<Heights, Unusable> {
-    let parts = start_and_nodes(row);
-    let (start, nodes) = parts.ok_or_else(|| unusable("a row of heights has no 7 entries"))?;
-    Ok(Heights { start, nodes })
-}
-
-/// The values at the start of a step and at its nodes; `None` for a wrong number of values.
-fn start_and_nodes(row: &[f64]) -> Option<(f64, [f64; STAGES])> {
-    let (start, nodes) = row.split_first()?;
-    Some((*start, nodes.try_into().ok()?))
 }
 
 fn unusable(message: impl std::fmt::Display) -> Unusable {
@@ -201,16 +194,16 @@ impl History {
     /// The arrays of the history, each named after its field.
     pub(crate) fn arrays(&self) -> Vec<(&'static str, Array<'_>)> {
         let height = self.height.iter();
-        let height = height.map(|height| ("history_height", Array::matrix(height)));
+        let height = height.map(|height| ("history_height", Array::of_rows(height)));
         let mut arrays = vec![
             ("history_nodes", Array::vector(&self.nodes)),
             ("history_weights", Array::vector(&self.weights)),
             ("history_t", Array::vector(&self.t)),
             ("history_extension", Array::vector(&self.extension)),
-            ("history_displacement", Array::matrix(&self.displacement)),
+            ("history_displacement", Array::of_rows(&self.displacement)),
         ];
         arrays.extend(height);
-        let across = self.y0.iter().map(|y0| ("history_y0", Array::matrix(y0)));
+        let across = self.y0.iter().map(|y0| ("history_y0", Array::of_rows(y0)));
         arrays.extend(across);
         arrays
     }

@@ -184,8 +184,8 @@ impl<'v> FromIterator<&'v Vec<f64>> for Column<'_> {
     }
 }
 
-/// Lists of numbers, one after the other.
-pub(crate) fn joined<'v>(lists: impl IntoIterator<Item = &'v Vec<f64>>) -> Vec<f64> {
+/// Lists, one after the other.
+pub(crate) fn joined<'v, T: Copy + 'v>(lists: impl IntoIterator<Item = &'v Vec<T>>) -> Vec<T> {
     lists.into_iter().map(Vec::as_slice).collect::<Vec<_>>().concat()
 }
 
@@ -218,6 +218,17 @@ impl<'a> Array<'a> {
     pub fn vector(values: impl Into<Cow<'a, [f64]>>) -> Self {
         let values = values.into();
         Self { shape: vec![values.len()], values }
+    }
+
+    /// A matrix of rows of a length that their type fixes.
+    pub(crate) fn of_rows<const N: usize>(rows: impl Into<Cow<'a, [[f64; N]]>>) -> Self {
+        let rows = rows.into();
+        let shape = vec![rows.len(), N];
+        let values = match rows {
+            Cow::Borrowed(rows) => rows.as_flattened().into(),
+            Cow::Owned(rows) => rows.into_flattened().into(),
+        };
+        Self { shape, values }
     }
 
     /// A matrix of rows of equal length.

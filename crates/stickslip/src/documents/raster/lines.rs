@@ -1,5 +1,6 @@
 //! The lines of a raster.
 
+use crate::documents::history::{row, start_and_nodes};
 use crate::documents::table::{Array, joined};
 use crate::schema::JsonSchema;
 use crate::{History, Unusable};
@@ -69,14 +70,14 @@ pub struct LineHistory {
     /// rt - x0 at the start of each step, in σ.
     pub extension: Vec<f64>,
     /// x0 at the nodes minus x0 at the start of the step, in σ.
-    pub displacement: Vec<Vec<f64>>,
+    pub displacement: Vec<[f64; STAGES]>,
     /// Height of the surface under the tip at the start of each step and at its nodes, in kσ²/a, if there is a depth
     /// limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height: Option<Vec<Vec<f64>>>,
+    pub height: Option<Vec<[f64; STAGES + 1]>>,
     /// y0 on the surface at the start of each step and at its nodes, in σ. Present if the tip is free to move across the lines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub y0: Option<Vec<Vec<f64>>>,
+    pub y0: Option<Vec<[f64; STAGES + 1]>>,
 }
 
 /// A finished line of an unfinished raster.
@@ -126,10 +127,8 @@ impl LineHistory {
     fn of(line: &Line) -> Self {
         let History { t, extension, displacement, height, .. } = line.trajectory().into();
         let y = line.track().y;
-        let places = |step: planar::Step| {
-            let at_nodes = step.across.map(|across| y + step.y + across);
-            [y + step.y].into_iter().chain(at_nodes).collect()
-        };
+        let places =
+            |step: planar::Step| row(y + step.y, step.across.map(|across| y + step.y + across));
         let y0 = line.is_free().then(|| line.planar_steps().map(places).collect());
         Self { t, extension, displacement, height, y0 }
     }
@@ -158,7 +157,7 @@ impl LineHistory {
             (None, None) => Ok(Line::new(track, model, steps, work)),
             (Some(y0), Some(_)) if y0.len() == steps.len() => {
                 let rows = steps.into_iter().zip(&y0);
-                let steps = rows.map(|(along, row)| free_step(along, row, track.y));
+                let steps = rows.map(|(along, y0)| free_step(along, y0, track.y));
                 let steps: Vec<planar::Step> = steps.collect::<Option<_>>().ok_or_else(damaged)?;
                 Ok(Line::free(track, model, &steps, work))
             }
@@ -167,10 +166,9 @@ impl LineHistory {
     }
 }
 
-/// A step of a line at y, from y0 at its start and nodes; `None` for a wrong number of nodes or positions out of range.
-fn free_step(along: Step, y0: &[f64], y: f64) -> Option<planar::Step> {
-    let (start, nodes) = y0.split_first()?;
-    let nodes: [f64; STAGES] = nodes.try_into().ok()?;
+/// A step of a line at y, from y0 at its start and nodes; `None` for positions out of range.
+fn free_step(along: Step, y0: &[f64; STAGES + 1], y: f64) -> Option<planar::Step> {
+    let (start, nodes) = start_and_nodes(y0);
     let is_near = y0.iter().all(|y0| (y0 - y).abs() <= FARTHEST_ACROSS);
     let step = planar::Step { along, y: start - y, across: nodes.map(|y0| y0 - start) };
     is_near.then_some(step)
@@ -201,26 +199,23 @@ impl RasterHistory {
         let lines = || self.lines.iter();
         let t = joined(lines().map(|line| &line.t));
         let extension = joined(lines().map(|line| &line.extension));
-        let displacement: Vec<Vec<f64>> =
-            lines().flat_map(|line| line.displacement.clone()).collect();
+        let displacement = joined(lines().map(|line| &line.displacement));
         let steps: Vec<f64> = lines().map(|line| line.extension.len() as f64).collect();
-        let height: Vec<Vec<f64>> =
-            lines().filter_map(|line| line.height.as_ref()).flatten().cloned().collect();
+        let height = joined(lines().filter_map(|line| line.height.as_ref()));
         let mut arrays = vec![
             ("history_nodes", Array::vector(&self.nodes)),
             ("history_weights", Array::vector(&self.weights)),
             ("history_steps", Array::vector(steps)),
             ("history_t", Array::vector(t)),
             ("history_extension", Array::vector(extension)),
-            ("history_displacement", Array::matrix(&displacement)),
+            ("history_displacement", Array::of_rows(displacement)),
         ];
         if !height.is_empty() {
-            arrays.push(("history_height", Array::matrix(&height)));
+            arrays.push(("history_height", Array::of_rows(height)));
         }
-        let y0: Vec<Vec<f64>> =
-            lines().filter_map(|line| line.y0.as_ref()).flatten().cloned().collect();
+        let y0 = joined(lines().filter_map(|line| line.y0.as_ref()));
         if !y0.is_empty() {
-            arrays.push(("history_y0", Array::matrix(&y0)));
+            arrays.push(("history_y0", Array::of_rows(y0)));
         }
         arrays
     }

@@ -89,6 +89,29 @@ fn options_take_the_place_of_parameters() {
     assert_eq!(asked["parameters"]["alpha"], json!(1.3));
 }
 
+/// What a boundary computes, or varies, is not taken from the document of a motion; in a file of parameters it is refused.
+#[test]
+fn a_boundary_takes_its_model_from_a_motion() {
+    let folder = Folder::new("boundary_of_a_motion");
+    let tip = "--tip gaussian --alpha 0.45 --r 1";
+    folder.prints(&format!(
+        "raster {tip} --pitch 0.5 --lines 4 --length 10 --tolerance 1e-4 -o raster.json"
+    ));
+    folder.prints(&format!("run {tip} --stiffness-across 0.5 --until 20 -o run.json"));
+    for (motion, range, like) in [
+        ("raster", "--pitch-range 0.4:0.6:3", "--r 1"),
+        ("raster", "--r-range 0.5:1:3", ""),
+        ("run", "--stiffness-range 0.1:1:3", "--r 1"),
+    ] {
+        let of = format!("boundary --parameters {motion}.json {range}");
+        let plain = format!("boundary --tip gaussian {range} {like}");
+        let [of, plain] = [of, plain].map(|line| without_seconds(folder.prints_json(&line)));
+        assert_eq!(of, plain, "{motion} {range}");
+    }
+    folder.write("alpha.json", r#"{"alpha": 1.2}"#);
+    folder.refuses("boundary --parameters alpha.json --r-range 0.5:1:3", &["--alpha", "leave it"]);
+}
+
 #[test]
 fn parameters_that_are_none_are_refused() {
     let folder = Folder::new("no_parameters");

@@ -82,7 +82,7 @@ pub(crate) fn refusal(failure: documents::Failure, tip: &TipArguments, files: &[
 impl<Q: Questions> Options<Q> {
     /// The values of the parameters: those of --parameters, replaced by those given as options.
     pub(crate) fn values(&self, session: &Session) -> Result<Map<String, Value>, Failure> {
-        let read = |path| read_parameters(session, path, (Q::formats, Q::parameters));
+        let read = |path| read_parameters(session, path, (Q::formats, Q::parameters), &self.given);
         let base = self.parameters.as_deref().map(read).transpose()?;
         self.values_instead_of(session, base.unwrap_or_default())
     }
@@ -132,11 +132,12 @@ impl Given {
 /// The formats of documents with the parameters of a command, and these parameters.
 type Known = (fn() -> Vec<&'static str>, fn() -> Vec<&'static Parameter>);
 
-/// The parameters in a file: a document, or its `parameters` alone.
+/// The parameters in a file, a document or its `parameters` alone, beside those given as options.
 fn read_parameters(
     session: &Session,
     path: &Path,
     (formats, known): Known,
+    given: &Map<String, Value>,
 ) -> Result<Map<String, Value>, Failure> {
     const OPTION: &str = "--parameters";
     let named = || format!("{OPTION} {}", path.display());
@@ -157,7 +158,7 @@ fn read_parameters(
         let known = known();
         let knows = |name: &str| known.iter().any(|parameter| parameter.name == name);
         parameters.retain(|name, _| knows(name));
-        for name in without_effect(&parameters, knows) {
+        for name in without_effect(&parameters, given, knows) {
             parameters.remove(name);
         }
         let names: Vec<&str> = parameters.keys().map(String::as_str).collect();
@@ -170,17 +171,29 @@ fn read_parameters(
     Ok(parameters)
 }
 
-/// Parameters of a raster that have no effect in another command, which rejects them as options.
+/// Parameters of a document that have no effect in a command of another kind, which rejects them as options.
 fn without_effect(
     parameters: &Map<String, Value>,
+    given: &Map<String, Value>,
     knows: impl Fn(&str) -> bool,
 ) -> Vec<&'static str> {
     let has = |name: &str| parameters.get(name).is_some_and(|value| !value.is_null());
     // The length of lines that are not scanned, on a surface that does not heal.
     let length = !knows("lines") && !has("healing_time");
     // The width across of a tip that stays on a single line.
-    let width = !knows("pitch") && !knows("pitch_range") && !has("stiffness_across");
-    let names = [("length", length), ("width_y", width)];
+    let across = ["pitch_range", "stiffness_range"].iter().any(|name| given.contains_key(*name));
+    let width = !knows("pitch") && !across && !has("stiffness_across");
+    // What a boundary computes, or varies; a map over loads begins at the values of one motion.
+    let is_map = given.keys().any(|name| name.starts_with("load"));
+    let computed = knows("load_range") && !is_map;
+    let names = [
+        ("length", length),
+        ("width_y", width),
+        ("alpha", computed),
+        ("alpha_above", computed),
+        ("r", computed && given.contains_key("r_range")),
+        ("stiffness_across", given.contains_key("stiffness_range")),
+    ];
     names.into_iter().filter_map(|(name, is_without)| is_without.then_some(name)).collect()
 }
 

@@ -31,7 +31,8 @@ pub fn volume(plan: &Plan, lines: &[Line]) -> f64 {
         |line: &Line| plan.law.model.wider().left_after(plan.duration_of(line.track().length));
     let all = lines.iter().zip(times(lines));
     let all = all.fold(0.0, |sum, (line, time)| sum * left(line) + time);
-    -plan.law.model.alpha() * plan.footprint.integral() * all
+    // 0, and not -0, if f has none.
+    0.0 - plan.law.model.alpha() * plan.footprint.integral() * all
 }
 
 /// Mean depth carved by lines of length X at the pitch d, with material heaped up beside a groove counted like removed

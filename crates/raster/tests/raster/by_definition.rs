@@ -219,6 +219,7 @@ fn every_line_takes_away_the_same_volume() {
             assert!((added - by_law).abs() < 1e-10, "{n}: {added} for {by_law}");
             assert!((volume(&plan, &lines[..n]) - by_law).abs() < 1e-10);
         }
+        assert!(volume(&plan, &[]).is_sign_positive(), "-0");
     }
     assert!((round().integral() - 2.0 * std::f64::consts::PI).abs() < 1e-14);
 }

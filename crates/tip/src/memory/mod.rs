@@ -25,7 +25,8 @@ pub(crate) use fading::Fading;
 pub(crate) use fft::Fft;
 pub use groove::{Groove, longest_look};
 pub(crate) use modes::{
-    ExpandedPart, HIGHEST_DEGREE, LOWEST_DEGREE, Prepared, TERMS, Terms, expansion_lengths,
+    ExpandedPart, FINEST_OF_SWINGING, HIGHEST_DEGREE, LOWEST_DEGREE, Prepared, TERMS, Terms,
+    expansion_lengths,
 };
 pub use modes::{Fit, FitCertificate, FitError, Retreat, Term, accuracy_needed, displacement};
 pub use policy::Policy;

@@ -9,6 +9,7 @@ use super::bells::Bells;
 use crate::cache::Cache;
 use crate::elementary::{log10, pow};
 use crate::footprint::{Footprint, Layer};
+use crate::memory::FINEST_OF_SWINGING;
 use crate::sorting::sort_by_number;
 use crate::{Gaussian, TipFunction, TipFunctionError};
 use nalgebra::{DMatrix, SVD};
@@ -50,9 +51,6 @@ pub enum ProductsError {
     Layer(#[from] TipFunctionError),
 }
 
-/// Finest accuracy of exponentials with the retreat of a resonant tip; it matters for tolerances below 1e-11, and for
-/// sums of several products.
-pub(super) const FINEST: f64 = 5e-14;
 /// Largest number of products: each costs as much as a separable footprint.
 const MOST: usize = 48;
 /// Share of the allowed error for the omitted products.
@@ -80,10 +78,8 @@ impl Products {
 
     /// The products that represent f and its slopes to the first accuracy; along the scan, exponentials are to fit them
     /// to the second.
-    pub(super) fn of(
-        footprint: &Footprint,
-        [accuracy, of_slopes]: [f64; 2],
-    ) -> Result<Self, ProductsError> {
+    pub(super) fn of(footprint: &Footprint, accuracies: [f64; 2]) -> Result<Self, ProductsError> {
+        let [accuracy, _] = accuracies;
         let mut factors = vec![];
         for group in of_one_width(footprint.layers()) {
             factors.extend(Factors::of(&group)?);
@@ -102,10 +98,7 @@ impl Products {
         if count > MOST {
             return Err(ProductsError::TooMany { needed: count });
         }
-        let all = factors
-            .into_iter()
-            .map(|factors| factors.product([accuracy, of_slopes], count))
-            .collect();
+        let all = factors.into_iter().map(|factors| factors.product(accuracies, count)).collect();
         Ok(Self { all, error })
     }
 
@@ -214,7 +207,7 @@ impl Factors {
         let size = along_most[0] * bells.size();
         let share = accuracy / count as f64;
         let [coarse, fine] = [share, of_slopes / count as f64].map(|error| error / across_most[0]);
-        let slope_error = quarter_decade(fine.max(coarse.min(FINEST)));
+        let slope_error = quarter_decade(fine.max(coarse.min(FINEST_OF_SWINGING)));
         Product { along, bells, size, slope_error, layer_error: share / size }
     }
 }

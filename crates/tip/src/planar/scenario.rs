@@ -1,8 +1,8 @@
 //! Scenarios in two coordinates: all parameters of a run, and errors in them.
 
-use super::products::{FINEST, Products, ProductsError};
+use super::products::{Products, ProductsError};
 use super::texture::{HeightTable, Texture, TextureError};
-use crate::memory::{FitError, accuracy_needed};
+use crate::memory::{FINEST_OF_SWINGING, FitError, accuracy_needed};
 use crate::run::{RunError, Scenario};
 use crate::{Force, IntegrationError};
 use std::sync::Arc;
@@ -142,10 +142,11 @@ impl PlanarScenario {
             None => PlanarError::NeverFades,
             Some(_) => PlanarError::NoFootprint,
         })?;
-        let accuracy = accuracy_needed(model, self.along.tolerance).max(FINEST);
         let share = SHARE_ACROSS * self.stiffness_across.min(1.0);
-        let of_slopes = accuracy_needed(model, share * self.along.tolerance).max(FINEST);
-        Ok(Products::cached(footprint, [accuracy, of_slopes])?)
+        let accuracies = [1.0, share].map(|share| {
+            accuracy_needed(model, share * self.along.tolerance).max(FINEST_OF_SWINGING)
+        });
+        Ok(Products::cached(footprint, accuracies)?)
     }
 
     /// Checks all parameters.

@@ -23,7 +23,8 @@ const HEIGHTS: f64 = 4.0;
 /// Finest accuracy of a fit. Heights do not require more, nor does a tip that swings back, whose fit must be valid
 /// farther behind.
 const FINEST: f64 = 2.5e-14;
-const FINEST_OF_SWINGING: f64 = 5e-14;
+/// The same for a tip that may swing back, and for every tip in two coordinates.
+pub(crate) const FINEST_OF_SWINGING: f64 = 5e-14;
 
 /// The error ε of f' that may be allowed: the displacement of the tip that it causes is a small part of the tolerance.
 ///

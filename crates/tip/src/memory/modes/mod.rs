@@ -13,6 +13,7 @@ mod term;
 mod weights;
 mod window;
 
+pub(crate) use accuracy::FINEST_OF_SWINGING;
 pub use accuracy::{accuracy_needed, displacement};
 pub(crate) use bank::{ExpandedPart, LANES as TERMS, LOWEST_DEGREE, Terms, expansion_lengths};
 pub use certificate::FitCertificate;

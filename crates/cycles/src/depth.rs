@@ -49,7 +49,7 @@ impl LinearHeights {
         let groove = Vector::from_fn(|i, _| history[i] + groove[i] * times);
         let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading[i] * history[i]);
         let q = Square::from_fn(|i, k| alpha * changing[i][k] * values[i][k]) + Square::identity();
-        let inverse = q.try_inverse()?;
+        let inverse = q.lu().try_inverse()?;
         // A stage that moves on sees the slope where it is, and the others see it move.
         let along = Square::from_fn(|i, k| alpha * weighted[i][k] * times * slopes[i][k]);
         let by_displacement = Square::from_diagonal(&(slope * alpha)) - along;

@@ -67,12 +67,13 @@ impl Surface<'_> {
             before(layer) - sums * self.model.alpha()
         };
         let profiles: Vec<Array1<f64>> = layers.par_iter().map(profile).collect();
-        let mut along = Array2::zeros((layers.len(), x.len()));
-        for (mut row, profile) in along.axis_iter_mut(Axis(0)).zip(&profiles) {
-            row.assign(profile);
+        let mut image = Array2::zeros((y.len(), x.len()));
+        for (layer, profile) in layers.iter().zip(&profiles) {
+            for (mut row, y) in image.outer_iter_mut().zip(y) {
+                row.scaled_add(layer.across.value(*y), profile);
+            }
         }
-        let height = |(j, k): (usize, usize)| layers[k].across.value(y[j]);
-        Array2::from_shape_fn((y.len(), layers.len()), height).dot(&along)
+        image
     }
 
     /// The steady profile (24) at the start of the run, with the factor g(x) of the layer in place of f.

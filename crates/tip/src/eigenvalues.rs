@@ -12,7 +12,8 @@
 
 use crate::elementary::{exp2, log2};
 use crate::stop;
-use nalgebra::{DMatrix, DVector, linalg::Hessenberg};
+use nalgebra::linalg::{Hessenberg, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn};
 use num_complex::Complex;
 
 /// Columns with a smaller norm, relative to that of the largest column, are round-off.
@@ -47,7 +48,6 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     balance(&mut matrix);
     let rows = matrix.nrows();
     let basis = range(matrix.clone());
-    // `tr_mul` sums in one order on every machine; products of large matrices have kernels for each processor.
     let reduced = if basis.ncols() < rows {
         basis.tr_mul(&matrix).transpose().tr_mul(&basis)
     } else {
@@ -57,6 +57,13 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let mut found = Deflation::new(upper).eigenvalues()?;
     found.resize(rows, Complex::ZERO);
     Some(found.into_iter().map(|value| value * largest).collect())
+}
+
+/// Eigenvalues and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; `None` if the
+/// iteration does not converge.
+pub fn symmetric_eigen(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
+    const MOST_SWEEPS: usize = 1000;
+    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS)
 }
 
 /// An orthonormal basis of the span of the columns, by Gram-Schmidt, the largest column first.

@@ -46,7 +46,7 @@ mod support;
 mod wider;
 
 pub use collocation::{STAGES, Stages, nodes_and_weights};
-pub use eigenvalues::eigenvalues;
+pub use eigenvalues::{eigenvalues, symmetric_eigen};
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
 pub use history::{Heights, Moment, STEP_NUMBERS, Step, Trajectory};

@@ -9,6 +9,7 @@ use crate::least_squares::{Minimum, matrix_of, minimum, squares};
 use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use stickslip_tip::sorting::sort_by_number;
+use stickslip_tip::symmetric_eigen;
 
 /// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +71,7 @@ impl<'a> Around<'a> {
             normal[(i, i)] += 1e-14 * largest;
         }
         let freedom = (problem.rows() as f64 - problem.parameters() as f64).max(1.0);
-        let independent = normal.try_inverse()? * (best.sum / freedom);
+        let independent = normal.lu().try_inverse()? * (best.sum / freedom);
         Some(Self {
             problem,
             best,
@@ -258,7 +259,7 @@ fn correlations(covariance: &DMatrix<f64>, count: usize) -> Vec<Vec<f64>> {
 pub(super) fn least_determined(around: &Around) -> Option<(Vec<f64>, f64)> {
     let count = around.problem.free.len();
     let part = around.covariance.view((0, 0), (count, count)).into_owned();
-    let found = part.symmetric_eigen();
+    let found = symmetric_eigen(part)?;
     let i = found.eigenvalues.imax();
     let powers: Vec<f64> = found.eigenvectors.column(i).iter().copied().collect();
     let largest = powers.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;

@@ -14,7 +14,7 @@
 //! If f is a sum of products g h, so are the integrals.
 
 use super::travelling::{HARMONICS_ACROSS as HARMONICS, Lines, POINTS_ACROSS as POINTS, Unknowns};
-use nalgebra::{Complex, DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 use stickslip_tip::{Across, Layer};
 
@@ -97,14 +97,14 @@ impl Lines {
         let near = |at, softness| neutral_near(at, q, softness, &sums);
         let followed = self.neutral_rigid(q, kappa).and_then(|(alpha, r)| {
             let softer = |at, part| near(at, f64::from(part) / f64::from(SOFTER) / stiffness);
-            (1..=SOFTER).try_fold(Vector2::new(alpha.ln(), r.ln()), softer)
+            (1..=SOFTER).try_fold([alpha.ln(), r.ln()], softer)
         });
         // Where a rigid tip has no such wave: the one with the least α.
-        let starts =
-            STARTS.iter().flat_map(|alpha| STARTS.map(|r| Vector2::new(alpha.ln(), r.ln())));
+        let starts = STARTS.iter().flat_map(|alpha| STARTS.map(|r| [alpha.ln(), r.ln()]));
         let at = followed.or_else(|| {
             let found = starts.filter_map(|start| near(start, 1.0 / stiffness));
-            found.filter(|at| at.amax() < FARTHEST).min_by(|a, b| a[0].total_cmp(&b[0]))
+            let is_near = |at: &[f64; 2]| at.iter().all(|log| log.abs() < FARTHEST);
+            found.filter(is_near).min_by(|a, b| a[0].total_cmp(&b[0]))
         })?;
         Some((at[0].exp(), at[1].exp()))
     }
@@ -304,13 +304,13 @@ impl Lines {
 /// (αA + r² + r/(iq)) c = (iqα/r) K e,   (1 + (iqr - (α/r) B)/κ_y) e = (α/κ_y) K c
 /// ```
 fn neutral_near(
-    mut at: Vector2<f64>,
+    mut at: [f64; 2],
     q: f64,
     softness: f64,
     [along, coupling, across]: &[Complex64; 3],
-) -> Option<Vector2<f64>> {
+) -> Option<[f64; 2]> {
     let i = Complex64::new(0.0, 1.0);
-    let value = |at: &Vector2<f64>| {
+    let value = |at: &[f64; 2]| {
         let (alpha, r) = (at[0].exp(), at[1].exp());
         let first = along * alpha + r * r + r / (i * q);
         let second = 1.0 + softness * (i * q * r - across * (alpha / r));
@@ -327,10 +327,10 @@ fn neutral_near(
             [0, 1].map(|k| (there[k] - here[k]) / STEP)
         };
         let [a, b] = [column(0), column(1)];
-        let step =
-            Matrix2::new(a[0], b[0], a[1], b[1]).lu().solve(&Vector2::new(here[0], here[1]))?;
+        let jacobian = DMatrix::from_row_slice(2, 2, &[a[0], b[0], a[1], b[1]]);
+        let step = jacobian.lu().solve(&DVector::from_column_slice(&here))?;
         let part = (0.3 / step.amax()).min(1.0);
-        at -= part * step;
+        at = [0, 1].map(|n| at[n] - part * step[n]);
         if step.amax() < 1e-10 {
             return Some(at);
         }

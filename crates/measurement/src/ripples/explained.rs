@@ -93,7 +93,7 @@ impl<'a> Problem<'a> {
         let covariance = DMatrix::from_fn(UNKNOWNS, UNKNOWNS, |i, j| {
             scale(i) * scale(j) * wave.covariance[(i, j)]
         });
-        let whitening = Cholesky::new(covariance)?.l().try_inverse()?;
+        let whitening = Cholesky::new(covariance)?.l().lu().try_inverse()?;
         let (q, kappa) = (data[0], data[1]);
         let start = if known.frees_stiffness {
             // κ_y at which the neutral wave comes closest to the known numbers.
@@ -311,7 +311,7 @@ impl<'a> Around<'a> {
     fn of(problem: &'a Problem, best: &'a Minimum) -> Option<Self> {
         let slopes = problem.derivatives(&best.residuals, &best.parameters)?;
         let jacobian = matrix_of(slopes);
-        let covariance = jacobian.tr_mul(&jacobian).try_inverse()?;
+        let covariance = jacobian.tr_mul(&jacobian).lu().try_inverse()?;
         Some(Self { problem, best, covariance, quantile: student(BLOCK_FREEDOM) })
     }
 

@@ -74,8 +74,9 @@ fn compared(there: &Wave, back: &Wave) -> Option<(f64, f64)> {
     }
     let off = &turning * DVector::from_column_slice(&back.values)
         - DVector::from_column_slice(&there.values);
-    let weights =
-        (&there.covariance + &turning * &back.covariance * turning.transpose()).try_inverse()?;
+    let weights = (&there.covariance + &turning * &back.covariance * turning.transpose())
+        .lu()
+        .try_inverse()?;
     let product = |a: &DVector<f64>, b: &DVector<f64>| a.dot(&(&weights * b));
     // The shift that brings all harmonics closest.
     let square = product(&off, &off) - product(&along, &off).powi(2) / product(&along, &along);

@@ -279,7 +279,7 @@ impl Rows {
         let residual = (normal.sum / freedom).sqrt();
         let square = |row: &Row| row.weight * row.z.iter().map(|z| z * z).sum::<f64>();
         let all: f64 = self.rows.iter().map(square).sum();
-        let inverse = normal.matrix().try_inverse().ok_or(RippleError::Nothing)?;
+        let inverse = normal.matrix().lu().try_inverse().ok_or(RippleError::Nothing)?;
         let white = &inverse * (residual * residual);
         let blocks = normal.scatter();
         let scattered = &inverse * blocks * &inverse;
@@ -393,7 +393,8 @@ impl Normal {
     fn modulation(&self, white: &DMatrix<f64>) -> f64 {
         let count = (BLOCKS * BLOCKS) as f64;
         let all = self.matrix();
-        let Some(inverse) = (all.view((2, 2), (2, 2)).into_owned() / count).try_inverse() else {
+        let first = DMatrix::from_fn(2, 2, |i, k| all[(2 + i, 2 + k)] / count);
+        let Some(inverse) = first.lu().try_inverse() else {
             return f64::INFINITY;
         };
         let apart = |score: &[f64; UNKNOWNS]| {

@@ -4,9 +4,10 @@
 //! 984 (1989).
 
 use crate::cache::Cache;
+use crate::eigenvalues::symmetric_eigen;
 use crate::elementary::complex_ln;
 use crate::sorting::ascending;
-use nalgebra::{DMatrix, Schur, SymmetricEigen};
+use nalgebra::{DMatrix, Schur};
 use num_complex::Complex;
 use std::sync::Arc;
 
@@ -42,7 +43,7 @@ impl Pencil {
     fn new(samples: &[f64], spacing: f64) -> Option<Self> {
         let rows = samples.len().div_ceil(2);
         let hankel = DMatrix::from_fn(rows, rows, |i, j| samples[i + j]);
-        let found = SymmetricEigen::try_new(hankel, f64::EPSILON, MOST_SWEEPS)?;
+        let found = symmetric_eigen(hankel)?;
         let falling: Vec<f64> = found.eigenvalues.iter().map(|value| -value.abs()).collect();
         let order = ascending(&falling);
         let columns: Vec<_> = order.iter().map(|k| found.eigenvectors.column(*k)).collect();
@@ -73,7 +74,6 @@ impl Pencil {
         // The columns of `vectors` are orthonormal, so those of `upper` nearly are: U1ᵀU1 = 1 - vvᵀ with
         // v the row left out, inverted by Sherman & Morrison.
         let v = self.vectors.view((rows, 0), (1, p)).transpose();
-        // Not `upperᵀ * lower`: products of large matrices have kernels for each processor, and other bits by them.
         let product = upper.tr_mul(&lower);
         let rest = 1.0 - v.norm_squared();
         let shift = &product + &v * (v.transpose() * &product) / rest;

@@ -10,7 +10,6 @@ use crate::grooves::{ahead, same};
 use crate::line::Line;
 use crate::plan::Plan;
 use crate::trace::{Trace, Ways, Writer};
-use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -54,9 +53,9 @@ struct Shared<T> {
     next: usize,
     rows: Rows,
     /// Lines under way, each with the flag that gives it up.
-    under_way: BTreeMap<usize, Arc<AtomicBool>>,
+    under_way: Vec<(usize, Arc<AtomicBool>)>,
     /// Finished lines that wait for those before them.
-    finished: BTreeMap<usize, Result<Made<T>, RasterError>>,
+    finished: Vec<(usize, Result<Made<T>, RasterError>)>,
     /// A line whose tip has returned: no later line begins before it ends.
     returned: Option<usize>,
     /// The first line that has not been passed to `take`.
@@ -115,8 +114,9 @@ impl<'a> Course<'a> {
         of_line: impl Fn(usize, &Line) -> T + Sync,
         mut take: impl FnMut(Made<T>) -> bool,
     ) -> Result<(), RasterError> {
-        let (next, under_way, finished) = (out, BTreeMap::new(), BTreeMap::new());
-        let shared = Shared { next, rows, under_way, finished, returned: None, out, ended: false };
+        let (under_way, finished) = (vec![], vec![]);
+        let shared =
+            Shared { next: out, rows, under_way, finished, returned: None, out, ended: false };
         let (shared, news) = (&Mutex::new(shared), &Condvar::new());
         let flag = stop::flag().unwrap_or_default();
         std::thread::scope(|scope| {
@@ -154,7 +154,7 @@ impl<'a> Course<'a> {
             }
             let job = self.job(now.next, &now.rows);
             (now.next, now.rows) = (job.n + 1, job.after.clone());
-            now.under_way.insert(job.n, Arc::clone(&job.given_up));
+            now.under_way.push((job.n, Arc::clone(&job.given_up)));
             drop(now);
             let made = self.make(&job, shared).transpose();
             let with = |(line, rows)| {
@@ -293,9 +293,10 @@ impl<T> Shared<T> {
     }
 
     fn give_up_from(&mut self, n: usize) {
-        let lines = self.under_way.split_off(&n);
-        lines.values().for_each(|given_up| given_up.store(true, Ordering::Relaxed));
-        self.finished.split_off(&n);
+        let later = self.under_way.iter().filter(|(line, _)| *line >= n);
+        later.for_each(|(_, given_up)| given_up.store(true, Ordering::Relaxed));
+        self.under_way.retain(|(line, _)| *line < n);
+        self.finished.retain(|(line, _)| *line < n);
     }
 
     /// Stores a finished line, unless it was given up meanwhile.
@@ -303,12 +304,12 @@ impl<T> Shared<T> {
         if job.given_up.load(Ordering::Relaxed) {
             return;
         }
-        self.under_way.remove(&job.n);
+        self.under_way.retain(|(line, _)| *line != job.n);
         if self.returned == Some(job.n) {
             let rows = made.as_ref().map_or(&job.after, |(_, _, rows)| rows);
             (self.returned, self.next, self.rows) = (None, job.n + 1, rows.clone());
         }
-        self.finished.insert(job.n, made);
+        self.finished.push((job.n, made));
     }
 }
 
@@ -320,7 +321,8 @@ fn next_finished<T>(
     let mut now = lock(shared);
     let n = now.out;
     while n < lines && !now.is_over() {
-        if let Some(line) = now.finished.remove(&n) {
+        if let Some(at) = now.finished.iter().position(|(line, _)| *line == n) {
+            let (_, line) = now.finished.swap_remove(at);
             now.out = n + 1;
             news.notify_all();
             return Some(line);

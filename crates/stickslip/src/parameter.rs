@@ -87,12 +87,12 @@ struct Schema<'a> {
     #[serde(borrow)]
     properties: BTreeMap<&'a str, PropertySchema<'a>>,
     #[serde(borrow, rename = "$defs")]
-    definitions: BTreeMap<&'a str, Enumeration<'a>>,
+    definitions: BTreeMap<&'a str, PropertySchema<'a>>,
     #[serde(borrow, rename = "oneOf")]
     names: Vec<NameSchema<'a>>,
 }
 
-/// The schema of a property.
+/// The schema of a property, or of a type that properties refer to.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 struct PropertySchema<'a> {
@@ -110,6 +110,9 @@ struct PropertySchema<'a> {
     default: Value,
     #[serde(rename = "x-option")]
     option: Option<OptionSchema>,
+    /// The constants of an enumeration.
+    #[serde(borrow, rename = "oneOf")]
+    names: Vec<NameSchema<'a>>,
 }
 
 /// The value of `x-option`, as [`option`] writes it.
@@ -118,14 +121,6 @@ struct OptionSchema {
     symbol: String,
     group: String,
     place: u64,
-}
-
-/// The schema of an enumeration: its constants; empty for other types.
-#[derive(Deserialize, Default)]
-#[serde(default)]
-struct Enumeration<'a> {
-    #[serde(borrow, rename = "oneOf")]
-    names: Vec<NameSchema<'a>>,
 }
 
 #[derive(Deserialize, Default)]
@@ -144,19 +139,24 @@ pub fn names<T: Parameters>() -> Vec<(String, String)> {
 
 /// The parsed schema of a question, computed once per process.
 struct Described {
-    /// All properties of the schema, options or not.
-    properties: BTreeMap<String, Parameter>,
+    /// All properties of the schema, options or not, by name.
+    properties: Vec<Parameter>,
+    /// Those that are options, as on the help page.
     options: Vec<Parameter>,
 }
 
 /// The parsed schema of a question, cached because parsing takes longer than many answers.
 fn described<Q: Parameters>() -> &'static Described {
-    static KNOWN: Mutex<BTreeMap<TypeId, &'static Described>> = Mutex::new(BTreeMap::new());
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     // There are as many as types of questions.
-    known
-        .entry(TypeId::of::<Q>())
-        .or_insert_with(|| Box::leak(Box::new(Described::of(&Schema::of::<Q>()))))
+    static KNOWN: Mutex<Vec<(TypeId, &'static Described)>> = Mutex::new(vec![]);
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let of_type = TypeId::of::<Q>();
+    if let Some((_, described)) = known.iter().find(|(other, _)| *other == of_type) {
+        return described;
+    }
+    let described = Box::leak(Box::new(Described::of(&Schema::of::<Q>())));
+    known.push((of_type, described));
+    described
 }
 
 impl Schema<'_> {
@@ -174,7 +174,7 @@ impl Schema<'_> {
 
 impl Described {
     fn of(schema: &Schema<'_>) -> Self {
-        let (mut properties, mut options) = (BTreeMap::new(), vec![]);
+        let (mut properties, mut options) = (vec![], vec![]);
         for (name, property) in &schema.properties {
             let OptionSchema { symbol, group, place } = property.option.clone().unwrap_or_default();
             let parameter = Parameter {
@@ -190,10 +190,14 @@ impl Described {
             if property.option.is_some() {
                 options.push(parameter.clone());
             }
-            properties.insert((*name).into(), parameter);
+            properties.push(parameter);
         }
         options.sort_by_key(|parameter| parameter.place);
         Self { properties, options }
+    }
+
+    fn property(&self, name: &str) -> Option<&Parameter> {
+        self.properties.iter().find(|parameter| parameter.name == name)
     }
 }
 
@@ -262,10 +266,11 @@ fn names_of(names: &[NameSchema<'_>]) -> Vec<(String, String)> {
 /// # Errors
 /// An unknown name, a missing parameter, or a value of the wrong kind.
 pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused> {
-    let properties = &described::<Q>().properties;
+    let described = described::<Q>();
+    let names = described.properties.iter().map(|parameter| &parameter.name);
     for (name, value) in &values {
-        let Some(property) = properties.get(name) else {
-            let advice = match nearest(properties.keys(), name) {
+        let Some(property) = described.property(name) else {
+            let advice = match nearest(names, name) {
                 Some(meant) => format!("did you mean \"{meant}\"?"),
                 None => "leave it out".into(),
             };
@@ -275,10 +280,9 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
             return Err(Refused::word(name.clone(), typed(value), why));
         }
     }
-    let is_missing = |(name, property): &(&String, &Parameter)| {
-        property.is_required && !values.contains_key(*name)
-    };
-    if let Some((name, property)) = properties.iter().find(is_missing) {
+    let is_missing =
+        |property: &&Parameter| property.is_required && !values.contains_key(&property.name);
+    if let Some(property) = described.properties.iter().find(is_missing) {
         if values.get("no_spring") == Some(&Value::Bool(true)) {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
@@ -287,8 +291,8 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
         let named = |text: String, name: &String| {
             text.replace(&format!("`{name}`"), &format!("{{{name}}}"))
         };
-        let meaning = properties.keys().fold(meaning, named);
-        return Err(Refused::whole(name.clone(), format!("is needed: {meaning}")));
+        let meaning = names.fold(meaning, named);
+        return Err(Refused::whole(property.name.clone(), format!("is needed: {meaning}")));
     }
     serde_json::from_value(Value::Object(values.clone())).map_err(|error| {
         let parameter = culprit::<Q>(&values).unwrap_or("tip").to_owned();
@@ -377,8 +381,8 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
 
 /// The first name in `values` that is no parameter of `Q`.
 pub fn unknown_parameter<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
-    let properties = &described::<Q>().properties;
-    values.keys().map(String::as_str).find(|name| !properties.contains_key(*name))
+    let described = described::<Q>();
+    values.keys().map(String::as_str).find(|name| described.property(name).is_none())
 }
 
 /// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) + D

@@ -86,7 +86,7 @@ pub use documents::raster::{
     RasterCompareParameters, RasterCompared, RasterComparedWork, RasterFound, RasterHistory,
     RasterLine, RasterSamples, RasterSurfaceDocument, RasterSweepFound, RasterSweepPoint,
 };
-pub use documents::read::{Kind, Unusable, identified, kind_of, read, read_from};
+pub use documents::read::{Kind, Unusable, from_json, identified, kind_of, read, read_from};
 pub use documents::reproduction::{
     NumberDocument, ReproductionDocument, ReproductionFound, ReproductionParameters,
 };

@@ -153,7 +153,7 @@ impl<R: BufRead> Lines<R> {
     }
 
     fn parse<D: DeserializeOwned>(&self) -> serde_json::Result<D> {
-        serde_json::from_slice(&self.line)
+        stickslip::from_json(&self.line)
     }
 
     /// Whether the current line is incomplete.

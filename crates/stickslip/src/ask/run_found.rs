@@ -4,7 +4,7 @@ use crate::documents::table::{Array, Named, Tabular, as_arrays};
 use crate::schema::JsonSchema;
 use crate::{
     Failure, History, OscillationDocument, RegimeName, SteadyState, SwingDocument,
-    TransientDocument, VerificationDocument, WorkDocument,
+    TransientDocument, VerificationDocument, WorkDocument, from_json,
 };
 use serde::{Deserialize, Serialize};
 use stickslip_outcome::{Creeping, Drift, Observer, Outcome, judge};
@@ -154,7 +154,7 @@ impl SampleLine {
     ///
     /// The line is another, or damaged.
     pub fn on(line: &[u8]) -> serde_json::Result<Self> {
-        serde_json::from_slice(line)
+        from_json(line)
     }
 }
 

@@ -76,7 +76,7 @@ fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Res
     let mut most = BLOCK;
     loop {
         (&mut whole).take((most - text.len()) as u64).read_to_end(&mut text).map_err(unreadable)?;
-        let found: serde_json::Result<D> = serde_json::from_slice(&text);
+        let found: serde_json::Result<D> = from_json(&text);
         if text.len() == most && found.as_ref().err().is_none_or(serde_json::Error::is_eof) {
             most *= if most < MEGABYTE { 16 } else { 256 };
             continue;
@@ -88,6 +88,24 @@ fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Res
                 Unusable(format!("damaged, or {}", no_document(&error, wanted)))
             }
         });
+    }
+}
+
+/// A value from its JSON in UTF-8.
+///
+/// # Errors
+/// The bytes are not UTF-8, not JSON, or JSON of another type.
+pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> serde_json::Result<T> {
+    let no_text = |at: usize| serde_json::Error::custom(format!("byte {} is not UTF-8", at + 1));
+    // From text, not bytes: the compiled serde_json contains that reader.
+    match str::from_utf8(bytes) {
+        Ok(text) => serde_json::from_str(text),
+        Err(error) if error.error_len().is_some() => Err(no_text(error.valid_up_to())),
+        // The last character is cut in two: what precedes it may be the beginning of a document.
+        Err(error) => {
+            let text = str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default();
+            serde_json::from_str::<T>(text).and(Err(no_text(text.len())))
+        }
     }
 }
 

@@ -153,16 +153,12 @@ impl Write for Pieces<'_> {
         Ok(bytes.len())
     }
 
-    /// A piece ends before a single byte: never between a mark and the bits of its number.
+    /// A piece may end before any write: a mark and the bits of its number are written together.
     fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if let [byte] = bytes {
-            if self.piece.len() >= PIECE {
-                self.pass_on()?;
-            }
-            self.piece.push(*byte);
-        } else {
-            self.piece.extend_from_slice(bytes);
+        if self.piece.len() >= PIECE {
+            self.pass_on()?;
         }
+        self.piece.extend_from_slice(bytes);
         Ok(())
     }
 
@@ -176,8 +172,9 @@ struct Bits;
 
 impl Formatter for Bits {
     fn write_f64<W: Write + ?Sized>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
-        writer.write_all(&[NUMBER])?;
-        writer.write_all(&value.to_le_bytes())
+        let mut bytes = [NUMBER; 9];
+        bytes[1..].copy_from_slice(&value.to_le_bytes());
+        writer.write_all(&bytes)
     }
 
     fn write_string_fragment<W: Write + ?Sized>(

@@ -120,7 +120,7 @@ pub(super) fn read(path: &Path) -> Result<(CheckpointHead, State), Failure> {
     }
     (&mut file).take(LONGEST_HEAD).read_until(b'\n', &mut bytes).map_err(unreadable)?;
     let head: CheckpointHead =
-        serde_json::from_slice(&bytes).map_err(|error| refused(format!("is damaged: {error}")))?;
+        stickslip::from_json(&bytes).map_err(|error| refused(format!("is damaged: {error}")))?;
     let rest = head.words.saturating_mul(8).saturating_add(4).min(LARGEST);
     file.take(rest + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     let (head, state) = parse(&bytes).map_err(refused)?;
@@ -139,7 +139,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<(CheckpointHead, State), String> {
     }
     let line = body.iter().position(|byte| *byte == b'\n').ok_or_else(no_checkpoint)?;
     let head: CheckpointHead =
-        serde_json::from_slice(&body[..line]).map_err(|error| format!("is damaged: {error}"))?;
+        stickslip::from_json(&body[..line]).map_err(|error| format!("is damaged: {error}"))?;
     if !head.is_of_this_build() {
         return Err(format!(
             "was made by {}, {} {}: only that version reproduces every bit; resume it with that version",

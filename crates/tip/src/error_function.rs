@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 /// Number of points of the trapezoidal rules: their error is of the order of e^{-π POINTS}.
 const POINTS: usize = 12;
-/// Spacing h = √(π/POINTS) of their points.
+/// Distance h = √(π/POINTS) of neighbouring points of these rules.
 const SPACING: f64 = 0.511_663_353_973_244_3;
 
 /// One of two trapezoidal rules for the Faddeeva function w(ζ) = (2iζ/π) ∫_0^∞ e^{-t²}/(ζ² - t²) dt at ζ = iz.

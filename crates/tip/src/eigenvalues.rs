@@ -62,8 +62,8 @@ pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
 /// Eigenvalues and orthonormal eigenvectors of a symmetric matrix, of which the lower triangle is read; `None` if the
 /// iteration does not converge.
 pub fn symmetric_eigen(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
-    const MOST_SWEEPS: usize = 1000;
-    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_SWEEPS)
+    const MOST_ITERATIONS: usize = 1000;
+    SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_ITERATIONS)
 }
 
 /// An orthonormal basis of the span of the columns, by Gram-Schmidt, the largest column first.

@@ -308,7 +308,7 @@ struct Origin {
 
 /// The reason why parts cannot be resumed, from the first line.
 fn other<P: Part>(first: &[u8]) -> String {
-    match serde_json::from_slice::<Origin>(first) {
+    match stickslip::from_json::<Origin>(first) {
         Ok(made) if made.arithmetic != arithmetic() => foreign(Some(&made.arithmetic)),
         Ok(made) if made.software != Software::this() => {
             format!("was made by {}, and only that version resumes it", made.software)

@@ -22,8 +22,8 @@ mod sign_of_life;
 mod tests;
 
 use arguments::{Cli, FIRST_SCREEN};
+use clap::CommandFactory;
 use clap::error::ErrorKind as Misread;
-use clap::{CommandFactory, Parser};
 use commands::quantities::translated;
 use failure::Failure;
 use message::{say, say_lines};
@@ -44,7 +44,7 @@ pub fn main() -> ExitCode {
             Ok(line) => line,
             Err(failure) => return failed(&failure),
         };
-    let cli = match Cli::try_parse_from(&line.words) {
+    let cli = match Cli::read(&line.words) {
         Ok(cli) => cli,
         Err(mut error) => {
             drop_far_suggestion(&mut error);

@@ -140,9 +140,9 @@ pub fn names<T: Parameters>() -> Vec<(String, String)> {
 /// The parsed schema of a question, computed once per process.
 struct Described {
     /// All properties of the schema, options or not, by name.
-    properties: Vec<Parameter>,
+    properties: &'static [Parameter],
     /// Those that are options, as on the help page.
-    options: Vec<Parameter>,
+    options: Vec<&'static Parameter>,
 }
 
 /// The parsed schema of a question, cached because parsing takes longer than many answers.
@@ -174,10 +174,9 @@ impl Schema<'_> {
 
 impl Described {
     fn of(schema: &Schema<'_>) -> Self {
-        let (mut properties, mut options) = (vec![], vec![]);
-        for (name, property) in &schema.properties {
+        let parameter = |(name, property): (&&str, &PropertySchema<'_>)| {
             let OptionSchema { symbol, group, place } = property.option.clone().unwrap_or_default();
-            let parameter = Parameter {
+            Parameter {
                 name: (*name).into(),
                 description: property.description.replace('\n', " "),
                 kind: kind(name, property, schema),
@@ -186,12 +185,12 @@ impl Described {
                 symbol,
                 group,
                 place,
-            };
-            if property.option.is_some() {
-                options.push(parameter.clone());
             }
-            properties.push(parameter);
-        }
+        };
+        let properties = schema.properties.iter().map(parameter).collect::<Vec<_>>().leak();
+        let is_option = schema.properties.values().map(|property| property.option.is_some());
+        let options = properties.iter().zip(is_option).filter(|(_, is_option)| *is_option);
+        let mut options: Vec<&Parameter> = options.map(|(parameter, _)| parameter).collect();
         options.sort_by_key(|parameter| parameter.place);
         Self { properties, options }
     }
@@ -202,7 +201,7 @@ impl Described {
 }
 
 /// The parameters that a user may give, in the order of a help page.
-pub fn parameters<Q: Parameters>() -> &'static [Parameter] {
+pub fn parameters<Q: Parameters>() -> &'static [&'static Parameter] {
     &described::<Q>().options
 }
 

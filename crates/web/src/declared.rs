@@ -21,8 +21,8 @@ pub(crate) struct Questions {
     walker: Vec<Declared>,
 }
 
-fn declared(all: &'static [Parameter]) -> Vec<Declared> {
-    let of = |one: &'static Parameter| Declared {
+fn declared(all: &'static [&'static Parameter]) -> Vec<Declared> {
+    let of = |one: &&'static Parameter| Declared {
         name: &one.name,
         description: &one.description,
         default: one.default.as_ref(),

@@ -2,6 +2,24 @@
 
 use clap::builder::StyledStr;
 use clap::{Arg, Command};
+use std::cell::Cell;
+
+thread_local! {
+    static HAS_HELP: Cell<bool> = const { Cell::new(true) };
+}
+
+/// Calls `parse`, which builds commands without the texts of their help: they take longer than all other parsing.
+pub(crate) fn without_help<T>(parse: impl FnOnce() -> T) -> T {
+    HAS_HELP.set(false);
+    let parsed = parse();
+    HAS_HELP.set(true);
+    parsed
+}
+
+/// Whether commands are built with their help.
+pub(super) fn has_help() -> bool {
+    HAS_HELP.get()
+}
 
 /// Groups of options that only the long help lists.
 const FURTHER: [&str; 8] = [
@@ -36,6 +54,9 @@ pub(super) trait Brief {
 
 impl Brief for Command {
     fn brief(self) -> Self {
+        if !has_help() {
+            return self;
+        }
         let is_rare = |argument: &Arg| {
             let is_further = |group: &str| FURTHER.contains(&group);
             RARE.contains(&argument.get_id().as_str())

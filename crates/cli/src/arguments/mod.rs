@@ -54,9 +54,12 @@ pub(crate) use tip::MeasuredTipArguments;
 pub(crate) use units::UnitsArguments;
 pub(crate) use verify::VerifyArguments;
 
+use brief::without_help;
 use clap::builder::PossibleValuesParser;
+use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
+use std::ffi::OsString;
 use stickslip::{SCHEMAS, Software};
 
 /// Stick-slip of an AFM tip on a soft surface, from one closed delay equation.
@@ -73,6 +76,19 @@ pub(crate) struct Cli {
 
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+impl Cli {
+    /// Reads a command line.
+    ///
+    /// # Errors
+    /// An invalid command line, or a request for help or the version.
+    pub(crate) fn read(words: &[OsString]) -> Result<Self, clap::Error> {
+        match without_help(|| Self::try_parse_from(words)) {
+            Err(error) if error.kind() == ErrorKind::DisplayHelp => Self::try_parse_from(words),
+            read => read,
+        }
+    }
 }
 
 /// The output of a call without arguments.

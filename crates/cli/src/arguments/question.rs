@@ -1,6 +1,7 @@
 //! Command-line options made from the parameters that a question declares.
 
 use super::TipArguments;
+use super::brief::has_help;
 use super::range::{Interval, Range};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
@@ -24,7 +25,7 @@ pub(crate) trait Questions {
 
 impl<Q: Question> Questions for Q {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Q>().iter().collect()
+        parameters::<Q>().to_vec()
     }
 
     fn formats() -> Vec<&'static str> {
@@ -87,7 +88,7 @@ impl<Q: Questions> Args for Options<Q> {
 }
 
 /// The command with options for these parameters, and for a file of them.
-fn augmented(command: Command, parameters: Vec<&Parameter>, has_file: bool) -> Command {
+fn augmented(command: Command, parameters: Vec<&'static Parameter>, has_file: bool) -> Command {
     let command = parameters.into_iter().fold(command, |command, parameter| match parameter.kind {
         Kind::Tip => TipArguments::augment_args(command),
         _ => command.next_help_heading(None).arg(argument(parameter)),
@@ -142,36 +143,39 @@ fn is_given(matches: &ArgMatches, name: &str) -> bool {
 }
 
 /// The command-line option of a parameter.
-fn argument(parameter: &Parameter) -> Arg {
-    let Parameter { name, kind, default, symbol, group, .. } = parameter;
-    let argument = Arg::new(name.clone())
-        .long(long(name))
-        .help_heading(group.clone())
-        .help(help(parameter, default.as_ref()));
-    let valued = argument.clone().value_name(symbol.clone()).allow_hyphen_values(true);
-    match kind {
-        _ if is_spacing(name) => argument
+fn argument(parameter: &'static Parameter) -> Arg {
+    let Parameter { name, kind, symbol, group, .. } = parameter;
+    let mut argument = Arg::new(name.as_str()).long(long(name)).help_heading(group.as_str());
+    if has_help() {
+        argument = argument.help(help(parameter));
+    }
+    if is_spacing(name) {
+        return argument
             .action(ArgAction::SetTrue)
-            .help("Equal ratios from one to the next, in place of equal differences"),
-        Kind::Switch => argument.action(ArgAction::SetTrue),
-        Kind::Integer => valued.value_parser(value_parser!(u64)),
+            .help("Equal ratios from one to the next, in place of equal differences");
+    }
+    if *kind == Kind::Switch {
+        return argument.action(ArgAction::SetTrue);
+    }
+    let argument = argument.value_name(symbol.as_str()).allow_hyphen_values(true);
+    match kind {
+        Kind::Integer => argument.value_parser(value_parser!(u64)),
         Kind::Name(names) => {
-            let value = |(name, meaning): &(String, String)| {
-                PossibleValue::new(name.clone()).help(meaning.clone())
+            let value = |(name, meaning): &'static (String, String)| {
+                PossibleValue::new(name).help(has_help().then_some(meaning.as_str()))
             };
-            let names: Vec<PossibleValue> = names.iter().map(value).collect();
-            valued.value_parser(PossibleValuesParser::new(names))
+            argument.value_parser(PossibleValuesParser::new(names.iter().map(value)))
         }
         Kind::Names(names) => {
-            let names = names.iter().map(|(name, _)| name.clone()).collect::<Vec<String>>();
-            valued.value_parser(PossibleValuesParser::new(names)).value_delimiter(',')
+            let names = names.iter().map(|(name, _)| name.as_str());
+            argument.value_parser(PossibleValuesParser::new(names)).value_delimiter(',')
         }
-        Kind::Text => valued,
-        Kind::Ends => valued.value_parser(value_parser!(Interval)),
+        Kind::Text => argument,
+        Kind::Ends => argument.value_parser(value_parser!(Interval)),
         // A range LO:HI:N, to which Python turns a tuple, or a list in one word.
-        Kind::Numbers if symbol == RANGE => valued.value_parser(value_parser!(Range)),
-        Kind::Numbers => valued.value_parser(value_parser!(Range)).value_delimiter(','),
-        _ => valued.value_parser(value_parser!(f64)),
+        Kind::Numbers if symbol == RANGE => argument.value_parser(value_parser!(Range)),
+        Kind::Numbers => argument.value_parser(value_parser!(Range)).value_delimiter(','),
+        _ => argument.value_parser(value_parser!(f64)),
     }
 }
 
@@ -186,12 +190,12 @@ fn long(name: &str) -> String {
 
 /// The description as one paragraph without its final full stop, as is usual for help; names of parameters in it
 /// become names of options.
-fn help(parameter: &Parameter, default: Option<&Value>) -> String {
+fn help(parameter: &Parameter) -> String {
     let parts = parameter.description.trim_end_matches('.').split('`').enumerate();
     let text: String = parts
         .map(|(i, part)| if i % 2 == 1 { format!("--{}", long(part)) } else { part.to_owned() })
         .collect();
-    match default {
+    match &parameter.default {
         Some(Value::String(name)) => format!("{text} [default: {name}]"),
         Some(Value::Number(number)) if number.is_f64() => {
             format!("{text} [default: {}]", stickslip::Typed(number.as_f64().unwrap_or_default()))

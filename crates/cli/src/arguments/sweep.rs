@@ -68,7 +68,7 @@ pub(crate) struct Swept;
 
 impl Questions for Swept {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Sweep>().iter().collect()
+        parameters::<Sweep>().to_vec()
     }
 
     fn formats() -> Vec<&'static str> {

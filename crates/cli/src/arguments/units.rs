@@ -50,7 +50,7 @@ pub(crate) struct Given;
 
 impl Questions for Given {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Units>().iter().collect()
+        parameters::<Units>().to_vec()
     }
 
     fn formats() -> Vec<&'static str> {

@@ -5,14 +5,13 @@ use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::TipFunction;
 use stickslip_tip::exponential::with_inverses;
-use stickslip_tip::memory::{Fit, Retreat};
+use stickslip_tip::memory::{Fit, POINTS, Retreat, slopes_of};
 
 /// ∫ f'(ξ + X - x0(t')) dt' at distances ξ ahead of a tip at X: by a sum of exponentials for f' if an accurate one
 /// exists, else as a sum over visits, with neighbouring visits merged.
 pub(crate) struct Ahead<'a> {
     tip: &'a TipFunction,
-    reach: f64,
-    /// Distances of the visits behind the tip, and their durations.
+    /// Positions of the visits relative to the tip, and their durations.
     visits: Vec<(f64, f64)>,
     sum: Option<Sum>,
 }
@@ -29,12 +28,7 @@ const FINEST: f64 = 1e-12;
 impl<'a> Ahead<'a> {
     /// The slope for visits at these distances behind the tip, with these durations, within reach of a point ahead;
     /// the sum may have an error of `allowed`.
-    pub(crate) fn new(
-        tip: &'a TipFunction,
-        reach: f64,
-        visits: Vec<(f64, f64)>,
-        allowed: f64,
-    ) -> Self {
+    pub(crate) fn new(tip: &'a TipFunction, visits: Vec<(f64, f64)>, allowed: f64) -> Self {
         let lasted: f64 = visits.iter().map(|(_, weight)| weight).sum();
         let nearest = visits.iter().fold(0.0, |m: f64, (x, _)| m.min(*x));
         let wanted = 10_f64.powf((allowed / lasted).log10().floor());
@@ -42,17 +36,16 @@ impl<'a> Ahead<'a> {
             if wanted >= FINEST { Fit::cached(tip, wanted, Retreat::Small).ok() } else { None };
         let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));
         let visits = if sum.is_none() { merged(visits, tip.widths(1.0)) } else { visits };
-        Self { tip, reach, visits, sum }
+        let visits = visits.into_iter().map(|(behind, weight)| (-behind, weight)).collect();
+        Self { tip, visits, sum }
     }
 
-    /// The slope at this distance ahead.
-    pub(crate) fn slope(&self, ahead: f64) -> f64 {
-        self.sum.as_ref().map_or_else(|| self.visit_by_visit(ahead), |sum| sum.at(ahead))
-    }
-
-    fn visit_by_visit(&self, ahead: f64) -> f64 {
-        let felt = self.visits.iter().filter(|(x, _)| ahead + *x < self.reach);
-        felt.map(|(x, weight)| weight * self.tip.slope(ahead + x)).sum()
+    /// The slopes at these distances ahead.
+    pub(crate) fn slopes(&self, ahead: &[f64; POINTS]) -> [f64; POINTS] {
+        match &self.sum {
+            Some(sum) => ahead.map(|ahead| sum.at(ahead)),
+            None => slopes_of(&self.visits, self.tip, ahead),
+        }
     }
 }
 
@@ -93,22 +86,31 @@ mod tests {
     #[test]
     fn the_sum_of_exponentials_is_the_sum_over_visits() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
-        let reach = tip.reach().unwrap();
         let visits: Vec<_> =
             (0..200).map(|i| (0.04 * f64::from(i), 1.0 + f64::from(i).sin())).collect();
         let lasted: f64 = visits.iter().map(|v| v.1).sum();
+        // Judged by the definition.
+        let visited = |ahead: f64, visits: &[(f64, f64)]| -> f64 {
+            visits.iter().map(|(x, weight)| weight * tip.slope(ahead + x)).sum()
+        };
+        let places = [0.0, 0.2, 0.7, 1.6, 2.8, 4.4, 7.0, 9.8];
         for allowed in [1e-3, 1e-6, 1e-8] {
-            let ahead = Ahead::new(&tip, reach, visits.clone(), allowed);
+            let ahead = Ahead::new(&tip, visits.clone(), allowed);
             assert!(ahead.sum.is_some());
-            for i in 0..50 {
-                let at = 0.2 * f64::from(i);
-                let off = (ahead.slope(at) - ahead.visit_by_visit(at)).abs();
+            for (at, slope) in places.into_iter().zip(ahead.slopes(&places)) {
+                let off = (slope - visited(at, &visits)).abs();
                 assert!(off <= allowed, "{off:e} at {at}, allowed {allowed:e}");
             }
         }
         // What no sum is good enough for is added up visit by visit.
-        assert!(Ahead::new(&tip, reach, visits.clone(), 1e-13 * lasted).sum.is_none());
-        let retreated = visits.iter().map(|(x, w)| (x - 3.0, *w)).collect();
-        assert!(Ahead::new(&tip, reach, retreated, 1e-6).sum.is_none());
+        let retreated: Vec<_> = visits.iter().map(|(x, w)| (x - 3.0, *w)).collect();
+        for (visits, allowed) in [(&visits, 1e-13 * lasted), (&retreated, 1e-6)] {
+            let ahead = Ahead::new(&tip, visits.clone(), allowed);
+            assert!(ahead.sum.is_none());
+            for (at, slope) in places.into_iter().zip(ahead.slopes(&places)) {
+                let off = (slope - visited(at, visits)).abs();
+                assert!(off <= 1e-14 * lasted, "{off:e} at {at}");
+            }
+        }
     }
 }

@@ -20,6 +20,7 @@ use num_complex::Complex64;
 use std::num::NonZeroUsize;
 use stickslip_stability::{Creep, creep};
 use stickslip_tip::elementary::complex_exp;
+use stickslip_tip::memory::POINTS;
 use stickslip_tip::{InitialSurface, Model, Step, Trajectory, stop};
 
 /// The logarithmic creep of a trapped tip, x0 ~ (1/p) ln t.
@@ -106,17 +107,22 @@ impl Exponentials {
         let visits = positions.iter().map(|x| at - x).zip(weights);
         let visits = visits.filter(|(x, _)| x.abs() < reach).collect();
         let allowed = UNSEEN * tail.velocity(end).abs() / model.alpha();
-        let groove = Ahead::new(model.tip(), reach, visits, allowed);
-        let push = |ahead: f64| {
-            model.alpha() * groove.slope(ahead) - surface.slope_and_curvature(at + ahead).0
-        };
+        let groove = Ahead::new(model.tip(), visits, allowed);
         let largest = creep.roots.iter().map(|p| p.norm()).fold(0.0, f64::max);
         let nodes = nodes(reach, LONGEST_PANEL / model.tip().band(), 1.0 / largest);
-        // On a table each of them takes long.
-        let pushed = |(ahead, weight): &(f64, f64)| {
-            (!stop::is_requested()).then(|| (*ahead, weight * push(*ahead)))
-        };
-        let pushes: Vec<(f64, f64)> = nodes.iter().map(pushed).collect::<Option<_>>()?;
+        let mut pushes = Vec::with_capacity(nodes.len());
+        for nodes in nodes.chunks(POINTS) {
+            // On a table each of them takes long.
+            if stop::is_requested() {
+                return None;
+            }
+            let mut places = [0.0; POINTS];
+            places.iter_mut().zip(nodes).for_each(|(place, (ahead, _))| *place = *ahead);
+            for ((ahead, weight), slope) in nodes.iter().zip(groove.slopes(&places)) {
+                let of_surface = surface.slope_and_curvature(at + ahead).0;
+                pushes.push((*ahead, weight * (model.alpha() * slope - of_surface)));
+            }
+        }
         let coefficient = |(p, slope): (&Complex64, &Complex64)| {
             let groove: Complex64 =
                 pushes.iter().map(|(x, push)| complex_exp(-p * *x) * *push).sum();
@@ -182,12 +188,12 @@ const LONGEST_LOOK: usize = 100_000;
 
 /// Widest panel of the quadrature, in units of 1/band: a third more than a wavelength of f'.
 const LONGEST_PANEL: f64 = 8.0;
-const POINTS: usize = 10;
+const NODES_OF_PANEL: usize = 10;
 
 /// Nodes and weights of Gauss-Legendre panels over the reach. The first is as narrow as the exponentials require, and
 /// later ones are wider.
 fn nodes(reach: f64, longest: f64, first: f64) -> Vec<(f64, f64)> {
-    let rule = GaussLegendre::new(const { NonZeroUsize::new(POINTS).unwrap() });
+    let rule = GaussLegendre::new(const { NonZeroUsize::new(NODES_OF_PANEL).unwrap() });
     let (mut nodes, mut from, mut width) = (vec![], 0.0, first.min(longest));
     while from < reach {
         let half = 0.5 * width;

@@ -6,7 +6,7 @@ use crate::reference::Reference;
 use crate::sequence::Sequence;
 use crate::{Creeping, Observer, Oscillation, Outcome, Prospect, Regime, Remark};
 use std::cell::OnceCell;
-use stickslip_cycles::{DEFAULT_TOLERANCE, small_cycle};
+use stickslip_cycles::{Cycle, DEFAULT_TOLERANCE, small_cycle};
 use stickslip_stability::{Criticality, creep, onset};
 use stickslip_tip::motion::{self, Extremum};
 use stickslip_tip::{InitialSurface, Scenario, Start, Step, Support, Trajectory, stop};
@@ -35,6 +35,8 @@ const SMALL: f64 = 0.3;
 const AS_FORETOLD: f64 = 0.2;
 /// Changes from period to period below this many tolerances are attributed to step errors.
 const NOISE: f64 = 30.0;
+/// Residual of the small cycle for a prediction of the time until a motion reaches it.
+const ROUGH: f64 = 1e-5;
 /// A deviation of l below this, in σ, is round-off.
 const ROUND_OFF: f64 = 1e-12;
 /// Multipliers closer to the unit circle than this cannot be distinguished from it.
@@ -307,14 +309,17 @@ impl End<'_> {
         if stop::is_requested() {
             return Outcome::transient(None, None);
         }
-        let small = small_cycle(model, DEFAULT_TOLERANCE).ok().flatten();
-        let Some(small) = small.filter(stickslip_cycles::Cycle::is_stable) else {
+        let stable = |residual| small_cycle(model, residual).ok()?.filter(Cycle::is_stable);
+        let Some(small) = stable(ROUGH) else {
             return Outcome::transient(None, None);
         };
         // Newton's method may miss from the motion what it finds from onset.
-        let near = Reference::beside(small.clone(), &self.tail, &self.extrema);
-        if let Some(near) =
-            near.filter(|near| near.distance() < BESIDE && near.gap() > ON_THE_CIRCLE)
+        let near = |cycle: Cycle| {
+            let near = Reference::beside(cycle, &self.tail, &self.extrema)?;
+            (near.distance() < BESIDE && near.gap() > ON_THE_CIRCLE).then_some(near)
+        };
+        if near(small.clone()).is_some()
+            && let Some(near) = stable(DEFAULT_TOLERANCE).and_then(near)
         {
             return self.beside_stable(near);
         }

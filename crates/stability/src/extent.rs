@@ -73,12 +73,8 @@ impl Extent {
     ) -> Self {
         let reach = tip.reach().unwrap_or(1.0);
         let step = reach / samples;
-        let at = |x: f64| {
-            let (slope, curvature) = tip.slope_and_curvature(x);
-            [tip.value(x), slope, curvature]
-        };
         let mut extent = Self::default();
-        let mut last = at(0.0);
+        let mut last = tip.value_slope_and_curvature(0.0);
         if has_edge {
             extent.decay = last.map(f64::abs);
         }
@@ -86,7 +82,7 @@ impl Extent {
         let mut slopes = [0.0; 3];
         let mut x = 0.0;
         while x < reach {
-            let here = at(x + step);
+            let here = tip.value_slope_and_curvature(x + step);
             let w = weight(x + step);
             let (from, to) = (x * x, (x + step) * (x + step));
             for i in 0..3 {

@@ -14,7 +14,9 @@ impl End<'_> {
         let mut remarks = vec![];
         remarks.extend(self.rest_remark());
         let is_basic = model.wider().is_basic();
-        if let Linear::Unstable(Slowest { rate, .. }) = self.linear()
+        // The growth exponent takes longer than the rest.
+        if self.begins_steady()
+            && let Linear::Unstable(Slowest { rate, .. }) = self.linear()
             && self.is_undisturbed(rate)
         {
             remarks.push(Remark::RoundOffGrows { rate });
@@ -68,15 +70,20 @@ impl End<'_> {
         (growth > MOST_GROWTH).then_some(Remark::ErrorsGrowAtRest { growth: growth.exp() })
     }
 
-    /// Whether the run began in steady motion, and nothing disturbed it before errors had become as large as a width. They
-    /// begin at the order of the tolerance and grow at this rate.
-    fn is_undisturbed(&self, rate: f64) -> bool {
-        let Scenario { start, kick, noise, profile, force, tolerance, .. } = self.scenario;
+    /// Whether the run began in steady motion on an even surface.
+    fn begins_steady(&self) -> bool {
+        let Scenario { start, kick, noise, profile, .. } = self.scenario;
         let smooth = noise.is_none_or(|noise| noise.amplitude.abs() <= 0.0) && profile.is_none();
         let off = self.scenario.velocity_at_start() - self.scenario.model.r();
-        let still = kick.abs() <= 0.0 && off.abs() <= 0.0;
+        *start == Start::Steady && kick.abs() <= 0.0 && off.abs() <= 0.0 && smooth
+    }
+
+    /// Whether no force disturbed a run that began in steady motion before errors had become as large as a width. They
+    /// begin at the order of the tolerance and grow at this rate.
+    fn is_undisturbed(&self, rate: f64) -> bool {
+        let Scenario { force, tolerance, .. } = self.scenario;
         let (start_time, begins) = (self.start(), force.begins());
         let late = begins >= self.last.end() || rate * (begins - start_time) > -tolerance.ln();
-        *start == Start::Steady && still && smooth && (late || force.ends() < start_time)
+        late || force.ends() < start_time
     }
 }

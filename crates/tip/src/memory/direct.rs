@@ -21,6 +21,17 @@ pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mu
     }
 }
 
+/// Number of points at which [`slopes_of`] evaluates a groove.
+pub const POINTS: usize = LANES;
+
+/// Slopes of the groove of these visits at the points x, divided by α: Σ w f'(x - ξ) over positions ξ of the tip and times w
+/// spent there.
+pub fn slopes_of(visits: &[(f64, f64)], tip: &TipFunction, x: &[f64; POINTS]) -> [f64; POINTS] {
+    let [mut slopes, mut curvatures] = [[0.0; POINTS]; 2];
+    add_side_by_side(visits, tip, x, (&mut slopes, &mut curvatures));
+    slopes
+}
+
 /// Adds the groove of these nodes at the points `origin + at`.
 pub(super) fn add(
     visits: &[(f64, f64)],

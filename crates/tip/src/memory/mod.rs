@@ -21,6 +21,7 @@ mod report;
 
 pub use choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
 pub use derivatives::{Derivatives, ROOM, SteadyPast};
+pub use direct::{POINTS, slopes_of};
 pub(crate) use fading::Fading;
 pub(crate) use fft::Fft;
 pub use groove::{Groove, longest_look};

@@ -162,6 +162,15 @@ impl TipFunction {
         }
     }
 
+    /// f(x), f'(x) and f''(x), likewise.
+    pub fn value_slope_and_curvature(&self, x: f64) -> [f64; 3] {
+        if let Self::Gaussians(sum) = self {
+            return sum.value_slope_and_curvature(x);
+        }
+        let (slope, curvature) = self.slope_and_curvature(x);
+        [self.value(x), slope, curvature]
+    }
+
     /// f' and f'' at each x, equal to those of single evaluations bit for bit: for callers compiled for wider
     /// vectors.
     #[inline(always)]

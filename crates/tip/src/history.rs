@@ -27,6 +27,17 @@ pub struct Step {
     pub height: Option<Heights>,
 }
 
+/// Where the tip is at one time, in σ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// R - x0, the extension of the spring.
+    pub lag: f64,
+    /// Position of the tip.
+    pub x0: f64,
+    /// rt - r - x0, for a support of constant velocity.
+    pub l: Option<f64>,
+}
+
 /// The height under the tip at the start of a step and at its nodes, in kσ²/a.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heights {
@@ -52,7 +63,15 @@ impl Step {
 
     /// l(t) = rt - r - x0(t) by the stage polynomial, for support velocity r.
     pub fn l(&self, r: f64, t: f64) -> f64 {
-        let moved = RADAU.value(&self.displacement, self.part(t));
+        self.l_after(self.moved(t), r, t)
+    }
+
+    /// x0(t) minus its value at the start, by the stage polynomial.
+    fn moved(&self, t: f64) -> f64 {
+        RADAU.value(&self.displacement, self.part(t))
+    }
+
+    fn l_after(&self, moved: f64, r: f64, t: f64) -> f64 {
         self.extension - r + (r * (t - self.t) - moved)
     }
 
@@ -73,8 +92,25 @@ impl Step {
 
     /// R(t) - x0(t), the extension of the spring, by the stage polynomial.
     pub fn lag(&self, support: &Support, t: f64) -> f64 {
-        let moved = RADAU.value(&self.displacement, self.part(t));
+        self.lag_after(self.moved(t), support, t)
+    }
+
+    fn lag_after(&self, moved: f64, support: &Support, t: f64) -> f64 {
         self.extension + (support.advance(self.t, t - self.t) - moved)
+    }
+
+    /// The values of [`lag`](Self::lag), [`position`](Self::position) and, for a support of constant velocity,
+    /// [`l`](Self::l), from one evaluation of the stage polynomial.
+    pub fn place(&self, support: &Support, t: f64) -> Place {
+        let moved = self.moved(t);
+        let lag = self.lag_after(moved, support, t);
+        match support {
+            Support::Moving(r) => {
+                let l = self.l_after(moved, *r, t);
+                Place { lag, x0: r * t - r - l, l: Some(l) }
+            }
+            _ => Place { lag, x0: support.position(t) - lag, l: None },
+        }
     }
 
     /// The variable that describes the motion: l; for a support on a path the lag R - x0, without a support x0.

@@ -49,7 +49,7 @@ pub use collocation::{STAGES, Stages, nodes_and_weights};
 pub use eigenvalues::{eigenvalues, symmetric_eigen};
 pub use footprint::{Across, Footprint, Gaussian2d, Layer};
 pub use force::{Force, ForceError, Pulse};
-pub use history::{Heights, Moment, STEP_NUMBERS, Step, Trajectory};
+pub use history::{Heights, Moment, Place, STEP_NUMBERS, Step, Trajectory};
 pub use initial_surface::InitialSurface;
 pub use integrator::{IntegrationError, Integrator, Work};
 pub use memory::MemoryChoice;

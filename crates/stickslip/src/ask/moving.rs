@@ -3,7 +3,7 @@
 use super::run_found::{RunFound, SampleLine, Samples, observed};
 use crate::{Context, Failure, History, RunEnd, SteadyState, Times, WorkDocument};
 use stickslip_outcome::{Classified, Watched};
-use stickslip_tip::{Scenario, Step, Support, Trajectory, Wider};
+use stickslip_tip::{Place, Scenario, Step, Support, Trajectory, Wider};
 
 /// A run in progress with a result.
 pub trait Moving: Classified<Step: Moved> {
@@ -40,15 +40,12 @@ impl Moving for Watched<'_> {
 
 impl Moved for Step {
     fn sample(&self, (support, wider): (&Support, &Wider), t: f64) -> SampleLine {
-        let height = self.height(t);
+        let (height, Place { lag, x0, l }) = (self.height(t), self.place(support, t));
         SampleLine {
             t,
-            l: match support {
-                Support::Moving(r) => Some(self.l(*r, t)),
-                Support::Path(_) | Support::None => None,
-            },
-            lag: (*support != Support::None).then(|| self.lag(support, t)),
-            x0: self.position(support, t),
+            l,
+            lag: (!matches!(support, Support::None)).then_some(lag),
+            x0,
             velocity: self.velocity(t),
             height,
             weight: height.map(|height| wider.weight(height)),

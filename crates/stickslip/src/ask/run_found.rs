@@ -214,6 +214,7 @@ impl RunEnd {
 }
 
 /// Adds an entry to a column; without a value the column is removed.
+#[inline]
 fn add(column: &mut Option<Vec<f64>>, value: Option<f64>) {
     match (column.as_mut(), value) {
         (Some(column), Some(value)) => column.push(value),
@@ -269,20 +270,22 @@ impl Samples {
 
     /// Adds a sample. A column is `None` if any of the samples lacks its value.
     pub fn push(&mut self, sample: &SampleLine) {
-        let (is_first, room) = (self.t.is_empty(), self.t.capacity());
+        if self.t.is_empty() {
+            let column = |value: Option<f64>| value.map(|_| Vec::with_capacity(self.t.capacity()));
+            self.height = column(sample.height);
+            self.weight = column(sample.weight);
+            self.y0 = column(sample.y0);
+            self.velocity_y = column(sample.velocity_y);
+        }
         self.t.push(sample.t);
         self.x0.push(sample.x0);
         self.velocity.push(sample.velocity);
-        let optional = [sample.height, sample.weight, sample.y0, sample.velocity_y];
-        let columns = [&mut self.height, &mut self.weight, &mut self.y0, &mut self.velocity_y];
-        for (column, value) in columns.into_iter().zip(optional) {
-            if is_first {
-                *column = value.map(|_| Vec::with_capacity(room));
-            }
-            add(column, value);
-        }
         add(&mut self.l, sample.l);
         add(&mut self.lag, sample.lag);
+        add(&mut self.height, sample.height);
+        add(&mut self.weight, sample.weight);
+        add(&mut self.y0, sample.y0);
+        add(&mut self.velocity_y, sample.velocity_y);
     }
 
     /// The samples sorted by `places`, which has at least one entry for each sample.

@@ -209,7 +209,12 @@ impl Integrator<'_> {
     fn accept_series(&mut self, positions: &[f64], heights: Option<Along>, total: f64) {
         let springs = (self.extension, self.support.velocity(self.t));
         self.taylor.pieces.clear();
-        for step in pieces::steps((self.t, total), springs, positions, heights) {
+        for step in pieces::steps(
+            (self.t, total),
+            springs,
+            positions.as_chunks().0.iter().copied(),
+            heights,
+        ) {
             if let Some(corner) = &mut self.corner {
                 corner.arrive(&step);
             }

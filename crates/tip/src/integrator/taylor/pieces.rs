@@ -3,7 +3,7 @@
 use super::heights::Along;
 use super::length;
 use super::values::{BLOCK, Block, Table};
-use crate::collocation::{RADAU, STAGES};
+use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Step;
 use crate::state::{Damaged, Reader, State};
 use std::sync::LazyLock;
@@ -69,21 +69,20 @@ impl Pieces {
     }
 }
 
-/// The pieces of a step of length `total` from t as steps, from the displacements at their nodes. `extension` is that of
-/// the spring at t, `support` the velocity of the support.
+/// The pieces of a step of length `total` from t as steps, from the displacements at the nodes of each. `extension` is
+/// that of the spring at t, `support` the velocity of the support.
 pub(crate) fn steps(
     (mut t, total): (f64, f64),
     (mut extension, support): (f64, f64),
-    positions: &[f64],
+    pieces: impl ExactSizeIterator<Item = Stages>,
     heights: Option<Along>,
 ) -> impl Iterator<Item = Step> {
-    let (pieces, _) = positions.as_chunks::<STAGES>();
-    let (start, mut before) = (t, 0.0);
-    pieces.iter().enumerate().map(move |(i, positions)| {
-        let part = (i + 1) as f64 / pieces.len() as f64;
+    let (start, mut before, count) = (t, 0.0, pieces.len());
+    pieces.enumerate().map(move |(i, positions)| {
+        let part = (i + 1) as f64 / count as f64;
         // Ends are representable times.
-        let end = if i + 1 < pieces.len() { start + part * total } else { start + total };
-        let mut displacement = *positions;
+        let end = if i + 1 < count { start + part * total } else { start + total };
+        let mut displacement = positions;
         displacement.iter_mut().for_each(|position| *position -= before);
         let height = heights.map(|heights| heights.piece(i));
         let step = Step { t, h: end - t, extension, displacement, height };

@@ -28,7 +28,8 @@ impl Table {
 
     /// A table for the values of a series at these fractions of the step.
     pub(crate) fn of_parts(parts: &[f64]) -> Self {
-        Self::new(parts.len(), |n, k| parts[n].powi(k as i32))
+        let powers: Vec<_> = parts.iter().map(|part| powers(*part)).collect();
+        Self::new(parts.len(), |n, k| powers[n][k])
     }
 
     /// The sums for a series, stored in `room`.
@@ -36,6 +37,19 @@ impl Table {
         sums(&self.blocks, series, room);
         &mut room.as_flattened_mut()[..self.sums]
     }
+}
+
+/// x^k, each from the power without the highest binary digit of k: the products of `powi`.
+fn powers(x: f64) -> [f64; MOST_ORDER + 1] {
+    let (mut powers, mut square) = ([1.0; MOST_ORDER + 1], x);
+    let mut highest = 1;
+    while highest <= MOST_ORDER {
+        for k in highest..(2 * highest).min(MOST_ORDER + 1) {
+            powers[k] = powers[k - highest] * square;
+        }
+        (highest, square) = (2 * highest, square * square);
+    }
+    powers
 }
 
 /// Even and odd rows are summed separately, in the same order on every machine.
@@ -131,6 +145,15 @@ mod tests {
         for (part, sum) in parts.iter().zip(sums) {
             let exact = 1.0 / (1.0 + part * length) - 1.0;
             assert!((*sum - exact).abs() < 1e-14, "{part}: {sum} {exact}");
+        }
+    }
+
+    #[test]
+    fn powers_are_those_of_single_powers() {
+        for x in [0.37_f64, 0.925, 1.0] {
+            for (k, power) in powers(x).into_iter().enumerate() {
+                assert_eq!(power.to_bits(), x.powi(k as i32).to_bits(), "{x}^{k}");
+            }
         }
     }
 

@@ -171,7 +171,8 @@ impl PlanarRunning<'_> {
     ) {
         let (mut before, across) = (0.0, across.as_chunks::<STAGES>().0);
         let springs = (self.extension, self.support.velocity(self.t));
-        let steps = pieces::steps((self.t, total), springs, along, heights);
+        let steps =
+            pieces::steps((self.t, total), springs, along.as_chunks().0.iter().copied(), heights);
         for (along, across) in steps.zip(across) {
             let step = Step { along, y: self.y, across: across.map(|y| y - before) };
             before = across[STAGES - 1];

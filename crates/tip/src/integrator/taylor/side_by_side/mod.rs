@@ -14,10 +14,10 @@ mod plan;
 
 use super::length::ORDER_PER_DIGIT;
 use super::pieces::{self, MOST_PIECES};
-use super::plan::{count, to_end};
+use super::plan::to_end;
 use super::switch::Switch;
 use super::visits::{self, Rule};
-use crate::collocation::{RADAU, STAGES};
+use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Step;
 use crate::integrator::Work;
 use crate::integrator::landing::landing;
@@ -73,9 +73,10 @@ struct Numbers {
     length: Lanes,
     /// Coefficients of the displacements in powers of the elapsed fraction of a step.
     displacement: Vec<Lanes>,
-    /// Numbers of pieces of the steps, and displacements at the nodes of the pieces.
+    /// Numbers of pieces of the steps, displacements at the nodes of the pieces, and 1 where these never decrease.
     pieces: Lanes,
-    nodes: [Lanes; MOST_PIECES * STAGES],
+    nodes: [[Lanes; STAGES]; MOST_PIECES],
+    moves_on: Lanes,
     visits: Visits,
 }
 
@@ -118,7 +119,8 @@ impl SideBySide {
             length: zero,
             displacement: vec![zero; order + 1],
             pieces: Lanes::all(1.0),
-            nodes: [zero; MOST_PIECES * STAGES],
+            nodes: [[zero; STAGES]; MOST_PIECES],
+            moves_on: zero,
             visits: Visits::none(),
         };
         Self { limits, exponentials, numbers }
@@ -171,8 +173,7 @@ impl SideBySide {
         expand(numbers, exponentials, limits);
         for (lane, member) in members.iter_mut().enumerate() {
             let length = member.as_mut().and_then(|member| member.length(limits, numbers, lane));
-            let (length, pieces) = length.unwrap_or((0.0, 1));
-            (numbers.length.0[lane], numbers.pieces.0[lane]) = (length, pieces as f64);
+            numbers.length.0[lane] = length.unwrap_or(0.0);
         }
         follow(numbers);
         for (lane, place) in members.iter_mut().enumerate() {
@@ -193,20 +194,16 @@ impl SideBySide {
 }
 
 impl<C: Extend<Step>> Member<C> {
-    /// Length of the next step and number of its pieces; `None` if the motion must be integrated elsewhere.
-    fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<(f64, usize)> {
-        let Plan { over, piece, fastest } = &numbers.plan;
-        let (over, fastest) = (over.0[lane], fastest.0[lane]);
-        let piece = over * piece.0[lane];
+    /// Length of the next step; `None` if the motion must be integrated elsewhere.
+    fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<f64> {
+        let Plan { length, by_stages, .. } = &numbers.plan;
+        let (length, most) = (length.0[lane], by_stages.0[lane]);
         let fades = 1.0 - numbers.expansion.curvature().0[lane];
-        let length = over.min(MOST_PIECES as f64 * piece);
-        let most = limits.of_series.longest_stages(fastest);
         if self.switch.leaves(fades * length, fades * most, limits.of_series.order) {
             return None;
         }
         let until = self.begin.until;
-        let length = landing(self.t, to_end(length, until - self.t), until)?;
-        Some((length, count(length, piece)))
+        landing(self.t, to_end(length, until - self.t), until)
     }
 
     /// Makes the step, and returns the rule for its visits; `None` if the motion must be integrated elsewhere.
@@ -221,31 +218,25 @@ impl<C: Extend<Step>> Member<C> {
             return None;
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let count = numbers.pieces.0[lane] as usize * STAGES;
-        let (mut positions, mut before, mut moves_on) = ([0.0; MOST_PIECES * STAGES], 0.0, true);
-        for (position, nodes) in positions.iter_mut().zip(&numbers.nodes[..count]) {
-            *position = nodes.0[lane];
-            moves_on &= *position >= before;
-            before = *position;
-        }
-        let positions = &positions[..count];
-        self.passes(limits, positions, moves_on)?;
-        self.take(positions, total);
+        let pieces = &numbers.nodes[..numbers.pieces.0[lane] as usize];
+        let nodes = Nodes { pieces, lane };
+        self.passes(limits, nodes, numbers.moves_on.0[lane] > 0.0)?;
+        self.take(nodes, total);
         let rule = limits.of_series.visits.rule(numbers.plan.fastest.0[lane] * total, 0.0);
         Some(rule.unwrap_or_else(visits::last))
     }
 
     /// Checks the positions of a step; `None` if the tip retreats too far or the number of steps exceeds its limit.
-    fn passes(&mut self, limits: &Limits, positions: &[f64], moves_on: bool) -> Option<()> {
-        let end = *positions.last()?;
+    fn passes(&mut self, limits: &Limits, nodes: Nodes<'_>, moves_on: bool) -> Option<()> {
+        let end = nodes.end();
         let mut farthest = self.farthest.max(end);
         if !(moves_on && end <= limits.longest) {
             farthest = self.farthest;
-            for position in positions {
-                farthest = farthest.max(*position);
+            for position in nodes.positions() {
+                farthest = farthest.max(position);
                 // All in one stretch.
                 let is_near = (position - 0.5 * end).abs() <= limits.expanded;
-                if !(is_near && *position >= farthest - limits.retreat) {
+                if !(is_near && position >= farthest - limits.retreat) {
                     return None;
                 }
             }
@@ -255,17 +246,43 @@ impl<C: Extend<Step>> Member<C> {
         (self.farthest <= limits.between_steps && has_room).then_some(())
     }
 
-    /// Passes the pieces of a step, with these positions at the nodes, to the collector.
-    fn take(&mut self, positions: &[f64], total: f64) {
+    /// Passes the pieces of a step to the collector.
+    fn take(&mut self, nodes: Nodes<'_>, total: f64) {
         let (mut t, mut extension) = (self.t, self.extension);
         let r = self.begin.r;
-        let steps = pieces::steps((t, total), (extension, r), positions, None).inspect(|step| {
+        let pieces = nodes.pieces.iter().map(|piece| nodes.of(piece));
+        let steps = pieces::steps((t, total), (extension, r), pieces, None).inspect(|step| {
             (t, extension) = (step.end(), step.extension_at_end(r));
         });
         self.collector.extend(steps);
         (self.t, self.extension) = (t, extension);
-        self.work.steps += (positions.len() / STAGES) as u64;
+        self.work.steps += nodes.pieces.len() as u64;
         self.work.series += 1;
+    }
+}
+
+/// The displacements of one motion at the nodes of the pieces of its step.
+#[derive(Clone, Copy)]
+struct Nodes<'a> {
+    pieces: &'a [[Lanes; STAGES]],
+    lane: usize,
+}
+
+impl Nodes<'_> {
+    fn of(&self, piece: &[Lanes; STAGES]) -> Stages {
+        let mut positions = [0.0; STAGES];
+        for (position, node) in positions.iter_mut().zip(piece) {
+            *position = node.0[self.lane];
+        }
+        positions
+    }
+
+    fn positions(&self) -> impl Iterator<Item = f64> {
+        self.pieces.iter().flat_map(|piece| self.of(piece))
+    }
+
+    fn end(&self) -> f64 {
+        self.pieces[self.pieces.len() - 1][STAGES - 1].0[self.lane]
     }
 }
 
@@ -281,15 +298,18 @@ fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
 /// Computes the displacements at the nodes of the pieces, up to the largest number of pieces of any lane.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn follow(numbers: &mut Numbers) {
-    let Numbers { expansion, length, displacement, pieces, nodes, .. } = numbers;
+    let Numbers { expansion, plan, length, displacement, pieces, nodes, moves_on, .. } = numbers;
     let mut power = *length;
     for (scaled, coefficient) in displacement[1..].iter_mut().zip(&expansion.displacement()[1..]) {
         *scaled = *coefficient * power;
         power *= *length;
     }
+    *pieces = plan.pieces(*length);
     let most = pieces.0.iter().fold(1.0, |most: f64, count| most.max(*count));
     let part = pieces.map(f64::recip);
-    for (i, nodes) in nodes.as_chunks_mut::<STAGES>().0.iter_mut().enumerate() {
+    let mut before = Lanes::ZERO;
+    *moves_on = Lanes::all(1.0);
+    for (i, nodes) in nodes.iter_mut().enumerate() {
         if i as f64 >= most {
             break;
         }
@@ -303,6 +323,13 @@ fn follow(numbers: &mut Numbers) {
             for (value, at) in values.iter_mut().zip(&at) {
                 *value = *value * *at + *coefficient;
             }
+        }
+        for value in &values {
+            for lane in 0..LANES {
+                let rises = value.0[lane] >= before.0[lane] || i as f64 >= pieces.0[lane];
+                moves_on.0[lane] = if rises { moves_on.0[lane] } else { 0.0 };
+            }
+            before = *value;
         }
         *nodes = values;
     }

@@ -58,10 +58,18 @@ impl Exponentials {
         self.lengths.last().copied().unwrap_or(0.0)
     }
 
-    /// The degree of polynomials that represent all exponentials within `radius`.
-    fn degree(&self, radius: f64) -> usize {
-        let at = self.lengths.partition_point(|length| *length < radius);
-        (at + LOWEST_DEGREE).min(HIGHEST_DEGREE)
+    /// The degrees of polynomials that represent all exponentials within each `radius`, and the highest of them.
+    #[inline(always)]
+    fn degrees(&self, radius: Lanes) -> (Lanes, usize) {
+        let mut degrees = Lanes::all(LOWEST_DEGREE as f64);
+        for length in &self.lengths[..HIGHEST_DEGREE - LOWEST_DEGREE] {
+            for lane in 0..LANES {
+                degrees.0[lane] += if *length < radius.0[lane] { 1.0 } else { 0.0 };
+            }
+        }
+        let highest = degrees.0.into_iter().fold(0.0, f64::max);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a degree")]
+        (degrees, highest as usize)
     }
 }
 
@@ -81,6 +89,10 @@ pub(super) struct Past {
     states: Vec<[Lanes; 2]>,
     /// Room for the results of [`moments_about`].
     moments: Box<[[Lanes; 2]; HIGHEST_DEGREE + 1]>,
+    /// Room for the visits of a step: displacements of the tip, times spent, and distances from the middle of a stretch.
+    positions: Box<Nodes>,
+    weights: Box<Nodes>,
+    off: Box<Nodes>,
 }
 
 /// Visits of a step of length 1, with a rule for each motion. Nodes beyond those of the rule have weight 0.
@@ -103,13 +115,15 @@ impl Visits {
 
     /// Sets the visits of a lane to those of a rule; in most steps they are set already.
     pub(super) fn set(&mut self, lane: usize, rule: &'static Rule) {
-        if self.rules[lane].replace(rule).is_some_and(|before| std::ptr::eq(before, rule)) {
+        let before = self.rules[lane].replace(rule);
+        if before.is_some_and(|before| std::ptr::eq(before, rule)) {
             return;
         }
         self.count = self.rules.iter().flatten().map(|rule| rule.nodes.len()).max().unwrap_or(0);
         let nothing = std::iter::repeat((&0.0, &0.0));
         let of_rule = rule.nodes.iter().zip(&rule.weights).chain(nothing);
-        let places = self.parts.iter_mut().zip(&mut self.weights);
+        let most = before.map_or(MOST_NODES, |before| before.nodes.len().max(rule.nodes.len()));
+        let places = self.parts[..most].iter_mut().zip(&mut self.weights);
         for ((part, weight), (node, of_node)) in places.zip(of_rule) {
             (part.0[lane], weight.0[lane]) = (*node, *of_node);
         }
@@ -118,8 +132,14 @@ impl Visits {
 
 impl Past {
     pub(super) fn nothing(exponentials: &Exponentials) -> Self {
-        let moments = Box::new([[Lanes::ZERO; 2]; HIGHEST_DEGREE + 1]);
-        Self { states: vec![[Lanes::ZERO; 2]; exponentials.terms.len()], moments }
+        let room = || Box::new([Lanes::ZERO; MOST_NODES]);
+        Self {
+            states: vec![[Lanes::ZERO; 2]; exponentials.terms.len()],
+            moments: Box::new([[Lanes::ZERO; 2]; HIGHEST_DEGREE + 1]),
+            positions: room(),
+            weights: room(),
+            off: room(),
+        }
     }
 
     pub(super) fn set(&mut self, lane: usize, states: impl Iterator<Item = Complex<f64>>) {
@@ -156,62 +176,61 @@ impl Past {
         displacement: &[Lanes],
         (visits, length): (&Visits, Lanes),
     ) {
-        let mut positions = [Lanes::ZERO; MOST_NODES];
-        positions_at(displacement, &visits.parts, &mut positions, visits.count);
+        positions_at(displacement, &visits.parts, &mut self.positions, visits.count);
         let mut end = Lanes::ZERO;
         displacement.iter().for_each(|coefficient| end += *coefficient);
+        if end.0.iter().all(|end| !Stretch::is_beyond(*end, 0.0, of.longest())) {
+            self.set_weights(visits, length);
+            self.carry(of, visits.count, (Lanes::ZERO, end));
+            return;
+        }
         let mut stretches = [Stretch { start: 0.0, end: 0.0, nodes: (0, 0) }; LANES];
         for _ in 0..MOST_STRETCHES {
-            let mut more = false;
+            let (mut from, mut to, mut more) = (Lanes::ZERO, Lanes::ZERO, false);
+            self.set_weights(visits, length);
             for (lane, stretch) in stretches.iter_mut().enumerate() {
-                *stretch =
-                    stretch.next(of.longest(), lane, (&positions, visits.count), end.0[lane]);
+                let positions = (&*self.positions, visits.count);
+                *stretch = stretch.next(of.longest(), lane, positions, end.0[lane]);
                 more |= stretch.end.to_bits() != end.0[lane].to_bits();
+                (from.0[lane], to.0[lane]) = (stretch.start, stretch.end);
+                let others = (0..stretch.nodes.0).chain(stretch.nodes.1..visits.count);
+                others.for_each(|node| self.weights[node].0[lane] = 0.0);
             }
-            self.carry(of, (&positions, visits, length), &stretches);
+            self.carry(of, visits.count, (from, to));
             if !more {
                 break;
             }
         }
     }
 
-    /// Advances the states of each motion by a stretch.
+    /// The times spent at the visits; 0 at nodes that only complete the last block.
     #[inline(always)]
-    fn carry(
-        &mut self,
-        of: &Exponentials,
-        (positions, visits, length): (&Nodes, &Visits, Lanes),
-        stretches: &[Stretch; LANES],
-    ) {
-        let (mut middle, mut half) = (Lanes::ZERO, Lanes::ZERO);
-        let mut weights = [Lanes::ZERO; MOST_NODES];
-        for (weight, of_node) in weights[..visits.count].iter_mut().zip(&visits.weights) {
-            *weight = *of_node * length;
-        }
-        for (lane, Stretch { start, end, nodes }) in stretches.iter().enumerate() {
-            (middle.0[lane], half.0[lane]) = (0.5 * (start + end), 0.5 * (end - start));
-            let others = (0..nodes.0).chain(nodes.1..visits.count);
-            others.for_each(|node| weights[node].0[lane] = 0.0);
-        }
-        let (mut off, mut radius) = ([Lanes::ZERO; MOST_NODES], half.map(f64::abs));
-        for ((off, position), weight) in off[..visits.count].iter_mut().zip(positions).zip(&weights)
-        {
-            *off = middle - *position;
-            for lane in 0..LANES {
-                // What counts for nothing may be anywhere.
-                off.0[lane] = if weight.0[lane] > 0.0 { off.0[lane] } else { 0.0 };
+    fn set_weights(&mut self, visits: &Visits, length: Lanes) {
+        // By blocks, or else compilers make vectors of visits instead of lanes.
+        let weights = self.weights.as_chunks_mut::<BLOCK>().0.iter_mut();
+        let blocks = weights.zip(visits.weights.as_chunks::<BLOCK>().0);
+        for (weights, of_nodes) in blocks.take(visits.count.div_ceil(BLOCK)) {
+            for (weight, of_node) in weights.iter_mut().zip(of_nodes) {
+                *weight = *of_node * length;
             }
+        }
+    }
+
+    /// Advances the states of each motion by a stretch between these displacements. Visits elsewhere have weight 0.
+    #[inline(always)]
+    fn carry(&mut self, of: &Exponentials, count: usize, (start, end): (Lanes, Lanes)) {
+        let (middle, half) = ((start + end) * 0.5, (end - start) * 0.5);
+        let (weights, blocks) = (&self.weights, count.div_ceil(BLOCK));
+        let mut radius = half.map(f64::abs);
+        let visits = self.positions.iter().zip(weights.iter());
+        for (off, (position, weight)) in self.off[..blocks * BLOCK].iter_mut().zip(visits) {
+            // What counts for nothing may be anywhere.
+            *off = (middle - *position).where_positive(*weight);
             radius = radius.larger(off.map(f64::abs));
         }
-        let degrees = radius.0.map(|radius| of.degree(radius));
-        let degree = degrees.iter().copied().fold(0, usize::max);
+        let (degrees, degree) = of.degrees(radius);
         let moments = &mut self.moments[..=degree];
-        moments_about(half, (&off, &weights), visits.count.div_ceil(BLOCK), moments);
-        for (lane, own) in degrees.into_iter().enumerate() {
-            for [carried, moment] in &mut moments[own + 1..] {
-                (carried.0[lane], moment.0[lane]) = (0.0, 0.0);
-            }
-        }
+        moments_about(half, (&self.off, weights), blocks, (degrees, moments));
         for (state, powers) in self.states.iter_mut().zip(&of.powers) {
             carry(state, &powers[..=degree], moments);
         }
@@ -230,6 +249,11 @@ struct Stretch {
 pub(super) const MOST_STRETCHES: usize = 8;
 
 impl Stretch {
+    /// Whether the displacement `end` is beyond the stretch that begins at `start`.
+    fn is_beyond(end: f64, start: f64, longest: f64) -> bool {
+        end > start + 2.0 * longest
+    }
+
     /// The next stretch: up to the end of the step, or of length 2 `longest`.
     #[inline(always)]
     fn next(
@@ -240,11 +264,10 @@ impl Stretch {
         end: f64,
     ) -> Self {
         let (start, first) = (self.end, self.nodes.1);
-        let farthest = start + 2.0 * longest;
-        let is_beyond = end > farthest;
-        if !is_beyond {
+        if !Self::is_beyond(end, start, longest) {
             return Self { start, end, nodes: (first, count) };
         }
+        let farthest = start + 2.0 * longest;
         let is_within = |at: &Lanes| at.0[lane] <= farthest;
         let within = positions[first..count].iter().take_while(|at| is_within(at)).count();
         Self { start, end: farthest, nodes: (first, first + within) }
@@ -269,13 +292,13 @@ fn positions_at(series: &[Lanes], parts: &Nodes, into: &mut Nodes, count: usize)
 }
 
 /// `half^m/m!` and `Σ_k weight_k off_k^m/m!`: coefficients of the powers of s in e^{s half} and in the contribution of
-/// the visits.
+/// the visits; 0 beyond the degree of a lane.
 #[inline(always)]
 fn moments_about(
     half: Lanes,
     (off, weights): (&Nodes, &Nodes),
     blocks: usize,
-    into: &mut [[Lanes; 2]],
+    (degrees, into): (Lanes, &mut [[Lanes; 2]]),
 ) {
     into.fill([Lanes::ZERO; 2]);
     let (off, weights) = (off.as_chunks::<BLOCK>().0, weights.as_chunks::<BLOCK>().0);
@@ -288,10 +311,12 @@ fn moments_about(
             }
         }
     }
-    let mut power = Lanes::all(1.0);
+    let (mut power, mut left) = (Lanes::all(1.0), degrees);
     for ([carried, moment], inverse) in into.iter_mut().zip(INVERSE_FACTORIALS) {
+        let inverse = left.map(|left| if left < 0.0 { 0.0 } else { inverse });
         (*carried, *moment) = (power * inverse, *moment * inverse);
         power *= half;
+        left = left - Lanes::all(1.0);
     }
 }
 

@@ -1,24 +1,31 @@
 //! Lengths of the next steps of several motions in the basic model. For one motion see [`plan`](super::super::plan).
 
 use super::super::length::{LAST, exp2, log2};
+use super::super::pieces::MOST_PIECES;
 use super::super::values::{BLOCK, outlook};
 use super::super::{chain::INVERSE, plan::MOST_SHORTENINGS};
 use super::Limits;
-use super::lanes::Lanes;
+use super::lanes::{LANES, Lanes};
 use crate::collocation::{RADAU, STAGES};
 
 pub(super) struct Plan {
-    /// Lengths up to which series, exponentials and quadrature rules are accurate.
-    pub(super) over: Lanes,
-    /// The longest piece, as a fraction of `over`.
+    /// Lengths up to which series, exponentials and quadrature rules are accurate, in at most [`MOST_PIECES`] pieces.
+    pub(super) length: Lanes,
+    /// Length of the longest piece.
     pub(super) piece: Lanes,
     /// Largest speed in the step, approximately.
     pub(super) fastest: Lanes,
+    /// The largest time of a step of collocation.
+    pub(super) by_stages: Lanes,
 }
 
 impl Plan {
-    pub(super) const NONE: Self =
-        Self { over: Lanes::ZERO, piece: Lanes::ZERO, fastest: Lanes::ZERO };
+    pub(super) const NONE: Self = Self {
+        length: Lanes::ZERO,
+        piece: Lanes::ZERO,
+        fastest: Lanes::ZERO,
+        by_stages: Lanes::ZERO,
+    };
 
     /// The plan for these series of displacements.
     #[inline(always)]
@@ -40,9 +47,26 @@ impl Plan {
         let bound = |steepest| log2(radau.interpolation_bound(steepest).max(f64::MIN_POSITIVE));
         let piece = outlook.steepest.map(|steepest| exp2((error - bound(steepest)) * order));
         let limited = |moved: f64| limits.of_series.reach / moved.abs().max(f64::MIN_POSITIVE);
-        let piece = piece.smaller(outlook.moved.map(limited));
+        let piece = over * piece.smaller(outlook.moved.map(limited));
+        let length = over.smaller(piece * MOST_PIECES as f64);
         let fastest = outlook.fastest * over.map(f64::recip);
-        Self { over, piece, fastest }
+        let by_stages = fastest.map(|fastest| limits.of_series.longest_stages(fastest));
+        Self { length, piece, fastest, by_stages }
+    }
+}
+
+impl Plan {
+    /// Numbers of pieces of steps of these lengths.
+    #[inline(always)]
+    pub(super) fn pieces(&self, length: Lanes) -> Lanes {
+        let mut counts = Lanes::all(1.0);
+        for lane in 0..LANES {
+            let pieces = length.0[lane] / self.piece.0[lane];
+            for fewer in 1..MOST_PIECES {
+                counts.0[lane] += if pieces > fewer as f64 { 1.0 } else { 0.0 };
+            }
+        }
+        counts
     }
 }
 

@@ -12,7 +12,6 @@ mod lanes;
 mod past;
 mod plan;
 
-use super::length::ORDER_PER_DIGIT;
 use super::pieces::{self, MOST_PIECES};
 use super::plan::to_end;
 use super::switch::Switch;
@@ -92,6 +91,9 @@ struct Member<C> {
     work: Work,
 }
 
+/// Share of the error allowed in a step, and increase of the order for an error smaller by the factor e. The order is
+/// lower than that of a single motion, as the triangle of products takes more of the time here.
+const SERIES: (f64, f64) = (0.07, 0.9);
 /// Cost of a step of collocation, relative to that of a series in one of eight lanes.
 const COST_OF_COLLOCATION: f64 = 16.0;
 
@@ -99,7 +101,7 @@ impl SideBySide {
     /// The integrator for this footprint and the exponentials that represent it.
     pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: u64) -> Self {
         let exponentials = Exponentials::new(fit);
-        let of_series = super::plan::Limits::new(tip.band(), tolerance, ORDER_PER_DIGIT);
+        let of_series = super::plan::Limits::new(tip.band(), tolerance, SERIES);
         let order = of_series.order;
         let farthest = MOST_STRETCHES as f64 * exponentials.longest();
         let limits = Limits {

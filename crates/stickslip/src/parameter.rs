@@ -20,6 +20,12 @@ pub(crate) fn option(symbol: &str, group: &str, place: u32) -> Value {
     json!({ "symbol": symbol, "group": group, "place": place })
 }
 
+/// Removes the default of a parameter that only another parameter can replace: an area has its own lines.
+#[cfg(feature = "schema")]
+pub(crate) fn without_default(schema: &mut schemars::Schema) {
+    schema.remove("default");
+}
+
 /// Reason given when a question that needs a spring gets a model without one.
 pub(crate) const NOTHING_DRAGS: &str =
     "without a spring nothing drags the tip: there is no steady motion behind a support";

@@ -48,12 +48,12 @@ pub struct Raster {
     #[serde(default)]
     pub pitch: Option<f64>,
     /// Number of lines.
-    #[schemars(extend("x-option" = option("N", "Scan", 41)))]
+    #[schemars(extend("x-option" = option("N", "Scan", 41)), transform = crate::parameter::without_default)]
     #[serde(default)]
     pub lines: usize,
     /// X: distance that the support moves along each line, in σ (along the longest line of an area); a line lasts
     /// X/r.
-    #[schemars(extend("x-option" = option("X", "Scan", 42)))]
+    #[schemars(extend("x-option" = option("X", "Scan", 42)), transform = crate::parameter::without_default)]
     #[serde(default)]
     pub length: f64,
     /// The lines of an area that is not a rectangle, instead of pitch, number and length.

@@ -11,7 +11,7 @@ use stickslip_tip::memory::{Fit, POINTS, Retreat, slopes_of};
 /// exists, else as a sum over visits, with neighbouring visits merged.
 pub(crate) struct Ahead<'a> {
     tip: &'a TipFunction,
-    /// Positions of the visits relative to the tip, and their durations.
+    /// Positions of the visits relative to the tip, and their durations; empty if there is a sum.
     visits: Vec<(f64, f64)>,
     sum: Option<Sum>,
 }
@@ -35,7 +35,7 @@ impl<'a> Ahead<'a> {
         let fit =
             if wanted >= FINEST { Fit::cached(tip, wanted, Retreat::Small).ok() } else { None };
         let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));
-        let visits = if sum.is_none() { merged(visits, tip.widths(1.0)) } else { visits };
+        let visits = if sum.is_none() { merged(visits, tip.widths(1.0)) } else { vec![] };
         let visits = visits.into_iter().map(|(behind, weight)| (-behind, weight)).collect();
         Self { tip, visits, sum }
     }

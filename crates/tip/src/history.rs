@@ -124,10 +124,7 @@ impl Step {
 
     /// x0(t) by the stage polynomial, for any support.
     pub fn position(&self, support: &Support, t: f64) -> f64 {
-        match support {
-            Support::Moving(r) => self.x0(*r, t),
-            _ => support.position(t) - self.lag(support, t),
-        }
+        self.place(support, t).x0
     }
 
     /// The height under the tip at t, by its polynomial; `None` without a depth limit.

@@ -109,6 +109,7 @@ impl GaussianSum {
         (sum, slope)
     }
 
+    #[inline]
     pub(super) fn value_slope_and_curvature(&self, x: f64) -> [f64; 3] {
         let [mut sum, mut slope, mut curvature] = [0.0; 3];
         self.near(x, |width, z, value| {
@@ -121,12 +122,7 @@ impl GaussianSum {
     }
 
     pub(super) fn slope_and_curvature(&self, x: f64) -> (f64, f64) {
-        let (mut slope, mut curvature) = (0.0, 0.0);
-        self.near(x, |width, z, value| {
-            let value = value / width;
-            slope -= z * value;
-            curvature += (z * z - 1.0) * value / width;
-        });
+        let [_, slope, curvature] = self.value_slope_and_curvature(x);
         (slope, curvature)
     }
 

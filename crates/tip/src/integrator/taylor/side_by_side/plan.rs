@@ -53,10 +53,8 @@ impl Plan {
         let by_stages = fastest.map(|fastest| limits.of_series.longest_stages(fastest));
         Self { length, piece, fastest, by_stages }
     }
-}
 
-impl Plan {
-    /// Numbers of pieces of steps of these lengths.
+    /// Numbers of pieces of steps of these lengths, as [`count`](super::super::plan::count).
     #[inline(always)]
     pub(super) fn pieces(&self, length: Lanes) -> Lanes {
         let mut counts = Lanes::all(1.0);

@@ -62,7 +62,7 @@ fn a_run_is_the_same_to_the_last_bit_in_any_company_and_order() {
 }
 
 /// Errors against runs to 1e-12, made one by one: on the whole no larger than those of runs one by one to the same
-/// tolerance. Measured: 0.13 to 0.95 of them from 1e-4 to 1e-10.
+/// tolerance. Measured: 0.11 to 0.83 of them from 1e-4 to 1e-11.
 #[test]
 fn errors_are_no_larger_than_those_of_runs_one_by_one() {
     let alphas: Vec<f64> = (0..12).map(|i| 0.5 + 0.08 * f64::from(i)).collect();
@@ -187,4 +187,4 @@ fn the_bits_are_those_of_every_machine() {
     assert_eq!(format!("{fingerprint:#x}"), format!("{FINGERPRINT:#x}"));
 }
 
-const FINGERPRINT: u64 = 0xecdb_9bd1_b40a_ee1c;
+const FINGERPRINT: u64 = 0xc324_9f4d_e746_8d9b;

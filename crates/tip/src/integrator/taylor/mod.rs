@@ -27,7 +27,7 @@ use chain::Chain;
 pub(crate) use chain::INVERSE;
 use heights::{Along, AtCorner, at_corner};
 use pieces::Pieces;
-use plan::{Limits, Plan, SHARE_OF_SERIES};
+use plan::{Limits, Plan};
 pub(crate) use series::{MOST_ORDER, Series};
 use switch::Switch;
 use values::Outlook;
@@ -60,11 +60,7 @@ pub(crate) const SIDES: usize = 2;
 impl Taylor {
     pub(super) fn new(model: &Model, tolerance: f64) -> Self {
         Self {
-            limits: Limits::new(
-                model.tip().band(),
-                tolerance,
-                (SHARE_OF_SERIES, length::ORDER_PER_DIGIT),
-            ),
+            limits: Limits::new(model.tip().band(), tolerance, length::ORDER_PER_DIGIT),
             steady_weight: model.steady_weight(),
             derivatives: Derivatives::nothing(),
             chain: Chain::new(),

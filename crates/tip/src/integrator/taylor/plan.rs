@@ -35,7 +35,7 @@ pub(crate) struct Limits {
 
 /// Allowed truncation error of a series, relative to the error allowed in a step of collocation: there are fewer steps,
 /// but no other measure of their errors.
-pub(crate) const SHARE_OF_SERIES: f64 = 0.1;
+const SHARE_OF_SERIES: f64 = 0.1;
 /// Allowed error of the weights of nodes, relative to the error allowed in a step of collocation.
 const SHARE_OF_VISITS: f64 = 0.0005;
 /// Allowed interpolation error of a piece, in units of the tolerance; it does not propagate.
@@ -48,11 +48,11 @@ const FARTHEST: f64 = 3.0;
 pub(crate) const MOST_SHORTENINGS: usize = 8;
 
 impl Limits {
-    /// The limits for a footprint of this bandwidth. Series have this `share` of the error allowed in a step, and their
-    /// order increases by `per_digit` for an error smaller by the factor e.
-    pub(crate) fn new(band: f64, tolerance: f64, (share, per_digit): (f64, f64)) -> Self {
+    /// The limits for a footprint of this bandwidth. The order increases by `per_digit` for an error smaller by the
+    /// factor e.
+    pub(crate) fn new(band: f64, tolerance: f64, per_digit: f64) -> Self {
         let target = Control::new(tolerance).target();
-        let error = share * target;
+        let error = SHARE_OF_SERIES * target;
         Self {
             order: order(error, per_digit),
             error,

@@ -101,10 +101,6 @@ impl Outlook {
 }
 
 /// Factors of the coefficients in an [`Outlook`]: displacement, speeds at three points, divided differences at four.
-pub(super) fn outlook() -> &'static [Block; MOST_ORDER + 1] {
-    &OUTLOOK.blocks[0]
-}
-
 static OUTLOOK: LazyLock<Table> = LazyLock::new(|| {
     Table::new(BLOCK, |n, k| match n {
         0 => 1.0,

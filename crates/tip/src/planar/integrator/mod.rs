@@ -20,7 +20,7 @@ use crate::integrator::Work;
 use crate::integrator::control::Control;
 use crate::integrator::corner::Corner;
 use crate::integrator::landing::leaves;
-use crate::integrator::taylor::plan::{Limits, SHARE_OF_SERIES};
+use crate::integrator::taylor::plan::Limits;
 use crate::integrator::taylor::switch::Switch;
 use crate::memory::{FitError, MemoryChoice, Retreat, SteadyPast};
 use crate::state::Reader;
@@ -157,8 +157,7 @@ impl<'a> PlanarRunning<'a> {
         let target = control.target();
         let texture = scenario.texture()?;
         let (x, y) = (along.start_position - along.kick, scenario.kick_across);
-        let limits =
-            Limits::new(model.tip().band(), along.tolerance, (SHARE_OF_SERIES, ORDER_PER_DIGIT));
+        let limits = Limits::new(model.tip().band(), along.tolerance, ORDER_PER_DIGIT);
         let mut integrator = Self {
             storage,
             instead_of_modes: None,

@@ -40,15 +40,6 @@ impl Lanes {
         self
     }
 
-    /// The numbers in lanes where another is above 0, and 0 elsewhere.
-    #[inline(always)]
-    pub(super) fn where_positive(mut self, other: Self) -> Self {
-        for i in 0..LANES {
-            self.0[i] = if other.0[i] > 0.0 { self.0[i] } else { 0.0 };
-        }
-        self
-    }
-
     /// The same number in all lanes.
     #[inline(always)]
     pub(super) fn all(value: f64) -> Self {

@@ -1,33 +1,36 @@
 //! Several motions in SIMD lanes, each with its own step lengths and end.
 //!
-//! A step by series takes the same sums for every motion: derivatives, coefficients, contributions of visits. Here they
-//! are computed for several motions together, in the basic model without forces, noise or profiles, for one footprint
-//! and one sum of exponentials. When a motion ends, the next one takes its lane. The numbers of a lane depend on its
-//! own motion only, so that the other motions do not matter.
+//! A step by series takes the same sums for every motion: derivatives, coefficients, contributions to the groove. Here
+//! they are computed for several motions together, in the basic model without forces, noise or profiles, for one
+//! footprint and one sum of exponentials. Where the tip moves forward the time is a series of the displacement
+//! ([`series`]), which takes fewer sums and longer steps than the displacement as a series of time. When a motion ends,
+//! the next one takes its lane. The numbers of a lane depend on its own motion only, so that the other motions do not
+//! matter.
 //!
-//! Motions that become too stiff for series, or retreat too far, must be integrated by other means, from their start.
+//! Motions that nearly stop, or become too stiff for series, must be integrated by other means, from their start.
 
-mod expansion;
+mod dense;
 mod lanes;
 mod past;
-mod plan;
+mod rest;
+mod series;
 
-use super::pieces::{self, MOST_PIECES};
-use super::plan::to_end;
+use super::chain::INVERSE;
+use super::length::{LAST, ORDER_PER_DIGIT, exp2, log2};
 use super::switch::Switch;
-use super::visits::{self, Rule};
-use crate::collocation::{RADAU, STAGES, Stages};
+use crate::TipFunction;
+use crate::collocation::STAGES;
 use crate::history::Step;
 use crate::integrator::Work;
 use crate::integrator::landing::landing;
 use crate::memory::Fit;
-use crate::{TipFunction, stop};
-use expansion::{Acting, Expansion};
+use crate::stop;
+use dense::Pieces;
 use lanes::{LANES, Lanes};
 use multiversion::multiversion;
 use num_complex::Complex;
-use past::{Exponentials, MOST_STRETCHES, Past, Visits};
-use plan::Plan;
+use past::{Exponentials, Past};
+use series::{Acting, Series};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Begin {
@@ -54,11 +57,6 @@ struct Limits {
     of_series: super::plan::Limits,
     /// Largest displacement in a step.
     longest: f64,
-    /// Largest distance from the middle of a stretch at which polynomials represent all exponentials.
-    expanded: f64,
-    /// Largest distance of a tip behind its farthest position, within a step and between steps.
-    retreat: f64,
-    between_steps: f64,
     /// Largest number of steps of a motion.
     most_steps: u64,
 }
@@ -67,64 +65,53 @@ struct Limits {
 struct Numbers {
     acting: Acting,
     past: Past,
-    expansion: Expansion,
-    plan: Plan,
+    series: Series,
+    /// Minus the stiffness of the groove at the start.
+    curvature: Lanes,
+    /// Displacements of the steps, and the times that they take.
     length: Lanes,
-    /// Coefficients of the displacements in powers of the elapsed fraction of a step.
-    displacement: Vec<Lanes>,
-    /// Numbers of pieces of the steps, displacements at the nodes of the pieces, and 1 where these never decrease.
-    pieces: Lanes,
-    nodes: [[Lanes; STAGES]; MOST_PIECES],
-    moves_on: Lanes,
-    visits: Visits,
+    duration: Lanes,
+    /// The times as series of the covered fractions of the steps.
+    time: Vec<Lanes>,
+    pieces: Pieces,
 }
 
 /// A motion in progress.
 struct Member<C> {
     begin: Begin,
     t: f64,
+    /// R - x0 at the time t.
     extension: f64,
-    /// The farthest position reached so far, relative to the present one.
-    farthest: f64,
+    /// Time by which the motion is ahead of t: steps end at representable times, displacements do not.
+    ahead: f64,
     switch: Switch,
     collector: C,
     work: Work,
 }
 
-/// Share of the error allowed in a step, and increase of the order for an error smaller by the factor e. The order is
-/// lower than that of a single motion, as the triangle of products takes more of the time here.
-const SERIES: (f64, f64) = (0.07, 0.9);
 /// Cost of a step of collocation, relative to that of a series in one of eight lanes.
 const COST_OF_COLLOCATION: f64 = 16.0;
+/// Least velocity of a tip, relative to that of its support: near rest, steps become ever shorter.
+const SLOWEST: f64 = 0.01;
 
 impl SideBySide {
     /// The integrator for this footprint and the exponentials that represent it.
     pub(crate) fn new(tip: &TipFunction, fit: &Fit, tolerance: f64, most_steps: u64) -> Self {
         let exponentials = Exponentials::new(fit);
-        let of_series = super::plan::Limits::new(tip.band(), tolerance, SERIES);
-        let order = of_series.order;
-        let farthest = MOST_STRETCHES as f64 * exponentials.longest();
-        let limits = Limits {
-            longest: of_series.farthest(0.0).min(farthest),
-            of_series,
-            expanded: exponentials.longest(),
-            retreat: fit.retreat(),
-            between_steps: fit.retreat_between_steps(),
-            most_steps,
-        };
+        let of_series = super::plan::Limits::new(tip.band(), tolerance, ORDER_PER_DIGIT);
         let zero = Lanes::ZERO;
         let numbers = Numbers {
             acting: Acting { alpha: zero, support: zero, extension: zero },
             past: Past::nothing(&exponentials),
-            expansion: Expansion::new(order),
-            plan: Plan::NONE,
+            series: Series::new(of_series.order),
+            curvature: zero,
             length: zero,
-            displacement: vec![zero; order + 1],
-            pieces: Lanes::all(1.0),
-            nodes: [[zero; STAGES]; MOST_PIECES],
-            moves_on: zero,
-            visits: Visits::none(),
+            duration: zero,
+            time: vec![zero; of_series.order + 1],
+            pieces: Pieces::new(of_series.of_piece, of_series.reach),
         };
+        let longest = of_series.farthest(0.0).min(exponentials.farthest());
+        let limits = Limits { of_series, longest, most_steps };
         Self { limits, exponentials, numbers }
     }
 
@@ -149,17 +136,31 @@ impl SideBySide {
     }
 
     /// Starts a motion in a lane.
-    fn enter<C>(&mut self, lane: usize, (begin, collector): (Begin, C)) -> Member<C> {
-        let Begin { alpha, r, t, extension, steady, .. } = begin;
-        let Numbers { acting, past, .. } = &mut self.numbers;
+    fn enter<C: Extend<Step>>(
+        &mut self,
+        lane: usize,
+        (begin, mut collector): (Begin, C),
+    ) -> Member<C> {
+        let Self { limits, exponentials, numbers: Numbers { acting, past, .. } } = self;
+        let Begin { alpha, r, mut t, mut extension, steady, .. } = begin;
         (acting.alpha.0[lane], acting.support.0[lane]) = (alpha, r);
+        let mut work = Work::default();
         match steady {
-            Some(ahead) => past.set(lane, self.exponentials.steady(r, ahead)),
+            Some(ahead) => past.set(lane, exponentials.steady(r, ahead)),
             None => past.set(lane, std::iter::repeat(Complex::ZERO)),
         }
-        let farthest = steady.unwrap_or(f64::NEG_INFINITY);
+        if steady.is_none() && extension <= SLOWEST * r {
+            let limits = (&limits.of_series, limits.longest);
+            if let Some((steps, states)) = rest::first_step(&begin, limits, exponentials) {
+                past.set(lane, states.into_iter());
+                (work.steps, work.series) = (steps.len() as u64, 1);
+                collector.extend(steps.into_iter().inspect(|step| {
+                    (t, extension) = (step.end(), step.extension_at_end(r));
+                }));
+            }
+        }
         let switch = Switch::at_cost(COST_OF_COLLOCATION);
-        Member { begin, t, extension, farthest, switch, collector, work: Work::default() }
+        Member { begin, t, extension, ahead: 0.0, switch, collector, work }
     }
 
     /// Makes one step of each motion.
@@ -170,7 +171,8 @@ impl SideBySide {
     ) {
         let Self { limits, exponentials, numbers } = self;
         for (lane, member) in members.iter().enumerate() {
-            numbers.acting.extension.0[lane] = member.as_ref().map_or(0.0, |m| m.extension);
+            let extension = |m: &Member<C>| m.extension + m.begin.r * m.ahead;
+            numbers.acting.extension.0[lane] = member.as_ref().map_or(0.0, extension);
         }
         expand(numbers, exponentials, limits);
         for (lane, member) in members.iter_mut().enumerate() {
@@ -180,13 +182,10 @@ impl SideBySide {
         follow(numbers);
         for (lane, place) in members.iter_mut().enumerate() {
             let Some(member) = place else { continue };
-            let rule = member.advance(limits, numbers, lane);
-            if let Some(rule) = rule {
-                numbers.visits.set(lane, rule);
-            }
-            let goes_on = rule.is_some() && member.t < member.begin.until;
+            let has_moved = member.advance(limits, numbers, lane).is_some();
+            let goes_on = has_moved && member.t < member.begin.until;
             if let Some(Member { begin, collector, work, .. }) = place.take_if(|_| !goes_on)
-                && rule.is_some()
+                && has_moved
             {
                 ended(begin.number, collector, work);
             }
@@ -196,149 +195,111 @@ impl SideBySide {
 }
 
 impl<C: Extend<Step>> Member<C> {
-    /// Length of the next step; `None` if the motion must be integrated elsewhere.
+    /// Displacement of the next step; `None` if the motion must be integrated elsewhere.
     fn length(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<f64> {
-        let Plan { length, by_stages, .. } = &numbers.plan;
-        let (length, most) = (length.0[lane], by_stages.0[lane]);
-        let fades = 1.0 - numbers.expansion.curvature().0[lane];
-        if self.switch.leaves(fades * length, fades * most, limits.of_series.order) {
+        let (length, duration) = (numbers.length.0[lane], numbers.duration.0[lane]);
+        let velocity = numbers.series.velocity().0[lane];
+        // Comparisons with NaN are false.
+        if !(velocity > SLOWEST * self.begin.r && duration > 0.0) {
             return None;
         }
-        let until = self.begin.until;
-        landing(self.t, to_end(length, until - self.t), until)
-    }
-
-    /// Makes the step, and returns the rule for its visits; `None` if the motion must be integrated elsewhere.
-    fn advance(
-        &mut self,
-        limits: &Limits,
-        numbers: &Numbers,
-        lane: usize,
-    ) -> Option<&'static Rule> {
-        let total = numbers.length.0[lane];
-        if total <= 0.0 {
+        let stiffness = 1.0 - numbers.curvature.0[lane];
+        let most = limits.of_series.longest_stages(velocity.max(length / duration));
+        if self.switch.leaves(stiffness * duration, stiffness * most, limits.of_series.order) {
             return None;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let pieces = &numbers.nodes[..numbers.pieces.0[lane] as usize];
-        let nodes = Nodes { pieces, lane };
-        self.passes(limits, nodes, numbers.moves_on.0[lane] > 0.0)?;
-        self.take(nodes, total);
-        let rule = limits.of_series.visits.rule(numbers.plan.fastest.0[lane] * total, 0.0);
-        Some(rule.unwrap_or_else(visits::last))
-    }
-
-    /// Checks the positions of a step; `None` if the tip retreats too far or the number of steps exceeds its limit.
-    fn passes(&mut self, limits: &Limits, nodes: Nodes<'_>, moves_on: bool) -> Option<()> {
-        let end = nodes.end();
-        let mut farthest = self.farthest.max(end);
-        if !(moves_on && end <= limits.longest) {
-            farthest = self.farthest;
-            for position in nodes.positions() {
-                farthest = farthest.max(position);
-                // All in one stretch.
-                let is_near = (position - 0.5 * end).abs() <= limits.expanded;
-                if !(is_near && position >= farthest - limits.retreat) {
-                    return None;
-                }
-            }
+        let left = self.begin.until - self.t - self.ahead;
+        if duration < left * (1.0 - 1e-9) {
+            return Some(length);
         }
-        self.farthest = farthest - end;
-        let has_room = self.work.steps + MOST_PIECES as u64 <= limits.most_steps;
-        (self.farthest <= limits.between_steps && has_room).then_some(())
+        Some(position_at(left, (numbers.series.time(), lane), length * (left / duration)))
     }
 
-    /// Passes the pieces of a step to the collector.
-    fn take(&mut self, nodes: Nodes<'_>, total: f64) {
-        let (mut t, mut extension) = (self.t, self.extension);
-        let r = self.begin.r;
-        let pieces = nodes.pieces.iter().map(|piece| nodes.of(piece));
-        let steps = pieces::steps((t, total), (extension, r), pieces, None).inspect(|step| {
-            (t, extension) = (step.end(), step.extension_at_end(r));
-        });
-        self.collector.extend(steps);
-        (self.t, self.extension) = (t, extension);
-        self.work.steps += nodes.pieces.len() as u64;
+    /// Makes the step; `None` if the motion must be integrated elsewhere.
+    fn advance(&mut self, limits: &Limits, numbers: &Numbers, lane: usize) -> Option<()> {
+        let Begin { r, until, .. } = self.begin;
+        let (length, pieces) = (numbers.length.0[lane], numbers.pieces.of_lane(lane)?);
+        let count = pieces.len() as u64;
+        if self.work.steps + count > limits.most_steps {
+            return None;
+        }
+        let (start, ahead, mut elapsed, mut before) = (self.t, self.ahead, 0.0, 0.0);
+        let (mut t, mut extension, mut landed) = (self.t, self.extension, 0);
+        self.collector.extend(pieces.map_while(|(end, nodes)| {
+            let h = landing(t, (start - t) + (ahead + end), until)?;
+            let displacement = nodes.map(|node| node * length - before);
+            let step = Step { t, h, extension, displacement, height: None };
+            (t, extension, elapsed) = (step.end(), step.extension_at_end(r), end);
+            (before, landed) = (before + displacement[STAGES - 1], landed + 1);
+            Some(step)
+        }));
+        (self.t, self.extension, self.ahead) = (t, extension, ahead + elapsed - (t - start));
+        self.work.steps += count;
         self.work.series += 1;
+        (landed == count).then_some(())
     }
 }
 
-/// The displacements of one motion at the nodes of the pieces of its step.
-#[derive(Clone, Copy)]
-struct Nodes<'a> {
-    pieces: &'a [[Lanes; STAGES]],
-    lane: usize,
-}
-
-impl Nodes<'_> {
-    fn of(&self, piece: &[Lanes; STAGES]) -> Stages {
-        let mut positions = [0.0; STAGES];
-        for (position, node) in positions.iter_mut().zip(piece) {
-            *position = node.0[self.lane];
+/// The displacement at this time, near `x`.
+fn position_at(time: f64, (series, lane): (&[Lanes], usize), mut x: f64) -> f64 {
+    for _ in 0..MOST_ITERATIONS {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for coefficient in series.iter().rev() {
+            slope = slope * x + value;
+            value = value * x + coefficient.0[lane];
         }
-        positions
+        let correction = (time - value) / slope;
+        x += correction;
+        if correction.abs() <= f64::EPSILON * x {
+            break;
+        }
     }
-
-    fn positions(&self) -> impl Iterator<Item = f64> {
-        self.pieces.iter().flat_map(|piece| self.of(piece))
-    }
-
-    fn end(&self) -> f64 {
-        self.pieces[self.pieces.len() - 1][STAGES - 1].0[self.lane]
-    }
+    x
 }
+
+/// Newton's method begins within a few per cent.
+const MOST_ITERATIONS: usize = 8;
 
 /// Computes the series, and from them the lengths of the steps. Also compiled for wider vectors: lanes are independent.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn expand(numbers: &mut Numbers, exponentials: &Exponentials, limits: &Limits) {
-    let Numbers { acting, past, expansion, plan, .. } = numbers;
-    past.derivatives(exponentials, acting.alpha, expansion.start());
-    expansion.run(acting, &exponentials.of_tip);
-    *plan = Plan::of(limits, expansion.displacement());
+    let Numbers { acting, past, series, curvature, length, duration, .. } = numbers;
+    past.slopes(exponentials, acting.alpha, series.start());
+    *curvature = series.start()[1];
+    series.run(acting, &exponentials.own);
+    let accurate = accurate(series.time(), limits.of_series.error, acting.support);
+    *length = accurate.smaller(Lanes::all(limits.longest));
+    *duration = Lanes::ZERO;
+    for coefficient in series.time().iter().rev() {
+        *duration = *duration * *length + *coefficient;
+    }
 }
 
-/// Computes the displacements at the nodes of the pieces, up to the largest number of pieces of any lane.
+/// As [`length`](super::length::length), for the displacement: an error of the time counts by the mean velocity.
+#[inline(always)]
+fn accurate(series: &[Lanes], error: f64, velocity: Lanes) -> Lanes {
+    let (order, wanted) = (series.len() - 1, log2(error));
+    let mut shortest = Lanes::all(f64::INFINITY);
+    for before in 0..LAST {
+        let digits = |coefficient: f64| {
+            let size = coefficient.abs().max(f64::MIN_POSITIVE);
+            (wanted - log2(size) + before as f64) * INVERSE[order - before]
+        };
+        shortest = shortest.smaller((series[order - before] * velocity).map(digits));
+    }
+    shortest.map(exp2)
+}
+
+/// Divides the steps into pieces.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn follow(numbers: &mut Numbers) {
-    let Numbers { expansion, plan, length, displacement, pieces, nodes, moves_on, .. } = numbers;
-    let mut power = *length;
-    for (scaled, coefficient) in displacement[1..].iter_mut().zip(&expansion.displacement()[1..]) {
-        *scaled = *coefficient * power;
-        power *= *length;
-    }
-    *pieces = plan.pieces(*length);
-    let most = pieces.0.iter().fold(1.0, |most: f64, count| most.max(*count));
-    let part = pieces.map(f64::recip);
-    let mut before = Lanes::ZERO;
-    *moves_on = Lanes::all(1.0);
-    for (i, nodes) in nodes.iter_mut().enumerate() {
-        if i as f64 >= most {
-            break;
-        }
-        // Not by `map` of arrays: see `Lanes::map`.
-        let mut at = [Lanes::ZERO; STAGES];
-        for (at, c) in at.iter_mut().zip(&RADAU.c) {
-            *at = part * (i as f64 + c);
-        }
-        let mut values = [Lanes::ZERO; STAGES];
-        for coefficient in displacement.iter().rev() {
-            for (value, at) in values.iter_mut().zip(&at) {
-                *value = *value * *at + *coefficient;
-            }
-        }
-        for value in &values {
-            for lane in 0..LANES {
-                let rises = value.0[lane] >= before.0[lane] || i as f64 >= pieces.0[lane];
-                moves_on.0[lane] = if rises { moves_on.0[lane] } else { 0.0 };
-            }
-            before = *value;
-        }
-        *nodes = values;
-    }
+    let Numbers { series, length, time, pieces, .. } = numbers;
+    time.copy_from_slice(series.time());
+    pieces.divide(time, length);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn remember(numbers: &mut Numbers, exponentials: &Exponentials) {
-    let Numbers { past, displacement, visits, length, .. } = numbers;
-    past.remember(exponentials, displacement, (visits, *length));
+    let Numbers { past, time, length, .. } = numbers;
+    past.remember(exponentials, time, *length);
 }

@@ -21,7 +21,8 @@ pub fn run_many(scenarios: &[Scenario]) -> Vec<Result<Run, RunError>> {
 /// Some motions are integrated together in SIMD lanes, in less than half of the time ([`Run::side_by_side`]). They must
 /// have one footprint, one tolerance, the basic model, the memory `auto` or `modes`, and no force, noise or profile.
 /// The results are as accurate as those of [`run`](super::run) but differ in the last bits; they do not depend on the
-/// other scenarios. [`run`](super::run) integrates all other scenarios, and those that become too stiff during the run.
+/// other scenarios. [`run`](super::run) integrates all other scenarios, and those in which the groove becomes too stiff or
+/// the tip nearly stops.
 ///
 /// ```
 /// use stickslip_tip::{Model, Scenario, TipFunction, run_each};

@@ -28,9 +28,9 @@ pub(super) struct Pieces {
     reach: f64,
     /// Numbers of pieces.
     count: Lanes,
-    /// Covered fractions of the step at the ends of the pieces, the first at its start.
-    at: [Lanes; MOST_PIECES + 1],
-    /// The times there as functions of the fractions, and the fractions as functions of the times.
+    /// Covered fractions of the step where one piece ends and the next begins, from index 1 on.
+    at: [Lanes; MOST_PIECES],
+    /// At the ends of the pieces, the first at the start of the step: the times as functions of the fractions, and the fractions as functions of the times.
     time: [Jet; MOST_PIECES + 1],
     fraction: [Jet; MOST_PIECES + 1],
     /// At both ends of each piece, the fractions as functions of the part of its duration.
@@ -48,7 +48,7 @@ impl Pieces {
             error,
             reach,
             count: Lanes::all(1.0),
-            at: [Lanes::ZERO; MOST_PIECES + 1],
+            at: [Lanes::ZERO; MOST_PIECES],
             time: [NOTHING; MOST_PIECES + 1],
             fraction: [NOTHING; MOST_PIECES + 1],
             ends: [[NOTHING; 2]; MOST_PIECES],
@@ -79,19 +79,17 @@ impl Pieces {
         scale(time, *length);
         for shortenings in 0.. {
             let longest = self.longest(time, *length);
-            let part =
-                longest.map(|longest| if longest * MOST < 1.0 { longest * MOST } else { 1.0 });
+            let shorter = if shortenings < MOST_SHORTENINGS { 0.95 } else { 0.0 };
+            let part = longest.map(|longest| {
+                let most = longest * MOST_PIECES as f64;
+                if most < 1.0 { most * shorter } else { 1.0 }
+            });
             if part.0.iter().all(|part| *part >= 1.0) {
                 self.count = count(longest);
                 break;
             }
-            let shorter = if shortenings < MOST_SHORTENINGS { part * 0.95 } else { Lanes::ZERO };
-            for lane in 0..LANES {
-                let is_long = part.0[lane] < 1.0;
-                self.count.0[lane] = if is_long { shorter.0[lane] } else { 1.0 };
-            }
-            *length *= self.count;
-            scale(time, self.count);
+            *length *= part;
+            scale(time, part);
         }
         let most = self.set_ends(time);
         for (i, ends) in self.ends[..most].iter_mut().enumerate() {
@@ -130,25 +128,25 @@ impl Pieces {
         let part = self.count.map(f64::recip);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
         let most = most as usize;
-        for (i, at) in self.at[..=most].iter_mut().enumerate().skip(1) {
+        // Of all steps the last of these is the end, which is known.
+        (self.time[most], self.fraction[most]) = (self.time[1], self.fraction[1]);
+        for (i, at) in self.at[..most].iter_mut().enumerate().skip(1) {
             let about = self.whole.at(part * i as f64);
             for lane in 0..LANES {
                 let is_inside = (i as f64) < self.count.0[lane];
                 at.0[lane] = if is_inside { about.0[lane] } else { 1.0 };
             }
         }
-        for (jet, at) in self.time[..=most].iter_mut().zip(&self.at).skip(1) {
+        for (jet, at) in self.time[..most].iter_mut().zip(&self.at).skip(1) {
             set_jet(jet, time, *at);
         }
-        let jets = self.time[..=most].iter().zip(&self.at);
+        let jets = self.time[..most].iter().zip(&self.at);
         for (inverse, (jet, at)) in self.fraction.iter_mut().zip(jets).skip(1) {
             set_inverse(inverse, jet, *at);
         }
         most
     }
 }
-
-const MOST: f64 = MOST_PIECES as f64;
 
 /// Numbers of pieces that are no longer than this.
 #[inline(always)]

@@ -49,14 +49,15 @@ impl Exponentials {
     pub(super) fn new(fit: &Fit) -> Self {
         let terms = fit.terms().to_vec();
         let factors = |term: &Term| -> [[f64; 2]; ROOM] { powers_of(term.exponent, term.weight) };
+        let factors: Vec<_> = terms.iter().map(factors).collect();
         let mut of_tip = [0.0; DERIVATIVES];
         for (n, derivative) in of_tip.iter_mut().enumerate().skip(1).take(ROOM) {
-            *derivative = terms.iter().map(|term| factors(term)[n - 1][0]).sum();
+            *derivative = factors.iter().map(|factors| factors[n - 1][0]).sum();
         }
-        let slopes = terms.iter().map(|term| {
+        let slopes = factors.iter().map(|factors| {
             let mut over = 1.0;
             let mut slopes = [[0.0; ROOM]; 2];
-            for (n, [re, im]) in factors(term).into_iter().enumerate() {
+            for (n, [re, im]) in factors.iter().enumerate() {
                 over *= n.max(1) as f64;
                 (slopes[0][n], slopes[1][n]) = (re / over, -im / over);
             }

@@ -10,10 +10,10 @@ use stickslip::{Fit, FitImage};
 ///
 /// Compares the settled motion, the limit cycle at α and r, with measured ripples and forces. Offsets, slopes, phases
 /// and unknown gains are fitted simultaneously; both scan directions are tried; starting values are estimated from
-/// the data. Several data sets of one motion may be combined. Intervals follow from the profile likelihood, widened
-/// for noise that is correlated from row to row and for the error of a measured footprint. The noise is estimated
-/// from the scatter between wavelengths: data without a significant ripple are rejected, and a model that does not
-/// explain the data gets no intervals.
+/// the data. Ripples may repeat after one slip or, beyond a period doubling, after two. Several data sets of one motion
+/// may be combined. Intervals follow from the profile likelihood, widened for noise that is correlated from row to row
+/// and for the error of a measured footprint. The noise is estimated from the scatter between wavelengths: data without
+/// a significant ripple are rejected, and a model that does not explain the data gets no intervals.
 ///
 /// With --image, α and r follow from the wave vector and the shape of the ripples of an area. Offset and tilt of each
 /// line are removed. All lines must be scanned in one direction. The tip is held on its lines, unless --stiffness-across is

@@ -90,7 +90,7 @@ pub(super) struct Comb {
     residuals: Vec<f64>,
 }
 
-/// Largest number of harmonics; rows per wavelength that each requires, and total number of rows.
+/// Largest number of harmonics of the strongest wave; rows per wavelength that each requires, and total number of rows.
 const HARMONICS: f64 = 12.0;
 const ROWS_OF_A_WAVE: f64 = 4.0;
 const ROWS_IN_ALL: f64 = 6.0;
@@ -100,11 +100,13 @@ const OFF: f64 = 0.4;
 const NEXT: f64 = 0.15;
 
 impl Comb {
-    /// A fit close to this wavelength; `None` if there are too few rows.
-    pub(super) fn near(rows: &Rows, length: f64) -> Option<Self> {
+    /// A fit close to this wavelength, which is this number of lengths of the strongest wave; `None` if there are too few
+    /// rows.
+    pub(super) fn near(rows: &Rows, length: f64, waves: usize) -> Option<Self> {
         let longest = rows.lines.iter().map(Range::len).max()? as f64;
         let count = rows.extent() / length;
-        let most = HARMONICS.min(longest / count / ROWS_OF_A_WAVE).min(longest / ROWS_IN_ALL);
+        let harmonics = HARMONICS * waves as f64;
+        let most = harmonics.min(longest / count / ROWS_OF_A_WAVE).min(longest / ROWS_IN_ALL);
         if most < 1.0 || most.is_nan() {
             return None;
         }
@@ -136,6 +138,18 @@ impl Comb {
         Some(Self { length, count: extent / length, harmonics, wave, residuals })
     }
 
+    /// Whether there are enough wavelengths to show changes from one to the next.
+    pub(super) fn shows_changes(&self) -> bool {
+        self.count >= FEWEST
+    }
+
+    /// Schwarz' criterion: the wave with the smallest value describes the track best.
+    pub(super) fn criterion(&self) -> f64 {
+        let rows = self.residuals.len() as f64;
+        let square = dot(&self.residuals, &self.residuals).max(f64::MIN_POSITIVE) / rows;
+        rows * square.ln() + self.wave.len() as f64 * rows.ln()
+    }
+
     fn columns(rows: &Rows, turns: f64, harmonics: usize) -> Vec<Vec<f64>> {
         (1..=harmonics).flat_map(|k| rows.wave(k as f64 * turns, 0)).collect()
     }
@@ -164,7 +178,7 @@ impl Comb {
 
     /// Waves of twice the length: components that alternate from ripple to ripple.
     pub(super) fn doubled(&self, rows: &Rows) -> Vec<Vec<f64>> {
-        if self.count < FEWEST {
+        if !self.shows_changes() {
             return vec![];
         }
         let waves = (0..self.harmonics.min(DOUBLED)).map(|k| k as f64 + 0.5);
@@ -173,7 +187,7 @@ impl Comb {
 
     /// First harmonics that grow, decay or shift along the track.
     pub(super) fn drifting(&self, rows: &Rows) -> Vec<Vec<f64>> {
-        if self.count < FEWEST {
+        if !self.shows_changes() {
             return vec![];
         }
         let mut found = vec![];
@@ -189,7 +203,7 @@ impl Comb {
     pub(super) fn level(&self, rows: &Rows, besides: &[Vec<f64>], noise: &Noise) -> Level {
         let freedom = self.freedom(noise, besides.len());
         let sound = Level { scale: 1.0, freedom };
-        if noise.is_white() || self.count < FEWEST {
+        if noise.is_white() || !self.shows_changes() {
             return sound;
         }
         let between = (0..self.harmonics.min(DOUBLED))
@@ -263,16 +277,29 @@ fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
 }
 
 /// The probability that noise alone contains a wave as strong as the strongest of the track, whose length was chosen
-/// among `trials`; `None` if there are too few rows.
-pub(super) fn by_chance(rows: &Rows, length: f64, trials: f64) -> Option<f64> {
-    let comb = Comb::near(rows, length)?;
+/// among `trials`, if the track repeats after this number of lengths of it; `None` if there are too few rows.
+pub(super) fn by_chance(rows: &Rows, length: f64, waves: usize, trials: f64) -> Option<f64> {
+    let comb = Comb::near(rows, length * waves as f64, waves)?;
     let besides = comb.besides(rows);
     let noise = comb.noise(rows, &besides);
-    let directions = beyond(&rows.ground(), &rows.wave(1.0 / comb.length, 0));
+    let directions = beyond(&rows.ground(), &rows.wave(waves as f64 / comb.length, 0));
     let Level { scale, freedom } = comb.level(rows, &besides, &noise);
     let size = size(&directions, &rows.y, &|v| noise.times(v), &[])?;
     let one = by_noise(size / scale, directions.len(), freedom)?;
     Some(-f64::exp_m1(trials * f64::ln_1p(-one.min(1.0 - f64::EPSILON))))
+}
+
+/// Largest number of lengths of the strongest wave that are tried.
+pub(super) const MOST_WAVES: usize = 8;
+
+/// The number of lengths of the strongest wave after which a track repeats, by Schwarz' criterion.
+pub(super) fn repeated(rows: &Rows, length: f64) -> Option<usize> {
+    let criterion = |waves: usize| {
+        let comb = Comb::near(rows, length * waves as f64, waves)?;
+        (waves == 1 || comb.shows_changes()).then(|| (waves, comb.criterion()))
+    };
+    let found = (1..=MOST_WAVES).filter_map(criterion).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(found.0)
 }
 
 #[cfg(test)]
@@ -295,18 +322,18 @@ mod tests {
     fn a_wave_is_told_from_noise_and_its_noise_from_it() {
         let wave = |x: f64| (TAU * x / 6.3).sin() + 0.4 * (2.0 * TAU * x / 6.3).cos();
         let rows = track(wave);
-        let comb = Comb::near(&rows, 6.4).unwrap();
+        let comb = Comb::near(&rows, 6.4, 1).unwrap();
         assert!((comb.length - 6.3).abs() < 0.01, "{}", comb.length);
         let noise = comb.noise(&rows, &[]).deviation();
         assert!((noise / 0.1 * 12_f64.sqrt() - 1.0).abs() < 0.1, "{noise}");
-        assert!(by_chance(&rows, 6.3, 200.0).unwrap() < 1e-12);
-        assert!(by_chance(&track(|_| 0.0), 6.3, 200.0).unwrap() > 1e-2);
+        assert!(by_chance(&rows, 6.3, 1, 200.0).unwrap() < 1e-12);
+        assert!(by_chance(&track(|_| 0.0), 6.3, 1, 200.0).unwrap() > 1e-2);
     }
 
     #[test]
     fn every_other_ripple_and_a_growing_one_are_seen() {
         let judged = |rows: &Rows| {
-            let comb = Comb::near(rows, 6.3).unwrap();
+            let comb = Comb::near(rows, 6.3, 1).unwrap();
             let besides = comb.besides(rows);
             let noise = comb.noise(rows, &besides);
             let of = |more: Vec<Vec<f64>>| {
@@ -322,5 +349,22 @@ mod tests {
         assert!(doubling < 1e-6, "{doubling}");
         let (_, drift) = judged(&track(|x| wave(x) * (1.0 + 0.004 * (x - 20.0))));
         assert!(drift < 1e-6, "{drift}");
+    }
+
+    /// A wave of length 20 whose second or third harmonic is the strongest, and one of the strongest alone.
+    #[test]
+    fn the_length_after_which_a_track_repeats_is_seen() {
+        let noise = |i: u32| 0.05 * (1e4 * f64::from(i * i % 7919)).sin();
+        let repeated = |strongest: f64, first: f64| {
+            let x: Vec<f64> = (0..600_u32).map(|i| 0.25 * f64::from(i)).collect();
+            let wave = |x: f64| (strongest * TAU * x / 20.0).sin() + first * (TAU * x / 20.0).cos();
+            let y = (0..600_u32).map(|i| wave(0.25 * f64::from(i)) + noise(i)).collect();
+            let rows = Rows { x, y, lines: one_line(600) };
+            repeated(&rows, 20.0 / strongest)
+        };
+        assert_eq!(repeated(1.0, 0.0), Some(1));
+        assert_eq!(repeated(2.0, 0.5), Some(2));
+        assert_eq!(repeated(3.0, 0.5), Some(3));
+        assert_eq!(repeated(3.0, 0.0), Some(1));
     }
 }

@@ -10,6 +10,7 @@ mod law;
 mod likelihood;
 mod noise;
 mod parameters;
+mod pattern;
 mod problem;
 mod remarks;
 mod retreat;
@@ -28,8 +29,9 @@ pub use verdict::Judged;
 use crate::interval::median;
 use crate::least_squares::{Minimum, minimum};
 use crate::profile::MEDIAN_OF_NORMAL;
-use comb::{Rows, by_chance};
+use comb::{MOST_WAVES, Rows, by_chance, repeated};
 use likelihood::{Around, plain};
+use pattern::{ONE, Pattern};
 use problem::Problem;
 use start::Start;
 use stickslip_tip::sorting::{ends, sort_by_number};
@@ -70,6 +72,8 @@ pub struct Fit {
     pub rows: usize,
     /// Number of fitted parameters, including offsets, slopes, gains and phases.
     pub parameters: usize,
+    /// Number of slips in a wavelength of the fitted motion: 2 beyond a period doubling.
+    pub slips: usize,
     /// Other minima that the data do not exclude at 99.7 %, the likeliest first.
     pub alternatives: Vec<Alternative>,
     /// The best fit with a depth limit, if the request has none and the data do not exclude one at 95 %.
@@ -150,14 +154,42 @@ const NOISE: f64 = 1e-4;
 
 fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     let data: Vec<Data> = data.iter().cloned().map(Data::reduced).collect::<Result<_, _>>()?;
-    let cycles = Cycles::default();
-    let free = free(&data, request);
+    let waves: Vec<Option<f64>> =
+        data.iter().map(|data| data.track().and_then(start::wavelength)).collect();
+    let of = |pattern| of_pattern((&data, &waves), request, pattern);
+    let first = of(ONE);
+    match &first {
+        Ok(fit) if !fit.explained => {}
+        Err(FitError::NoStart) => {}
+        _ => return first,
+    }
+    let others = patterns(&data, &waves).into_iter().flat_map(of);
+    let explained = others.filter(|fit| fit.explained);
+    explained.min_by(|a, b| a.scatter().total_cmp(&b.scatter())).map_or(first, Ok)
+}
+
+/// The other patterns that the data suggest, in the order in which they are tried.
+fn patterns(data: &[Data], waves: &[Option<f64>]) -> Vec<Pattern> {
+    let of = |(data, length): (&Data, &Option<f64>)| repeated(&Rows::of(data)?, (*length)?);
+    let waves = data.iter().zip(waves).find_map(of);
+    let found = waves.into_iter().flat_map(|waves| [2, 1].map(|slips| Pattern { slips, waves }));
+    found.filter(|pattern| *pattern != ONE).collect()
+}
+
+/// The best fit of motions whose ripples repeat in this way; `waves` are the lengths of the strongest waves of the data.
+fn of_pattern(
+    (data, waves): (&[Data], &[Option<f64>]),
+    request: &FitRequest,
+    pattern: Pattern,
+) -> Result<Fit, FitError> {
+    let cycles = Cycles::of(pattern);
+    let free = free(data, request);
     if free.is_empty() {
         return Err(FitError::Nothing);
     }
     let problem = Problem {
         shape: &request.shape,
-        data: &data,
+        data,
         held: request.known,
         free,
         noise: data.iter().map(first_noise).collect(),
@@ -165,10 +197,14 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
         cycles: &cycles,
         by_excess: true,
         scans: vec![request.scan.unwrap_or(Scan::Right); data.len()],
+        pattern,
     };
     judge_counts(&problem)?;
-    judge_noise(&data)?;
-    let starts = start::starts(&problem, request.scan, start::measured(&data));
+    if pattern == ONE {
+        judge_noise(data, waves)?;
+    }
+    let length = waves.iter().flatten().next().map(|length| length * pattern.waves as f64);
+    let starts = start::starts(&problem, request.scan, length);
     let end = |Start { scans, searched }| {
         let end = minimum(&Problem { scans: Vec::clone(&scans), ..problem.clone() }, &searched)?;
         Some((scans, end))
@@ -201,13 +237,21 @@ fn judge_counts(problem: &Problem) -> Result<(), DataError> {
 }
 
 /// Rejects tracks if none has a ripple that is stronger than expected from noise.
-fn judge_noise(data: &[Data]) -> Result<(), FitError> {
+fn judge_noise(data: &[Data], waves: &[Option<f64>]) -> Result<(), FitError> {
     let mut least: Option<f64> = None;
     let mut tracks = 0.0;
-    for data in data {
+    for (data, length) in data.iter().zip(waves) {
         let Some((rows, track)) = Rows::of(data).zip(data.track()) else { return Ok(()) };
-        let Some(length) = start::wavelength(track) else { return Ok(()) };
-        let Some(chance) = by_chance(&rows, length, start::trials(track)) else { return Ok(()) };
+        let Some(length) = *length else { return Ok(()) };
+        let trials = start::trials(track);
+        let Some(mut chance) = by_chance(&rows, length, 1, trials) else { return Ok(()) };
+        if chance > NOISE {
+            // Slips that are short beside the time between them have many waves, none of which is strong.
+            let waves = repeated(&rows, length);
+            let trials = trials * MOST_WAVES as f64;
+            let again = waves.and_then(|waves| by_chance(&rows, length, waves, trials));
+            chance = again.map_or(chance, |again| again.min(chance));
+        }
         least = Some(least.map_or(chance, |least| least.min(chance)));
         tracks += 1.0;
     }
@@ -264,6 +308,7 @@ fn settled(
         parts,
         rows: problem.rows(),
         parameters: problem.parameters(),
+        slips: problem.pattern.slips,
         alternatives,
         with_depth_limit: explained.then(|| law::with_depth_limit(&problem, &around)).flatten(),
         explained,
@@ -272,6 +317,14 @@ fn settled(
     };
     fit.remarks = remarks::remarks(&problem, &around, &fit, scattered);
     Ok(fit)
+}
+
+impl Fit {
+    /// Twice the negative logarithm of the likelihood, with the noise of each data set as fitted, but for a constant.
+    fn scatter(&self) -> f64 {
+        let of = |part: &Part| 2.0 * part.model.len() as f64 * part.residual.ln();
+        self.parts.iter().map(of).sum()
+    }
 }
 
 /// Smallest relative scatter of a series; less is round-off and gives no error estimate.

@@ -2,6 +2,7 @@
 
 use super::data::{Data, Scan, Track, ground};
 use super::parameters::{Name, Shape, Values};
+use super::pattern::Pattern;
 use super::wave::{Cycles, Wave};
 use crate::least_squares::{Minimum, Residuals, differences, forward, minimum};
 use crate::projection::{Projected, project};
@@ -27,6 +28,8 @@ pub(super) struct Problem<'a> {
     pub(super) by_excess: bool,
     /// Direction of the scan of each data set.
     pub(super) scans: Vec<Scan>,
+    /// How the ripples repeat.
+    pub(super) pattern: Pattern,
 }
 
 /// Columns, and the data to be represented by them.
@@ -35,9 +38,6 @@ type Columns = (Vec<Vec<f64>>, Vec<f64>);
 /// Range of α/αc - 1 in the search.
 const EXCESSES: std::ops::RangeInclusive<f64> = 1e-4..=5.0;
 const RS: std::ops::RangeInclusive<f64> = 0.03..=20.0;
-
-/// Step of ln α and ln r in differences; the error of cycles is about 1e-7.
-const STEP: f64 = 5e-4;
 
 impl Problem<'_> {
     /// The parameters for these search variables: logarithms, then phases in turns. `None` outside of the range of
@@ -250,7 +250,7 @@ impl Problem<'_> {
 
     /// Derivatives at the best fit, more accurate than those of the search.
     pub(super) fn slopes(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
-        differences(self, (here, searched), STEP)
+        differences(self, (here, searched), self.pattern.step())
     }
 }
 
@@ -261,7 +261,7 @@ impl Residuals for Problem<'_> {
     }
 
     fn derivatives(&self, here: &[f64], searched: &[f64]) -> Option<Vec<Vec<f64>>> {
-        forward(self, (here, searched), STEP)
+        forward(self, (here, searched), self.pattern.step())
     }
 
     fn enough(&self) -> f64 {

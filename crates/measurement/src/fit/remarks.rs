@@ -40,6 +40,11 @@ pub(super) fn remarks(
             "intervals are left out, because they assume that the model explains the data".into(),
         );
     }
+    if fit.slips > 1 {
+        remarks.push(
+            "the ripples repeat after two slips: the numbers are those of a motion beyond a period doubling".into(),
+        );
+    }
     alternatives(&mut remarks, problem, fit);
     depth_limit(&mut remarks, problem, fit);
     if fit.explained {
@@ -60,8 +65,8 @@ fn of_part(remarks: &mut Vec<String>, number: usize, part: &Part) {
     let judged = &part.judged;
     if let Some(p) = judged.doubling.filter(|p| *p < CHANGE) {
         remarks.push(format!(
-            "data {number} repeat with twice the wavelength (probability of this by chance: {}): beyond the first \
-             period doubling a model with one crest per wavelength does not apply",
+            "data {number} repeat with twice the wavelength (probability of this by chance: {}), and no motion of two \
+             slips in a wavelength explains them",
             in_percent(p)
         ));
     }

@@ -114,7 +114,7 @@ pub(super) fn with_footprints(
 ) -> Vec<Minimum> {
     let of = |tip: &TipFunction| {
         let shape = Shape::Known(tip.clone());
-        let cycles = Cycles::default();
+        let cycles = Cycles::of(problem.pattern);
         let other = Problem { shape: &shape, cycles: &cycles, ..problem.clone() };
         let near = Problem { by_excess: true, ..problem.clone() };
         let values = problem.values(&best.parameters)?;

@@ -2,10 +2,13 @@
 
 use super::data::{Data, Scan, Track, ground};
 use super::parameters::{Name, Values};
+use super::pattern::ONE;
 use super::problem::Problem;
 use crate::least_squares::{Residuals, squares};
 use crate::projection::project;
 use std::f64::consts::TAU;
+use stickslip_stability::trapping_alpha;
+use stickslip_tip::Wider;
 use stickslip_tip::sorting::{ends, sort_by_number};
 
 /// Values of r, and of α over αc, that are tried if they are unknown.
@@ -23,6 +26,11 @@ pub(super) struct Start {
     pub(super) scans: Vec<Scan>,
     pub(super) searched: Vec<f64>,
 }
+
+/// Number of ratios from one r to the next, where they are close together.
+const CLOSE: u32 = 80;
+/// For other patterns than that of most ripples, α in parts of the way from αc to trapping, if there is one.
+const ON_THE_WAY: [f64; 6] = [0.2, 0.35, 0.5, 0.65, 0.8, 0.87];
 
 /// Starting points for every combination of possible directions of the tip.
 pub(super) fn starts(problem: &Problem, asked: Option<Scan>, length: Option<f64>) -> Vec<Start> {
@@ -87,11 +95,6 @@ fn ways(data: &[Data], asked: Option<Scan>) -> Vec<Vec<Scan>> {
     found
 }
 
-/// The wavelength of the first track that has one.
-pub(super) fn measured(data: &[Data]) -> Option<f64> {
-    data.iter().filter_map(Data::track).find_map(wavelength)
-}
-
 /// Grid of values of the free parameters.
 fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
     let is_free = |name: Name| problem.free.contains(&name);
@@ -115,12 +118,12 @@ fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
     }
     let mut motions = vec![];
     for values in found {
-        for r in values.get(Name::R).map_or(RS.to_vec(), |r| vec![r]) {
+        for r in values.get(Name::R).map_or_else(|| rs(problem, &values), |r| vec![r]) {
             let over: Vec<f64> = match values.get(Name::Alpha) {
                 Some(alpha) => vec![alpha],
                 None => {
                     let onset = problem.onset(&values, r);
-                    onset.map_or(vec![], |(at, _)| OVER.iter().map(|o| o * at).collect())
+                    onset.map_or(vec![], |(at, _)| tried(problem, &values, (r, at)))
                 }
             };
             for alpha in over {
@@ -139,6 +142,26 @@ fn lattice(problem: &Problem, measured: Option<f64>) -> Vec<Values> {
         }
     }
     motions
+}
+
+/// The r that are tried. At a known α, motions of other patterns than that of most ripples have r in a narrow range.
+fn rs(problem: &Problem, values: &Values) -> Vec<f64> {
+    if problem.pattern == ONE || values.get(Name::Alpha).is_none() {
+        return RS.to_vec();
+    }
+    let [first, .., last] = RS;
+    (0..=CLOSE).map(|i| first * (last / first).powf(f64::from(i) / f64::from(CLOSE))).collect()
+}
+
+/// The α that are tried at this r and αc.
+fn tried(problem: &Problem, values: &Values, (r, onset): (f64, f64)) -> Vec<f64> {
+    let over = OVER.iter().map(|over| over * onset);
+    let model = values.model(problem.shape, onset, r);
+    let trapped =
+        model.filter(|model| problem.pattern != ONE && *model.wider() == Wider::default());
+    let far = trapped.and_then(|model| trapping_alpha(model.tip(), r).ok()).map(|end| end - onset);
+    let far = far.filter(|far| *far > 0.0);
+    over.chain(far.into_iter().flat_map(|far| ON_THE_WAY.map(|part| onset + part * far))).collect()
 }
 
 /// r and α of a series at its velocities and loads, in the middle of the range of ripples.

@@ -134,7 +134,8 @@ impl Evidence<'_> {
             for (y, (plain, counted)) in rows.y.iter_mut().zip(left.iter().zip(&residuals)) {
                 *y = *y / scale - plain + counted;
             }
-            let comb = Comb::near(&rows, self.length?)?.moved(&rows, self.length?);
+            let comb =
+                Comb::near(&rows, self.length?, problem.pattern.waves)?.moved(&rows, self.length?);
             Some((rows, comb))
         });
         let Some((rows, comb)) = comb else {

@@ -1,6 +1,7 @@
 //! Surface and lag of a cycle over one wavelength, as Fourier series; and a cache of cycles from which later ones are
 //! started.
 
+use super::pattern::Pattern;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 use stickslip_cycles::{Cycle, cycle, cycle_near};
@@ -98,20 +99,24 @@ impl Waves {
     }
 }
 
-/// A cache of cycles; each new one is started from the nearest.
-#[derive(Debug, Default)]
+/// A cache of cycles that repeat in one way; each new one is started from the nearest.
+#[derive(Debug)]
 pub(super) struct Cycles {
+    pattern: Pattern,
     last: RefCell<Vec<(Cycle, Waves)>>,
 }
 
 /// Number of cycles kept.
 const KEPT: usize = 12;
-/// Residual of (18): its effect is far below the noise of any data, and below the differences that give derivatives.
-const TOLERANCE: f64 = 1e-6;
 /// Largest distance in ln α and ln r at which a cycle is started from another.
 const NEAR: f64 = 0.2;
 
 impl Cycles {
+    /// No cycles yet of those that repeat in this way.
+    pub(super) fn of(pattern: Pattern) -> Self {
+        Self { pattern, last: RefCell::default() }
+    }
+
     /// The waves of the cycle of a model; `None` if none is found.
     pub(super) fn waves(&self, model: &Model) -> Option<Waves> {
         let distance = |other: &Model| {
@@ -127,14 +132,17 @@ impl Cycles {
             if distance(other.model()) <= 0.0 {
                 return Some((None, waves.clone()));
             }
-            let near = cycle_near(model, other.motion(), TOLERANCE).ok()?;
+            let near = cycle_near(model, other.motion(), self.pattern.tolerance()).ok()?;
+            if self.pattern.slips > 1 && near.slips() != self.pattern.slips {
+                return None;
+            }
             let waves = Waves::of(&near);
             Some((Some(near), waves))
         });
         let (new, waves) = match found {
             Some(found) => found,
             None => {
-                let found = of_one_crest(model)?;
+                let found = self.found(model)?;
                 let waves = Waves::of(&found);
                 (Some(found), waves)
             }
@@ -147,6 +155,15 @@ impl Cycles {
         }
         Some(waves)
     }
+
+    /// The cycle of a model, found without a guess.
+    fn found(&self, model: &Model) -> Option<Cycle> {
+        let tolerance = self.pattern.tolerance();
+        match self.pattern.slips {
+            1 => of_one_crest(model, tolerance),
+            slips => cycle(model, tolerance).ok().filter(|found| found.slips() == slips),
+        }
+    }
 }
 
 /// Ratio of α from one step to the next, and largest number of steps, in which a cycle is followed.
@@ -157,31 +174,32 @@ const STEPS: i32 = 12;
 ///
 /// Beyond a period doubling a search without a guess finds a stable cycle of twice the wavelength, and one from a guess
 /// nearby the cycle that doubled. A fit needs waves that do not depend on its way: they are those of the latter cycle.
-fn of_one_crest(model: &Model) -> Option<Cycle> {
-    let found = cycle(model, TOLERANCE).ok()?;
+fn of_one_crest(model: &Model, tolerance: f64) -> Option<Cycle> {
+    let found = cycle(model, tolerance).ok()?;
     if found.slips() == 1 {
         return Some(found);
     }
-    Some(followed_from_below(model).unwrap_or(found))
+    Some(followed_from_below(model, tolerance).unwrap_or(found))
 }
 
 /// The cycle with one crest, followed from an α at which a search without a guess finds it.
-fn followed_from_below(model: &Model) -> Option<Cycle> {
+fn followed_from_below(model: &Model, tolerance: f64) -> Option<Cycle> {
     let below = |step: i32| {
         let alpha = model.alpha() * RATIO.powi(step);
         Model::under(*model.wider(), model.tip().clone(), alpha, model.r()).ok()
     };
     let (first, mut found) = (1..=STEPS)
-        .map_while(|step| Some((step, cycle(&below(step)?, TOLERANCE).ok()?)))
+        .map_while(|step| Some((step, cycle(&below(step)?, tolerance).ok()?)))
         .find(|(_, found)| found.slips() == 1)?;
     for step in (0..first).rev() {
-        found = cycle_near(&below(step)?, found.motion(), TOLERANCE).ok()?;
+        found = cycle_near(&below(step)?, found.motion(), tolerance).ok()?;
     }
     (found.slips() == 1).then_some(found)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::pattern::ONE;
     use super::*;
     use stickslip_tip::TipFunction;
 
@@ -190,7 +208,7 @@ mod tests {
     fn waves_beyond_a_period_doubling_do_not_depend_on_those_before() {
         let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
         let last = |alphas: &[f64]| {
-            let cycles = Cycles::default();
+            let cycles = Cycles::of(ONE);
             let lengths = alphas.iter().map(|alpha| {
                 let model = Model::new(tip.clone(), *alpha, 2.056).unwrap();
                 cycles.waves(&model).unwrap().ripple.wavelength

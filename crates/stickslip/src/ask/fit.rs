@@ -28,6 +28,9 @@ pub struct FitFound {
     pub rows: usize,
     /// Number of fitted parameters, including offsets, slopes, gains and phases.
     pub parameters_fitted: usize,
+    /// Number of slips in a wavelength of the fitted motion: 2 beyond a period doubling.
+    #[serde(default = "one")]
+    pub slips: usize,
     /// Whether the model explains the data; if it does not, no parameter has an interval.
     #[serde(default = "yes")]
     pub explained: bool,
@@ -537,6 +540,7 @@ impl FitFound {
             data: each.map(|((source, data), part)| DataFitted::of(source, data, part)).collect(),
             rows: found.rows,
             parameters_fitted: found.parameters,
+            slips: found.slips,
             explained: found.explained,
             joint_misfit: found.joint,
             alternatives: found.alternatives.iter().map(AlternativeDocument::from).collect(),

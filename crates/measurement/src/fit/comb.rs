@@ -198,6 +198,17 @@ impl Comb {
         found
     }
 
+    /// The probability that chance alone changes the ripples along the track; `None` if there are too few rows.
+    pub(super) fn drift(&self, rows: &Rows) -> Option<f64> {
+        let besides = self.besides(rows);
+        let noise = self.noise(rows, &besides);
+        let Level { scale, freedom } = self.level(rows, &besides, &noise);
+        let others = [self.all(rows), self.doubled(rows)].concat();
+        let directions = beyond(&others, &self.drifting(rows));
+        let size = size(&directions, &rows.y, &|v| noise.times(v), &[])?;
+        by_noise(size / scale, directions.len(), freedom)
+    }
+
     /// Level of the noise if these columns are fitted in addition. The columns remove most of the noise at low wave
     /// numbers; there the level is taken from the wave numbers between the columns.
     pub(super) fn level(&self, rows: &Rows, besides: &[Vec<f64>], noise: &Noise) -> Level {
@@ -292,14 +303,14 @@ pub(super) fn by_chance(rows: &Rows, length: f64, waves: usize, trials: f64) -> 
 /// Largest number of lengths of the strongest wave that are tried.
 pub(super) const MOST_WAVES: usize = 8;
 
-/// The number of lengths of the strongest wave after which a track repeats, by Schwarz' criterion.
-pub(super) fn repeated(rows: &Rows, length: f64) -> Option<usize> {
-    let criterion = |waves: usize| {
+/// A wave of any shape of the number of lengths of the strongest wave after which a track repeats, by Schwarz' criterion.
+pub(super) fn repeated(rows: &Rows, length: f64) -> Option<(usize, Comb)> {
+    let comb = |waves: usize| {
         let comb = Comb::near(rows, length * waves as f64, waves)?;
-        (waves == 1 || comb.shows_changes()).then(|| (waves, comb.criterion()))
+        (waves == 1 || comb.shows_changes()).then_some((waves, comb))
     };
-    let found = (1..=MOST_WAVES).filter_map(criterion).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(found.0)
+    let found = (1..=MOST_WAVES).filter_map(comb);
+    found.min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()))
 }
 
 #[cfg(test)]
@@ -360,7 +371,7 @@ mod tests {
             let wave = |x: f64| (strongest * TAU * x / 20.0).sin() + first * (TAU * x / 20.0).cos();
             let y = (0..600_u32).map(|i| wave(0.25 * f64::from(i)) + noise(i)).collect();
             let rows = Rows { x, y, lines: one_line(600) };
-            repeated(&rows, 20.0 / strongest)
+            repeated(&rows, 20.0 / strongest).map(|found| found.0)
         };
         assert_eq!(repeated(1.0, 0.0), Some(1));
         assert_eq!(repeated(2.0, 0.5), Some(2));

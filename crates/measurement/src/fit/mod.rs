@@ -37,7 +37,7 @@ use start::Start;
 use stickslip_tip::sorting::{ends, sort_by_number};
 use stickslip_tip::{TipFunction, stop};
 use thiserror::Error;
-use verdict::Evidence;
+use verdict::{CHANGE, Evidence};
 use wave::Cycles;
 
 /// Options of a fit.
@@ -168,9 +168,14 @@ fn best(data: &[Data], request: &FitRequest) -> Result<Fit, FitError> {
     explained.min_by(|a, b| a.scatter().total_cmp(&b.scatter())).map_or(first, Ok)
 }
 
-/// The other patterns that the data suggest, in the order in which they are tried.
+/// The other patterns that the data suggest, in the order in which they are tried; none if the ripples change along the
+/// track.
 fn patterns(data: &[Data], waves: &[Option<f64>]) -> Vec<Pattern> {
-    let of = |(data, length): (&Data, &Option<f64>)| repeated(&Rows::of(data)?, (*length)?);
+    let of = |(data, length): (&Data, &Option<f64>)| {
+        let rows = Rows::of(data)?;
+        let (waves, comb) = repeated(&rows, (*length)?)?;
+        comb.drift(&rows).is_none_or(|drift| drift >= CHANGE).then_some(waves)
+    };
     let waves = data.iter().zip(waves).find_map(of);
     let found = waves.into_iter().flat_map(|waves| [2, 1].map(|slips| Pattern { slips, waves }));
     found.filter(|pattern| *pattern != ONE).collect()
@@ -249,7 +254,7 @@ fn judge_noise(data: &[Data], waves: &[Option<f64>]) -> Result<(), FitError> {
             // Slips that are short beside the time between them have many waves, none of which is strong.
             let waves = repeated(&rows, length);
             let trials = trials * MOST_WAVES as f64;
-            let again = waves.and_then(|waves| by_chance(&rows, length, waves, trials));
+            let again = waves.and_then(|(waves, _)| by_chance(&rows, length, waves, trials));
             chance = again.map_or(chance, |again| again.min(chance));
         }
         least = Some(least.map_or(chance, |least| least.min(chance)));

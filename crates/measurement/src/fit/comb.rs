@@ -139,12 +139,12 @@ impl Comb {
     }
 
     /// Whether there are enough wavelengths to show changes from one to the next.
-    pub(super) fn shows_changes(&self) -> bool {
+    fn shows_changes(&self) -> bool {
         self.count >= FEWEST
     }
 
     /// Schwarz' criterion: the wave with the smallest value describes the track best.
-    pub(super) fn criterion(&self) -> f64 {
+    fn criterion(&self) -> f64 {
         let rows = self.residuals.len() as f64;
         let square = dot(&self.residuals, &self.residuals).max(f64::MIN_POSITIVE) / rows;
         rows * square.ln() + self.wave.len() as f64 * rows.ln()
@@ -200,12 +200,16 @@ impl Comb {
 
     /// The probability that chance alone changes the ripples along the track; `None` if there are too few rows.
     pub(super) fn drift(&self, rows: &Rows) -> Option<f64> {
+        let others = [self.all(rows), self.doubled(rows)].concat();
+        self.chance(rows, &beyond(&others, &self.drifting(rows)))
+    }
+
+    /// The probability that noise alone has as large a part in these directions as the track.
+    fn chance(&self, rows: &Rows, directions: &[Vec<f64>]) -> Option<f64> {
         let besides = self.besides(rows);
         let noise = self.noise(rows, &besides);
         let Level { scale, freedom } = self.level(rows, &besides, &noise);
-        let others = [self.all(rows), self.doubled(rows)].concat();
-        let directions = beyond(&others, &self.drifting(rows));
-        let size = size(&directions, &rows.y, &|v| noise.times(v), &[])?;
+        let size = size(directions, &rows.y, &|v| noise.times(v), &[])?;
         by_noise(size / scale, directions.len(), freedom)
     }
 
@@ -291,12 +295,8 @@ fn slope(rows: &Rows, turns: f64, coefficients: &[f64]) -> Vec<f64> {
 /// among `trials`, if the track repeats after this number of lengths of it; `None` if there are too few rows.
 pub(super) fn by_chance(rows: &Rows, length: f64, waves: usize, trials: f64) -> Option<f64> {
     let comb = Comb::near(rows, length * waves as f64, waves)?;
-    let besides = comb.besides(rows);
-    let noise = comb.noise(rows, &besides);
-    let directions = beyond(&rows.ground(), &rows.wave(waves as f64 / comb.length, 0));
-    let Level { scale, freedom } = comb.level(rows, &besides, &noise);
-    let size = size(&directions, &rows.y, &|v| noise.times(v), &[])?;
-    let one = by_noise(size / scale, directions.len(), freedom)?;
+    let strongest = rows.wave(waves as f64 / comb.length, 0);
+    let one = comb.chance(rows, &beyond(&rows.ground(), &strongest))?;
     Some(-f64::exp_m1(trials * f64::ln_1p(-one.min(1.0 - f64::EPSILON))))
 }
 

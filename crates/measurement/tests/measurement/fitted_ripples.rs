@@ -189,9 +189,10 @@ fn holds(truth: &Truth, slips: usize, narrow: f64) {
     assert!(found.explained && found.slips == slips, "{} {:?}", found.slips, found.remarks);
     let names = [Name::Alpha, Name::R, Name::Width];
     for (name, value) in names.into_iter().zip([truth.alpha, truth.r, truth.width]) {
-        let told = number(&found, name);
-        println!("{}: {told:?} for {value}", name.word());
-        assert!(told.holds(value) && told.high / told.low < 1.0 + narrow, "{told:?} for {value}");
+        let estimate = number(&found, name);
+        println!("{}: {estimate:?} for {value}", name.word());
+        let is_narrow = estimate.high / estimate.low < 1.0 + narrow;
+        assert!(estimate.holds(value) && is_narrow, "{estimate:?} for {value}");
     }
 }
 
@@ -220,8 +221,8 @@ fn intervals_hold_the_truth_beyond_a_period_doubling() {
         let mut track = truth.long_track((800, 200.0), noise, 0.02, &mut random);
         track.gain = None;
         let found = fit(&[Data::Ripple(track)], &request()).unwrap();
-        let told = number(&found, Name::Alpha);
-        let holds = told.holds(truth.alpha);
+        let alpha = number(&found, Name::Alpha);
+        let holds = alpha.holds(truth.alpha);
         given += u32::from(found.explained);
         held += u32::from(found.explained && holds);
         println!(
@@ -229,9 +230,9 @@ fn intervals_hold_the_truth_beyond_a_period_doubling() {
             truth.r,
             found.slips,
             if found.explained { "explained" } else { "not explained" },
-            told.value,
-            told.low,
-            told.high,
+            alpha.value,
+            alpha.low,
+            alpha.high,
             truth.alpha,
             if holds { "" } else { " MISSED" }
         );

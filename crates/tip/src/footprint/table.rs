@@ -2,7 +2,7 @@
 
 use super::{Across, Layer};
 use crate::sorting::{ascending, sort_by_number, sort_numbers};
-use crate::tip_function::table::{self, WIDTH_PER_SPACING};
+use crate::tip_function::table::{self, Lattice};
 use crate::{Gaussian, TipFunction, TipFunctionError};
 
 /// Largest number of rows of the lattice: each is a layer, and an image requires one surface u(x) per layer.
@@ -18,21 +18,27 @@ pub(super) fn layers_through(
     let grid = Grid::of(x, y, f)?;
     let largest = f.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     // Coefficients along x for every y, then along y for every x of the lattice.
-    let (spacing, rows) = table::lattice_through(&grid.x, &slices(&grid.rows));
-    let column = |i: usize| -> Vec<f64> { rows.iter().map(|row| row[i]).collect() };
-    let columns: Vec<Vec<f64>> = (0..rows[0].len()).map(column).collect();
-    let (spacing_y, across) = table::lattice_through(&grid.y, &slices(&columns));
+    let columns = transposed(&grid.rows);
+    let lattice = Lattice::through(&grid.x, &slices(&grid.rows));
+    let lattice_across = Lattice::through(&grid.y, &slices(&columns));
+    let along = lattice.coefficients(&slices(&grid.rows));
+    let across = lattice_across.coefficients(&slices(&transposed(&along)));
     let layer = |k: usize| -> Option<Layer> {
         let along: Vec<f64> = across.iter().map(|column| column[k]).collect();
         let size = along.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         if size <= NOTHING * largest {
             return None;
         }
-        let terms: Vec<Gaussian> = table::gaussians_of(spacing, &along);
-        let across = Across { center: k as f64 * spacing_y, width: WIDTH_PER_SPACING * spacing_y };
+        let terms: Vec<Gaussian> = lattice.gaussians(&along);
+        let across =
+            Across { center: k as f64 * lattice_across.spacing, width: lattice_across.width() };
         TipFunction::gaussian_sum(terms).ok().map(|along| Layer { along, across })
     };
     Ok((0..across[0].len()).filter_map(layer).collect())
+}
+
+fn transposed(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    (0..rows[0].len()).map(|i| rows.iter().map(|row| row[i]).collect()).collect()
 }
 
 fn slices(rows: &[Vec<f64>]) -> Vec<&[f64]> {

@@ -103,10 +103,12 @@ impl TipFunction {
         }
     }
 
-    /// The smooth even function through the points (x, f), sampled on x ≥ 0, and 0 beyond the last point.
+    /// The smooth even function through the points (x, f), sampled on x ≥ 0, which falls to 0 beyond the last point.
     ///
-    /// It is a sum of Gaussians on an evenly spaced lattice, with the tabulated values at the lattice points. The sum
-    /// is analytic, so that the orders of convergence hold. Between rows its error is at most that of a cubic spline.
+    /// It is a sum of Gaussians on an evenly spaced lattice: on the coarsest that reproduces the rows to 4e-12 of the
+    /// largest value, or to the unit of their last digit if all are rounded to four or more; or else on that of the
+    /// rows, with their values at its points. The sum is analytic, so that the orders of convergence hold. Between rows
+    /// its error is at most that of a cubic spline.
     ///
     /// # Errors
     /// The table is too short or too long, not finite, not sorted, does not start at x = 0, or does not decay.

@@ -8,10 +8,10 @@
 //! parts of earlier lines that are out of reach are not needed.
 
 use crate::plan::Plan;
-use crate::trace::{PIECE, Trace};
+use crate::trace::{PIECE, Piece, Pieces, Trace};
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use stickslip_convolution::{Expander, PowerSeries, TERMS};
 use stickslip_tip::Ground;
 
@@ -51,10 +51,38 @@ impl Expanders {
 /// The grooves that one line runs through.
 pub(crate) struct Earlier {
     expanders: Arc<Expanders>,
-    /// Each trace with its factor in each layer.
-    rows: Vec<(Vec<f64>, Arc<Trace>)>,
+    rows: Vec<Row>,
     given_up: Arc<AtomicBool>,
     kept: Mutex<Kept>,
+}
+
+/// A trace with its factor in each layer.
+struct Row {
+    factors: Vec<f64>,
+    trace: Arc<Trace>,
+    /// The pieces of the trace from when all are known: to ask for each would make threads wait for each other.
+    whole: OnceLock<Arc<Pieces>>,
+}
+
+impl Row {
+    /// Adds a piece of the trace times the factors to the sums of all layers; false if the line is given up.
+    fn add(&self, n: i64, sums: &mut [f64], given_up: &AtomicBool) -> bool {
+        let mut add = |piece: &Piece| {
+            for (factor, sums) in self.factors.iter().zip(sums.chunks_mut(PIECE)) {
+                sums.iter_mut().zip(piece).for_each(|(sum, rho)| *sum += factor * rho);
+            }
+        };
+        if let Some(pieces) = self.whole.get() {
+            pieces.get(&n).into_iter().for_each(|piece| add(piece));
+            return true;
+        }
+        let Some(pieces) = self.trace.pieces((n, n + 1), given_up) else { return false };
+        pieces.iter().for_each(|(_, piece)| add(piece));
+        if let Some(whole) = self.trace.whole() {
+            self.whole.set(whole).ok();
+        }
+        true
+    }
 }
 
 /// The latest pieces and series, each with its number, stored at this number modulo [`KEPT`].
@@ -77,6 +105,8 @@ impl Earlier {
         rows: Vec<(Vec<f64>, Arc<Trace>)>,
         given_up: Arc<AtomicBool>,
     ) -> Self {
+        let row = |(factors, trace)| Row { factors, trace, whole: OnceLock::new() };
+        let rows = rows.into_iter().map(row).collect();
         let kept = Kept { pieces: vec![None; KEPT], series: vec![None; KEPT], cells: vec![] };
         Self { expanders, rows, given_up, kept: Mutex::new(kept) }
     }
@@ -84,16 +114,8 @@ impl Earlier {
     /// Σ_m h_l(y - y_m) ρ_m of all layers on one piece; incomplete if the line is given up.
     fn piece(&self, n: i64) -> Vec<f64> {
         let mut sums = vec![0.0; PIECE * self.expanders.0.len()];
-        for (factors, trace) in &self.rows {
-            let Some(pieces) = trace.pieces((n, n + 1), &self.given_up) else {
-                self.given_up.store(true, Ordering::Relaxed);
-                break;
-            };
-            for (_, piece) in pieces {
-                for (factor, sums) in factors.iter().zip(sums.chunks_mut(PIECE)) {
-                    sums.iter_mut().zip(&*piece).for_each(|(sum, rho)| *sum += factor * rho);
-                }
-            }
+        if !self.rows.iter().all(|row| row.add(n, &mut sums, &self.given_up)) {
+            self.given_up.store(true, Ordering::Relaxed);
         }
         sums
     }

@@ -11,6 +11,8 @@ use stickslip_tip::{Step, Support, Wider, stop};
 /// Number of cells of a piece.
 pub(crate) const PIECE: usize = 32;
 pub(crate) type Piece = [f64; PIECE];
+/// Pieces by their number; missing ones are 0.
+pub(crate) type Pieces = BTreeMap<i64, Arc<Piece>>;
 
 /// Number of cells below its own that a source changes.
 const BELOW: i64 = 8;
@@ -31,8 +33,8 @@ pub(crate) struct Trace {
 
 #[derive(Debug, Default)]
 struct Known {
-    /// Pieces by their number; missing ones are 0.
-    pieces: BTreeMap<i64, Arc<Piece>>,
+    /// Shared once all of them are known.
+    pieces: Arc<Pieces>,
     /// All pieces below this one are known; `None` if none is known, and the largest number after the end of the line.
     to: Option<i64>,
     /// The piece up to which the trace must be known before waiting lines continue.
@@ -60,9 +62,15 @@ impl Trace {
         Some(known.pieces.range(from..to).map(|(n, piece)| (*n, Arc::clone(piece))).collect())
     }
 
-    fn publish(&self, pieces: BTreeMap<i64, Arc<Piece>>, to: i64) {
+    /// All pieces, if they are known.
+    pub(crate) fn whole(&self) -> Option<Arc<Pieces>> {
+        let known = self.lock();
+        (known.to == Some(i64::MAX)).then(|| Arc::clone(&known.pieces))
+    }
+
+    fn publish(&self, pieces: Pieces, to: i64) {
         let mut known = self.lock();
-        known.pieces.extend(pieces);
+        Arc::make_mut(&mut known.pieces).extend(pieces);
         known.to = Some(to);
         if known.wanted.is_some_and(|wanted| wanted <= to) {
             known.wanted = None;

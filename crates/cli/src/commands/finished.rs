@@ -8,7 +8,6 @@ use crate::files::beside;
 use crate::files::place::taken;
 use crate::interrupt::Interrupt;
 use crate::session::Session;
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fs::File;
@@ -20,7 +19,7 @@ use stickslip::{KeptLine, Software, SweepPoint, SweepPoints};
 use stickslip_tip::sorting::sort_by_number;
 
 /// A part of long work.
-pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
+pub(crate) trait Part: Clone {
     /// Name of a part in lower case.
     const NAME: &'static str = "point";
     /// Past participle of the work on a part.
@@ -32,6 +31,12 @@ pub(crate) trait Part: Clone + Serialize + DeserializeOwned {
 
     /// Index of the part.
     fn index(&self) -> usize;
+
+    /// The part as JSON on one line.
+    fn text(&self) -> io::Result<String>;
+
+    /// The part with this text; `None` if it is that of no part.
+    fn of_text(text: &str) -> Option<Self>;
 }
 
 /// A list of parts, in the order in which they were finished until it is sorted.
@@ -85,6 +90,14 @@ impl Part for SweepPoint {
     fn index(&self) -> usize {
         self.index
     }
+
+    fn text(&self) -> io::Result<String> {
+        Ok(serde_json::to_string(self)?)
+    }
+
+    fn of_text(text: &str) -> Option<Self> {
+        serde_json::from_str(text).ok()
+    }
 }
 
 impl Part for KeptLine {
@@ -95,6 +108,14 @@ impl Part for KeptLine {
 
     fn index(&self) -> usize {
         self.index
+    }
+
+    fn text(&self) -> io::Result<String> {
+        Ok(format!("\"{}\"", self.to_text()))
+    }
+
+    fn of_text(text: &str) -> Option<Self> {
+        Self::from_text(text.strip_prefix('"')?.strip_suffix('"')?)
     }
 }
 
@@ -245,7 +266,7 @@ fn unfinished<P: Part>((done, count): (usize, usize), path: Option<&Path>, signa
 
 /// A part as a line with the CRC-32 of its text.
 pub(super) fn line_of<P: Part>(part: &P) -> io::Result<Vec<u8>> {
-    let text = serde_json::to_string(part)?;
+    let text = part.text()?;
     let sum = crc32fast::hash(text.as_bytes());
     Ok(format!("{{\"crc32\":{sum},\"{}\":{text}}}\n", P::NAME).into_bytes())
 }
@@ -257,7 +278,7 @@ fn part_of<P: Part>(line: &[u8]) -> Option<P> {
     let (sum, text) = line.strip_prefix("{\"crc32\":")?.split_once(&separator)?;
     let text = text.strip_suffix("}\n")?;
     let is_whole = sum.parse() == Ok(crc32fast::hash(text.as_bytes()));
-    is_whole.then(|| serde_json::from_str(text).ok())?
+    is_whole.then(|| P::of_text(text))?
 }
 
 fn open<P: Part>(

@@ -39,6 +39,14 @@ impl Part for RasterSweepPoint {
     fn index(&self) -> usize {
         self.index
     }
+
+    fn text(&self) -> io::Result<String> {
+        Ok(serde_json::to_string(self)?)
+    }
+
+    fn of_text(text: &str) -> Option<Self> {
+        serde_json::from_str(text).ok()
+    }
 }
 
 pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ use crate::{History, Unusable};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, LineRegime, Plan, line_regime};
-use stickslip_tip::{Heights, STAGES, Stages, Step, Support, Work, nodes_and_weights, planar};
+use stickslip_tip::{STAGES, Step, Support, Work, nodes_and_weights, planar};
 
 /// Largest distance of a tip from its line in a history, in σ.
 const FARTHEST_ACROSS: f64 = 1e6;
@@ -80,24 +80,6 @@ pub struct LineHistory {
     pub y0: Option<Vec<[f64; STAGES + 1]>>,
 }
 
-/// A finished line of an unfinished raster.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct KeptLine {
-    /// Index of the line, from 0.
-    pub index: usize,
-    /// The steps, bit by bit.
-    pub steps: Vec<KeptStep>,
-    /// Numbers of accepted steps, rejected steps, Newton iterations, Taylor expansions, and changes from them to
-    /// collocation.
-    pub work: [u64; 5],
-}
-
-/// A step of a line: its start, duration and extension; its displacements; the heights at its start and its nodes, if
-/// there is a depth limit; and for a tip that is free to move across, its distance from the line at the start, and the
-/// changes at the nodes.
-type KeptStep = ([f64; 3], Stages, Option<(f64, Stages)>, Option<(f64, Stages)>);
-
 impl RasterLine {
     /// The samples of a line at `times`, up to its end.
     pub(super) fn of(plan: &Plan, line: &Line, times: &[f64]) -> Self {
@@ -124,7 +106,7 @@ impl RasterLine {
 }
 
 impl LineHistory {
-    fn of(line: &Line) -> Self {
+    pub(super) fn of(line: &Line) -> Self {
         let History { t, extension, displacement, height, .. } = line.trajectory().into();
         let y = line.track().y;
         let places =
@@ -133,7 +115,7 @@ impl LineHistory {
         Self { t, extension, displacement, height, y0 }
     }
 
-    fn line(
+    pub(super) fn line(
         &self,
         (nodes, weights): (&[f64], &[f64]),
         plan: &Plan,
@@ -226,53 +208,4 @@ fn outside(line: &Line) -> f64 {
     let motion = line.trajectory();
     let (positions, _) = motion.residence(motion.end());
     positions.iter().map(|x| (-x).max(x - line.track().length)).fold(0.0, f64::max)
-}
-
-impl KeptLine {
-    /// The line with this index, from 0.
-    pub fn of(index: usize, line: &Line) -> Self {
-        let Work { steps, rejected, newton_iterations, series, switches } = line.work();
-        let mut across = line.planar_steps().map(|step| (step.y, step.across));
-        let mut kept = |step: &Step| -> KeptStep {
-            let height = step.height.map(|height| (height.start, height.nodes));
-            ([step.t, step.h, step.extension], step.displacement, height, across.next())
-        };
-        Self {
-            index,
-            steps: line.trajectory().steps().iter().map(&mut kept).collect(),
-            work: [steps, rejected, newton_iterations, series, switches],
-        }
-    }
-
-    /// The line, reconstructed.
-    ///
-    /// # Errors
-    /// The line does not belong to this plan.
-    pub fn line(&self, plan: &Plan) -> Result<Line, Unusable> {
-        if self.steps.is_empty() {
-            return Err(Unusable::new(format!("line {} has no steps", self.index + 1)));
-        }
-        let [steps, rejected, newton_iterations, series, switches] = self.work;
-        let work = Work { steps, rejected, newton_iterations, series, switches };
-        let (nodes, weights) = nodes_and_weights();
-        let (track, model) = (plan.track(self.index), &plan.law.model);
-        let along = self.steps.iter().map(|([t, h, extension], displacement, height, _)| Step {
-            t: *t,
-            h: *h,
-            extension: *extension,
-            displacement: *displacement,
-            height: height.map(|(start, nodes)| Heights { start, nodes }),
-        });
-        let across: Option<Vec<_>> = self.steps.iter().map(|(.., across)| *across).collect();
-        let line = match across {
-            None => Line::new(track, model, along.collect(), work),
-            Some(across) => {
-                let steps = along.zip(across);
-                let steps = steps.map(|(along, (y, across))| planar::Step { along, y, across });
-                Line::free(track, model, &steps.collect::<Vec<_>>(), work)
-            }
-        };
-        LineHistory::of(&line).line((&nodes, &weights), plan, self.index, work)?;
-        Ok(line)
-    }
 }

@@ -4,6 +4,7 @@ mod compare;
 mod found;
 mod height_map;
 mod heights;
+mod kept;
 mod lines;
 mod sweep;
 
@@ -14,5 +15,6 @@ pub use compare::{
 pub use found::RasterFound;
 pub use height_map::HeightMap;
 pub use heights::RasterSurfaceDocument;
-pub use lines::{KeptLine, LineHistory, RasterHistory, RasterLine, RasterSamples};
+pub use kept::KeptLine;
+pub use lines::{LineHistory, RasterHistory, RasterLine, RasterSamples};
 pub use sweep::{RasterSweepFound, RasterSweepPoint};

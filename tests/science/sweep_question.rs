@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use stickslip::{
-    Ask, Context, Cycle, Failure, Indentation, RegimeName, Run, SourceName, Sweep, Tip, each_point,
+    Ask, Context, Cycle, Failure, Indentation, RegimeName, Run, SourceName, Sweep, SweepPoint, Tip,
+    each_point,
 };
 
 /// β = 1 at r = 1: αc = 1.0662.
@@ -88,4 +89,46 @@ fn a_sweep_without_a_meaning_is_rejected_by_name() {
     assert_eq!(refused(Sweep { kick: vec![0.1], ..sweep() }), "kick");
     assert_eq!(refused(Sweep { tolerance: 1.0, ..sweep() }), "tolerance");
     assert_eq!(refused(Sweep { depth_limit: vec![3.0, -1.0], ..sweep() }), "depth_limit");
+}
+
+/// A point with numbers, further axes and lengths, and one with an error.
+fn points() -> [SweepPoint; 2] {
+    let settled = SweepPoint {
+        at: vec![0.1, -3.0],
+        critical_alpha: Some(1.069_036_174_947_265),
+        regime: Some(RegimeName::StickSlip),
+        source: Some(SourceName::Cycle),
+        period: Some(7.25),
+        slips: Some(2),
+        multiplier: Some(f64::MIN_POSITIVE),
+        ..SweepPoint::at(70_000, Some(0.5), 1.0, Some(1.2))
+    };
+    let failed = SweepPoint {
+        error: Some("no αc at r = 1e-9".into()),
+        ..SweepPoint::at(3, None, 1e-9, None)
+    };
+    [settled, failed]
+}
+
+#[test]
+fn a_point_is_what_its_text_says() {
+    for point in points() {
+        assert_eq!(SweepPoint::from_text(&point.to_text()), Some(point));
+    }
+}
+
+/// No text makes it panic.
+#[test]
+fn a_text_that_was_cut_or_changed_is_that_of_no_point() {
+    for text in points().map(|point| point.to_text()) {
+        for end in 0..text.len() {
+            assert_eq!(SweepPoint::from_text(&text[..end]), None, "{end} of {text}");
+        }
+        for at in 0..text.len() {
+            let mut changed = text.clone().into_bytes();
+            changed[at] = b'/';
+            // It may be that of another point.
+            SweepPoint::from_text(str::from_utf8(&changed).unwrap());
+        }
+    }
 }

@@ -6,8 +6,9 @@ use super::crossings::Scan;
 use super::law::Law;
 use super::{StabilityError, corner, limits};
 use std::sync::Arc;
+use stickslip_tip::cache::Cache;
 use stickslip_tip::sorting::{sort_by_number, sort_numbers};
-use stickslip_tip::{TipFunction, Wider};
+use stickslip_tip::{TipFunction, Wider, stop};
 
 /// αc(r): the smallest α at which a root reaches the imaginary axis. Steady motion is stable below αc.
 ///
@@ -24,8 +25,24 @@ use stickslip_tip::{TipFunction, Wider};
 /// r is not a positive finite number, a parameter of the model is out of range, or there is no spring;
 /// [`StabilityError::NoCrossing`], also if αc is not finite; or [`StabilityError::Unsettled`].
 pub fn critical(law: &Wider, tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
-    Boundary::new(law, tip).at(r)
+    // A map asks at all its α of one r, once for its axis and once for its regime.
+    static KEPT: Cache<(f64, Wider, TipFunction), Critical> = Cache::new(MOST_KEPT);
+    let is_same = |known: &(f64, Wider, TipFunction)| {
+        known.0.to_bits() == r.to_bits() && known.1 == *law && known.2 == *tip
+    };
+    if let Some(known) = KEPT.get(is_same) {
+        return Ok(known);
+    }
+    let found = Boundary::new(law, tip).at(r)?;
+    // A cancelled search may be unfinished.
+    if !stop::is_requested() {
+        KEPT.keep((r, *law, tip.clone()), found);
+    }
+    Ok(found)
 }
+
+/// Number of thresholds that are kept for the next calls.
+const MOST_KEPT: usize = 8;
 
 /// The stability boundary of one model and one tip function: the imaginary axis, scanned once for all r.
 #[derive(Debug, Clone)]

@@ -92,11 +92,11 @@ impl Part for SweepPoint {
     }
 
     fn text(&self) -> io::Result<String> {
-        Ok(serde_json::to_string(self)?)
+        Ok(format!("\"{}\"", self.to_text()))
     }
 
     fn of_text(text: &str) -> Option<Self> {
-        serde_json::from_str(text).ok()
+        Self::from_text(text.strip_prefix('"')?.strip_suffix('"')?)
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Summary, again, amplitude_of_u, digits};
 use crate::commands::job::Product;
 use stickslip::{
     ContinueDocument, CycleBranch, CycleDocument, EndName, EnsembleDocument, OverName, RegimeName,
-    SpecialKind, StatisticsDocument, SweepDocument, SweepPoint, to_its_digits,
+    SpecialKind, StatisticsDocument, SweepDocument, to_its_digits,
 };
 
 impl Product for CycleDocument {
@@ -98,21 +98,23 @@ fn name(kind: SpecialKind) -> &'static str {
 
 impl Product for SweepDocument {
     fn summary(&self) -> Summary {
-        let count = |regime: RegimeName| {
-            self.points.iter().filter(|point| point.regime == Some(regime)).count()
-        };
-        let failed = self.points.iter().filter(|point| point.error.is_some());
         let regimes =
             [RegimeName::Steady, RegimeName::StickSlip, RegimeName::Trapped, RegimeName::Transient];
+        // In one pass, which unpacks each point once.
+        let (mut counts, mut failed, mut first_failed) = ([0; 4], 0, None);
+        for point in self.points.iter() {
+            let is_of = |regime: &RegimeName| point.regime == Some(*regime);
+            regimes.iter().position(is_of).into_iter().for_each(|regime| counts[regime] += 1);
+            failed += usize::from(point.error.is_some());
+            first_failed = first_failed.or(point.error.map(|error| (point.r, error)));
+        }
         let ensembles = self.ensembles.iter().flatten().collect::<Vec<_>>();
-        let counts = regimes.map(|regime| (regime.to_string(), count(regime)));
+        let counts = regimes.iter().map(ToString::to_string).zip(counts);
         let found: Vec<String> = counts
-            .iter()
+            .clone()
+            .chain([("failed".into(), failed)])
             .filter(|(_, count)| *count > 0)
             .map(|(regime, count)| format!("{count} {regime}"))
-            .chain(
-                (failed.clone().count() > 0).then(|| format!("{} failed", failed.clone().count())),
-            )
             .collect();
         let apart = match ensembles[..] {
             [EnsembleDocument { slip_distance: Some(found), .. }] => {
@@ -123,12 +125,9 @@ impl Product for SweepDocument {
         let (count, found) = (self.points.len(), found.join(", "));
         let summary = Summary::new(format!("{count} points: {found}{apart}"));
         let summary = counts
-            .iter()
-            .fold(summary, |summary, (regime, count)| summary.row(regime, count.to_string()));
-        let why = failed.clone().next().and_then(|SweepPoint { r, error, .. }| {
-            let count = failed.count();
-            Some(format!("{count}, the first at r = {}: {}", digits(r, 7), error?))
-        });
+            .fold(summary, |summary, (regime, count)| summary.row(&regime, count.to_string()));
+        let why = first_failed
+            .map(|(r, error)| format!("{failed}, the first at r = {}: {error}", digits(r, 7)));
         statistics(summary, &ensembles)
             .maybe("failed", why)
             .next(again("-o map.json --plot map.svg"))

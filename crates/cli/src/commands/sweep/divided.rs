@@ -138,7 +138,6 @@ impl Divided for RasterSweepDocument {
 
 fn sum(written: &impl Serialize) -> Result<u32, Failure> {
     let mut sum = Hasher::new();
-    let text = serde_json::to_writer(&mut Hashing(&mut sum), written);
-    text.map_err(Failure::run)?;
+    stickslip::write(&mut Hashing(&mut sum), written).map_err(Failure::run)?;
     Ok(sum.finalize())
 }

@@ -2,6 +2,8 @@
 
 use super::{SourceName, SweepPoint};
 use crate::RegimeName;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -46,7 +48,7 @@ impl SweepPoints {
     /// # Panics
     /// The list has no such place.
     pub fn at(&self, place: usize) -> SweepPoint {
-        unpack(&mut from(&self.pieces, self.starts[place]))
+        unpack(&mut from(&self.pieces, self.starts[place])).expect("a point was packed here")
     }
 
     /// The points in the order of the list.
@@ -56,13 +58,29 @@ impl SweepPoints {
 
     /// The indices of the points in the grid, in the order of the list.
     pub fn indices(&self) -> impl Iterator<Item = usize> {
-        self.starts.iter().map(|start| index(&mut from(&self.pieces, *start)))
+        self.starts.iter().map(|start| index_at(&self.pieces, *start))
     }
 
     /// Sorts the points by their index.
     pub fn sort(&mut self) {
         let Self { pieces, starts } = self;
-        starts.sort_unstable_by_key(|start| (index(&mut from(pieces, *start)), *start));
+        starts.sort_unstable_by_key(|start| (index_at(pieces, *start), *start));
+    }
+}
+
+impl SweepPoint {
+    /// All of the point in base64: a tenth of the work of JSON.
+    pub fn to_text(&self) -> String {
+        let mut bytes = vec![];
+        pack(self.clone(), &mut bytes);
+        STANDARD.encode(bytes)
+    }
+
+    /// The point whose text this is; `None` if it is that of no point.
+    pub fn from_text(text: &str) -> Option<Self> {
+        let bytes = STANDARD.decode(text).ok()?;
+        let mut rest = &*bytes;
+        unpack(&mut rest).filter(|_| rest.is_empty())
     }
 }
 
@@ -176,38 +194,47 @@ fn pack(mut point: SweepPoint, bytes: &mut Vec<u8>) {
     bytes.extend(error.unwrap_or_default().as_bytes());
 }
 
-/// The point at the beginning of `bytes`.
-fn unpack(bytes: &mut &[u8]) -> SweepPoint {
-    let index = index(bytes);
-    let r = f64::from_le_bytes(take(bytes));
-    let has = u32::from_le_bytes(take(bytes));
-    let [kind, axes] = take(bytes);
-    let [slips, error] =
-        [6, 7].map(|bit| (kind >> bit & 1 == 1).then(|| u32::from_le_bytes(take(bytes)) as usize));
+/// The point at the beginning of `bytes`; `None` if there is none.
+fn unpack(bytes: &mut &[u8]) -> Option<SweepPoint> {
+    let index = u32::from_le_bytes(take(bytes)?) as usize;
+    let r = f64::from_le_bytes(take(bytes)?);
+    let has = u32::from_le_bytes(take(bytes)?);
+    let [kind, axes] = take(bytes)?;
+    let mut length = |bit: u8| match kind >> bit & 1 {
+        1 => take(bytes).map(|length| Some(u32::from_le_bytes(length) as usize)),
+        _ => Some(None),
+    };
+    let (slips, error) = (length(6)?, length(7)?);
     let [regime, source] = [kind & 7, kind >> 3 & 7].map(usize::from);
     let mut point = SweepPoint::at(index, None, r, None);
     for (i, value) in numbers(&mut point).into_iter().enumerate() {
-        *value = (has >> i & 1 == 1).then(|| f64::from_le_bytes(take(bytes)));
+        if has >> i & 1 == 1 {
+            *value = Some(f64::from_le_bytes(take(bytes)?));
+        }
     }
-    point.at = (0..axes).map(|_| f64::from_le_bytes(take(bytes))).collect();
-    point.regime = regime.checked_sub(1).map(|place| REGIMES[place]);
-    point.source = source.checked_sub(1).map(|place| SOURCES[place]);
+    point.at = (0..axes).map(|_| take(bytes).map(f64::from_le_bytes)).collect::<Option<_>>()?;
+    point.regime = regime.checked_sub(1).and_then(|place| REGIMES.get(place).copied());
+    point.source = source.checked_sub(1).and_then(|place| SOURCES.get(place).copied());
     point.slips = slips;
-    point.error = error.map(|length| String::from_utf8_lossy(&bytes[..length]).into_owned());
-    point
+    if let Some(length) = error {
+        let (text, rest) = bytes.split_at_checked(length)?;
+        point.error = Some(String::from_utf8_lossy(text).into_owned());
+        *bytes = rest;
+    }
+    Some(point)
 }
 
-fn index(bytes: &mut &[u8]) -> usize {
-    u32::from_le_bytes(take(bytes)) as usize
+fn index_at(pieces: &[Vec<u8>], start: (u32, u32)) -> usize {
+    take(&mut from(pieces, start)).map_or(0, u32::from_le_bytes) as usize
 }
 
 fn from(pieces: &[Vec<u8>], (piece, start): (u32, u32)) -> &[u8] {
     &pieces[piece as usize][start as usize..]
 }
 
-/// The next bytes.
-fn take<const N: usize>(bytes: &mut &[u8]) -> [u8; N] {
-    let (taken, rest) = bytes.split_at(N);
+/// The next bytes, if there are as many.
+fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (taken, rest) = bytes.split_first_chunk()?;
     *bytes = rest;
-    std::array::from_fn(|i| taken[i])
+    Some(*taken)
 }

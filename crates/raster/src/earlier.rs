@@ -60,7 +60,7 @@ pub(crate) struct Earlier {
 struct Row {
     factors: Vec<f64>,
     trace: Arc<Trace>,
-    /// The pieces of the trace from when all are known: to ask for each would make threads wait for each other.
+    /// The pieces of the trace once all are known. To lock the trace for each piece would make threads wait.
     whole: OnceLock<Arc<Pieces>>,
 }
 

@@ -25,7 +25,7 @@ use stickslip_tip::{TipFunction, Wider, stop};
 /// r is not a positive finite number, a parameter of the model is out of range, or there is no spring;
 /// [`StabilityError::NoCrossing`], also if αc is not finite; or [`StabilityError::Unsettled`].
 pub fn critical(law: &Wider, tip: &TipFunction, r: f64) -> Result<Critical, StabilityError> {
-    // A map asks at all its α of one r, once for its axis and once for its regime.
+    // A map needs it twice at each of the many α of one r.
     static KEPT: Cache<(f64, Wider, TipFunction), Critical> = Cache::new(MOST_KEPT);
     let is_same = |known: &(f64, Wider, TipFunction)| {
         known.0.to_bits() == r.to_bits() && known.1 == *law && known.2 == *tip

@@ -18,6 +18,21 @@ pub trait Classified {
     /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
     fn step(&mut self) -> Result<Option<Self::Step>, Self::Error>;
 
+    /// Makes steps to the first one that ends after time `t`, but at most this number, and returns the last of them; `None`
+    /// at the end of the scenario.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Self::Step>, Self::Error> {
+        for _ in 1..most {
+            match self.step()? {
+                Some(step) if step.as_ref().end() <= t => {}
+                last => return Ok(last),
+            }
+        }
+        self.step()
+    }
+
     /// The last step.
     fn last(&self) -> Option<Self::Step>;
 
@@ -102,6 +117,18 @@ impl Classified for Watched<'_> {
         Ok(made.copied())
     }
 
+    /// Here, where it is optimised, and without a copy of each step.
+    fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Step>, RunError> {
+        for left in (0..most).rev() {
+            let Some(step) = self.running.advance()? else { break };
+            self.observer.observe(step);
+            if left == 0 || step.end() > t {
+                return Ok(Some(*step));
+            }
+        }
+        Ok(None)
+    }
+
     fn last(&self) -> Option<Step> {
         self.observer.last()
     }
@@ -137,4 +164,36 @@ pub fn judge_trajectory(
     let mut observer = Observer::new(scenario);
     trajectory.steps().iter().for_each(|step| observer.observe(step));
     judge(scenario, surface, &observer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stickslip_tip::{Model, TipFunction};
+
+    /// The steps are those made one by one, and the one returned is the first that ends after t, unless there were too
+    /// many.
+    #[test]
+    fn steps_past_a_time_are_steps() {
+        let tip = TipFunction::triple_gaussian(1.0, 1.0).unwrap();
+        let model = Model::new(tip, 1.2, 1.0).unwrap();
+        let scenario = Scenario { kick: 0.05, ..Scenario::new(model, 60.0) };
+        let surface = scenario.initial_surface().unwrap();
+        let [mut one_by_one, mut past] = [0; 2].map(|_| Watched::new(&scenario, &surface).unwrap());
+        let (mut made, mut t, mut most) = (0, 0.0, 1);
+        while let Some(step) = past.step_past(t, most).unwrap() {
+            let single: Vec<Step> = std::iter::from_fn(|| one_by_one.step().unwrap())
+                .take_while(|single| single.t < step.t)
+                .collect();
+            made += single.len() + 1;
+            assert!(single.iter().all(|single| single.end() <= t), "{t}");
+            assert!(step.end() > t || single.len() + 1 == most, "{t}");
+            assert_eq!((one_by_one.t(), one_by_one.last()), (past.t(), past.last()));
+            (t, most) = (t + 0.7, most % 5 + 1);
+        }
+        // The last ones end before t.
+        while one_by_one.step().unwrap().is_some() {}
+        assert_eq!((one_by_one.t(), one_by_one.last()), (past.t(), past.last()));
+        assert!(made > 100, "{made}");
+    }
 }

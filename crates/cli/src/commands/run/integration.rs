@@ -21,6 +21,9 @@ pub(super) struct Integration<R: Motion> {
     pub(super) seconds: f64,
 }
 
+/// Largest number of steps between two checks of the signals: some tens of microseconds.
+const STEPS_PER_LOOK: usize = 64;
+
 impl<R: Motion> Integration<R> {
     /// Writes a checkpoint, if requested.
     pub(super) fn checkpoint(&mut self) -> Result<(), Failure> {
@@ -30,11 +33,17 @@ impl<R: Motion> Integration<R> {
         }
     }
 
+    /// Makes the next step, or those to the next sample if no other is needed.
     fn step(&mut self) -> Result<Option<R::Step>, Failure> {
-        self.running.step().map_err(|error| match self.record.keep_part() {
-            None => Failure::run(error),
-            Some(part) => {
-                Failure::Run(format!("{error}; the part written so far is in {}", part.display()))
+        let needed = self.checkpoints.is_some() || self.record.steps.is_some();
+        let past = if needed { f64::NEG_INFINITY } else { self.record.next_sample() };
+        self.running.step_past(past, STEPS_PER_LOOK).map_err(|error| {
+            match self.record.keep_part() {
+                None => Failure::run(error),
+                Some(part) => Failure::Run(format!(
+                    "{error}; the part written so far is in {}",
+                    part.display()
+                )),
             }
         })
     }

@@ -54,6 +54,11 @@ impl<S: Recorded> Record<S> {
         Some(Trajectory::under(self.wider, self.support.clone(), steps))
     }
 
+    /// Time of the next sample; infinite after the last one.
+    pub(super) fn next_sample(&self) -> f64 {
+        self.times.at(self.taken).unwrap_or(f64::INFINITY)
+    }
+
     /// Records a step, and returns whether all its samples were taken before a signal.
     pub(super) fn take(
         &mut self,

@@ -12,25 +12,19 @@ pub trait Classified {
     /// The reason why there is no further step.
     type Error: Error;
 
-    /// Makes the next step; `None` at the end of the scenario.
-    ///
-    /// # Errors
-    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
-    fn step(&mut self) -> Result<Option<Self::Step>, Self::Error>;
-
     /// Makes steps to the first one that ends after time `t`, but at most this number, and returns the last of them; `None`
     /// at the end of the scenario.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
-    fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Self::Step>, Self::Error> {
-        for _ in 1..most {
-            match self.step()? {
-                Some(step) if step.as_ref().end() <= t => {}
-                last => return Ok(last),
-            }
-        }
-        self.step()
+    /// The tolerance cannot be met, or the tip retreats beyond the range of the memory.
+    fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Self::Step>, Self::Error>;
+
+    /// Makes the next step; `None` at the end of the scenario.
+    ///
+    /// # Errors
+    /// As [`step_past`](Self::step_past).
+    fn step(&mut self) -> Result<Option<Self::Step>, Self::Error> {
+        self.step_past(f64::NEG_INFINITY, 1)
     }
 
     /// The last step.
@@ -108,19 +102,10 @@ impl Classified for Watched<'_> {
     type Step = Step;
     type Error = RunError;
 
-    fn step(&mut self) -> Result<Option<Step>, RunError> {
-        // Observed where it was made: a step is long to copy, and slow to read just after a copy.
-        let made = self.running.advance()?;
-        if let Some(step) = made {
-            self.observer.observe(step);
-        }
-        Ok(made.copied())
-    }
-
-    /// Here, where it is optimised, and without a copy of each step.
     fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Step>, RunError> {
         for left in (0..most).rev() {
             let Some(step) = self.running.advance()? else { break };
+            // Observed where it was made: a step is long to copy, and slow to read just after a copy.
             self.observer.observe(step);
             if left == 0 || step.end() > t {
                 return Ok(Some(*step));

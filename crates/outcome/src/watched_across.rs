@@ -67,13 +67,16 @@ impl Classified for WatchedAcross<'_> {
     type Step = Step;
     type Error = PlanarError;
 
-    fn step(&mut self) -> Result<Option<Step>, PlanarError> {
-        let step = self.running.step()?;
-        if let Some(step) = &step {
+    fn step_past(&mut self, t: f64, most: usize) -> Result<Option<Step>, PlanarError> {
+        for left in (0..most).rev() {
+            let Some(step) = self.running.step()? else { break };
             self.along.observe(&step.along);
-            self.across.observe(step);
+            self.across.observe(&step);
+            if left == 0 || step.end() > t {
+                return Ok(Some(step));
+            }
         }
-        Ok(step)
+        Ok(None)
     }
 
     fn last(&self) -> Option<Step> {

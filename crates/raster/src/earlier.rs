@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::trace::{PIECE, Piece, Pieces, Trace};
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use stickslip_convolution::{Expander, PowerSeries, TERMS};
 use stickslip_tip::Ground;
 
@@ -60,8 +60,8 @@ pub(crate) struct Earlier {
 struct Row {
     factors: Vec<f64>,
     trace: Arc<Trace>,
-    /// The pieces of the trace once all are known. To lock the trace for each piece would make threads wait.
-    whole: OnceLock<Arc<Pieces>>,
+    /// The pieces of the trace, if all were known when the line began: to lock it for each would make threads wait.
+    whole: Option<Arc<Pieces>>,
 }
 
 impl Row {
@@ -72,15 +72,12 @@ impl Row {
                 sums.iter_mut().zip(piece).for_each(|(sum, rho)| *sum += factor * rho);
             }
         };
-        if let Some(pieces) = self.whole.get() {
+        if let Some(pieces) = &self.whole {
             pieces.get(&n).into_iter().for_each(|piece| add(piece));
             return true;
         }
         let Some(pieces) = self.trace.pieces((n, n + 1), given_up) else { return false };
         pieces.iter().for_each(|(_, piece)| add(piece));
-        if let Some(whole) = self.trace.whole() {
-            self.whole.set(whole).ok();
-        }
         true
     }
 }
@@ -105,7 +102,7 @@ impl Earlier {
         rows: Vec<(Vec<f64>, Arc<Trace>)>,
         given_up: Arc<AtomicBool>,
     ) -> Self {
-        let row = |(factors, trace)| Row { factors, trace, whole: OnceLock::new() };
+        let row = |(factors, trace): (_, Arc<Trace>)| Row { factors, whole: trace.whole(), trace };
         let rows = rows.into_iter().map(row).collect();
         let kept = Kept { pieces: vec![None; KEPT], series: vec![None; KEPT], cells: vec![] };
         Self { expanders, rows, given_up, kept: Mutex::new(kept) }

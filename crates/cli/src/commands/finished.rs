@@ -92,11 +92,11 @@ impl Part for SweepPoint {
     }
 
     fn text(&self) -> io::Result<String> {
-        Ok(format!("\"{}\"", self.to_text()))
+        Ok(quoted(&self.to_text()))
     }
 
     fn of_text(text: &str) -> Option<Self> {
-        Self::from_text(text.strip_prefix('"')?.strip_suffix('"')?)
+        Self::from_text(unquoted(text)?)
     }
 }
 
@@ -111,12 +111,22 @@ impl Part for KeptLine {
     }
 
     fn text(&self) -> io::Result<String> {
-        Ok(format!("\"{}\"", self.to_text()))
+        Ok(quoted(&self.to_text()))
     }
 
     fn of_text(text: &str) -> Option<Self> {
-        Self::from_text(text.strip_prefix('"')?.strip_suffix('"')?)
+        Self::from_text(unquoted(text)?)
     }
+}
+
+/// Base64 as a string of JSON: nothing in it needs an escape.
+fn quoted(text: &str) -> String {
+    format!("\"{text}\"")
+}
+
+/// The text that was [`quoted`].
+fn unquoted(string: &str) -> Option<&str> {
+    string.strip_prefix('"')?.strip_suffix('"')
 }
 
 /// The parts finished so far, and the file in which they are saved, if any.

@@ -14,7 +14,25 @@ pub struct Step {
     pub across: Stages,
 }
 
+/// Number of real numbers in a step, including its heights, which are NaN without a depth limit.
+pub const STEP_NUMBERS: usize = crate::STEP_NUMBERS + 1 + STAGES;
+
 impl Step {
+    /// All data of the step: those along the scan, then y and the displacements across.
+    pub fn numbers(&self) -> [f64; STEP_NUMBERS] {
+        let mut row = [self.y; STEP_NUMBERS];
+        row[..crate::STEP_NUMBERS].copy_from_slice(&self.along.numbers());
+        row[crate::STEP_NUMBERS + 1..].copy_from_slice(&self.across);
+        row
+    }
+
+    /// A step from its [`numbers`](Self::numbers).
+    pub fn from_numbers(row: [f64; STEP_NUMBERS]) -> Self {
+        let along = crate::Step::from_numbers(std::array::from_fn(|i| row[i]));
+        let across = std::array::from_fn(|i| row[crate::STEP_NUMBERS + 1 + i]);
+        Self { along, y: row[crate::STEP_NUMBERS], across }
+    }
+
     /// Time at the end of the step.
     pub fn end(&self) -> f64 {
         self.along.end()

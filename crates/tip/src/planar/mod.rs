@@ -43,7 +43,7 @@ mod weighing;
 
 pub use earlier::{EarlierGrooves, GrooveRows, RowLattice};
 pub use frame::Layers;
-pub use history::{Step, Trajectory, Visit};
+pub use history::{STEP_NUMBERS, Step, Trajectory, Visit};
 pub use integrator::PlanarRunning;
 pub use jet::Jet;
 pub use products::ProductsError;

@@ -6,7 +6,7 @@ use crate::session::Session;
 use stickslip::{Moved, Moving, SampleLine, VerificationDocument};
 use stickslip_outcome::{Watched, WatchedAcross};
 use stickslip_tip::planar;
-use stickslip_tip::{STAGES, STEP_NUMBERS, Step, Trajectory};
+use stickslip_tip::{STEP_NUMBERS, Step, Trajectory};
 use stickslip_verify::verify_across;
 
 /// A tip in motion.
@@ -61,8 +61,6 @@ impl Motion for WatchedAcross<'_> {
     }
 }
 
-const STEP_NUMBERS_ACROSS: usize = STEP_NUMBERS + 1 + STAGES;
-
 impl Recorded for Step {
     const NUMBERS: usize = STEP_NUMBERS;
     const SAMPLE_NUMBERS: usize = 7;
@@ -77,19 +75,15 @@ impl Recorded for Step {
 }
 
 impl Recorded for planar::Step {
-    const NUMBERS: usize = STEP_NUMBERS_ACROSS;
+    const NUMBERS: usize = planar::STEP_NUMBERS;
     const SAMPLE_NUMBERS: usize = 9;
 
     fn numbers(&self) -> impl AsRef<[f64]> {
-        let mut row = [self.y; STEP_NUMBERS_ACROSS];
-        row[..STEP_NUMBERS].copy_from_slice(&self.along.numbers());
-        row[STEP_NUMBERS + 1..].copy_from_slice(&self.across);
-        row
+        planar::Step::numbers(self)
     }
 
     fn from_numbers(row: &[f64]) -> Self {
-        let across = std::array::from_fn(|i| row[STEP_NUMBERS + 1 + i]);
-        Self { along: Recorded::from_numbers(row), y: row[STEP_NUMBERS], across }
+        planar::Step::from_numbers(std::array::from_fn(|i| row[i]))
     }
 }
 

@@ -104,7 +104,9 @@ impl Product for SweepDocument {
         let (mut counts, mut failed, mut first_failed) = ([0; 4], 0, None);
         for point in self.points.iter() {
             let is_of = |regime: &RegimeName| point.regime == Some(*regime);
-            regimes.iter().position(is_of).into_iter().for_each(|regime| counts[regime] += 1);
+            if let Some(regime) = regimes.iter().position(is_of) {
+                counts[regime] += 1;
+            }
             failed += usize::from(point.error.is_some());
             first_failed = first_failed.or(point.error.map(|error| (point.r, error)));
         }

@@ -5,7 +5,7 @@ use crate::Unusable;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use stickslip_raster::{Line, Plan};
-use stickslip_tip::{Heights, STAGES, Stages, Step, Work, nodes_and_weights, planar};
+use stickslip_tip::{Step, Work, nodes_and_weights, planar};
 
 /// A finished line of an unfinished raster.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,36 +15,27 @@ pub struct KeptLine {
     /// Numbers of accepted steps, rejected steps, Newton iterations, Taylor expansions, and changes from them to
     /// collocation.
     pub work: [u64; 5],
-    /// The numbers of all steps. Those of a step are its start, duration, extension and displacements; the heights at
-    /// its start and nodes, if there is a depth limit; and for a tip that is free to move across, its distance from the
-    /// line at the start, and the changes at the nodes.
+    /// The numbers of all steps, one step after the other: of a tip that is free to move across,
+    /// [`planar::Step::numbers`], else [`Step::numbers`].
     pub steps: Vec<f64>,
 }
 
 /// Size of a number in bytes.
 const SIZE: usize = 8;
-/// A value at the start of a step, and values at its nodes.
-const OF_NODES: usize = 1 + STAGES;
 
 impl KeptLine {
     /// The line with this index, from 0.
     pub fn of(index: usize, line: &Line) -> Self {
         let Work { steps, rejected, newton_iterations, series, switches } = line.work();
         let work = [steps, rejected, newton_iterations, series, switches];
-        let (mut across, mut steps) = (line.planar_steps(), vec![]);
-        for step in line.trajectory().steps() {
-            steps.extend_from_slice(&[step.t, step.h, step.extension]);
-            steps.extend_from_slice(&step.displacement);
-            if let Some(Heights { start, nodes }) = step.height {
-                steps.push(start);
-                steps.extend_from_slice(&nodes);
-            }
-            if let Some(planar::Step { y, across, .. }) = across.next() {
-                steps.push(y);
-                steps.extend_from_slice(&across);
-            }
+        let mut numbers = vec![];
+        if line.is_free() {
+            line.planar_steps().for_each(|step| numbers.extend_from_slice(&step.numbers()));
+        } else {
+            let steps = line.trajectory().steps().iter();
+            steps.for_each(|step| numbers.extend_from_slice(&step.numbers()));
         }
-        Self { index, work, steps }
+        Self { index, work, steps: numbers }
     }
 
     /// The index, the work and the bits of all numbers, the lowest byte first, in base64: a tenth of the work of
@@ -79,41 +70,22 @@ impl KeptLine {
         let work = Work { steps, rejected, newton_iterations, series, switches };
         let (nodes, weights) = nodes_and_weights();
         let (track, model) = (plan.track(self.index), &plan.law.model);
-        let steps = self.steps([model.wider().depth_limit.is_some(), plan.free.is_some()]);
-        let none = || Unusable::new(format!("line {} has no steps", self.index + 1));
-        let steps = steps.filter(|steps| !steps.is_empty()).ok_or_else(none)?;
         let line = if plan.free.is_some() {
+            let steps: Vec<planar::Step> = self.rows(planar::Step::from_numbers)?;
             Line::free(track, model, &steps, work)
         } else {
-            Line::new(track, model, steps.into_iter().map(|step| step.along).collect(), work)
+            Line::new(track, model, self.rows(Step::from_numbers)?, work)
         };
         LineHistory::of(&line).line((&nodes, &weights), plan, self.index, work)?;
         Ok(line)
     }
 
-    /// The steps, which have heights and positions across as `has` says; `None` if the numbers are not theirs.
-    fn steps(&self, has: [bool; 2]) -> Option<Vec<planar::Step>> {
-        let length = 3 + STAGES + has.iter().filter(|has| **has).count() * OF_NODES;
-        let steps = self.steps.chunks_exact(length).map(|numbers| step(numbers, has));
-        self.steps.len().is_multiple_of(length).then(|| steps.collect())?
-    }
-}
-
-/// The step with these numbers.
-fn step(numbers: &[f64], has: [bool; 2]) -> Option<planar::Step> {
-    let ([t, h, extension], rest) = numbers.split_first_chunk()?;
-    let (displacement, mut rest) = rest.split_first_chunk()?;
-    let mut of_nodes = |is_there: bool| -> Option<Option<(f64, Stages)>> {
-        if !is_there {
-            return Some(None);
+    /// The steps, of which each has this many numbers.
+    fn rows<const N: usize, S>(&self, step: impl Fn([f64; N]) -> S) -> Result<Vec<S>, Unusable> {
+        let (rows, rest) = self.steps.as_chunks();
+        if rows.is_empty() || !rest.is_empty() {
+            return Err(Unusable::new(format!("line {} has no steps", self.index + 1)));
         }
-        let (start, nodes) = rest.split_first()?;
-        let (nodes, after) = nodes.split_first_chunk()?;
-        rest = after;
-        Some(Some((*start, *nodes)))
-    };
-    let height = of_nodes(has[0])?.map(|(start, nodes)| Heights { start, nodes });
-    let (y, across) = of_nodes(has[1])?.unwrap_or_default();
-    let along = Step { t: *t, h: *h, extension: *extension, displacement: *displacement, height };
-    Some(planar::Step { along, y, across })
+        Ok(rows.iter().map(|row| step(*row)).collect())
+    }
 }

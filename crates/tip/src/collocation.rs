@@ -2,8 +2,6 @@
 //!
 //! Reference: Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8.
 
-use crate::roots::halved_between;
-use crate::sorting::sort_numbers;
 use gauss_quad::legendre::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -40,12 +38,22 @@ pub struct Collocation {
     about_the_end: [Stages; STAGES],
 }
 
+/// The zeros of `P_s - P_{s-1}`, P the Legendre polynomials of 2τ-1.
+const NODES: Stages = [
+    0.03980985705146878,
+    0.19801341787360816,
+    0.43797481024738616,
+    0.695464273353636,
+    0.9014649142011736,
+    1.0,
+];
+
 /// The method, built once per program.
 pub static RADAU: LazyLock<Collocation> = LazyLock::new(Collocation::radau);
 
 impl Collocation {
     fn radau() -> Self {
-        let c = nodes();
+        let (c, rule) = (NODES, GaussLegendre::new(const { NonZeroUsize::new(STAGES).unwrap() }));
         let scales = std::array::from_fn(|j| {
             let others = (0..STAGES).filter(|&k| k != j);
             1.0 / others.map(|k| c[j] - c[k]).product::<f64>()
@@ -54,7 +62,7 @@ impl Collocation {
         let mut a = [[0.0; STAGES]; STAGES];
         for (row, &ci) in a.iter_mut().zip(&c) {
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry = integral(ci, |tau| lagrange(j, tau));
+                *entry = integral(&rule, ci, |tau| lagrange(j, tau));
             }
         }
         let mut derivative = [[0.0; STAGES]; STAGES];
@@ -84,7 +92,7 @@ impl Collocation {
         let largest = |error: &dyn Fn(f64) -> f64| {
             (0..=200).map(|i| error(f64::from(i) / 200.0).abs()).fold(0.0, f64::max)
         };
-        let from_defect = largest(&|tau| integral(tau, node_product));
+        let from_defect = largest(&|tau| integral(&rule, tau, node_product));
         let defect_to_error = from_defect / node_product(0.0).abs();
         let largest_node_product = largest(&|tau| tau * node_product(tau));
         let about_the_end = coefficients_about_the_end(&c, &scales);
@@ -108,7 +116,10 @@ impl Collocation {
 
     /// Value at τ of the polynomial that is 0 at τ = 0 and `values` at the nodes.
     pub fn value(&self, values: &Stages, tau: f64) -> f64 {
-        let basis = lagrange(&self.c, &self.scales, tau);
+        self.value_of(&lagrange(&self.c, &self.scales, tau), values, tau)
+    }
+
+    fn value_of(&self, basis: &Stages, values: &Stages, tau: f64) -> f64 {
         tau * (0..STAGES).map(|i| values[i] / self.c[i] * basis[i]).sum::<f64>()
     }
 
@@ -152,7 +163,15 @@ impl Collocation {
 
     /// Derivative at τ of the polynomial of [`value`](Self::value).
     pub fn slope(&self, values: &Stages, tau: f64) -> f64 {
-        self.between(&apply(&self.derivative, values), tau)
+        self.value_and_slope(values, tau).1
+    }
+
+    /// [`value`](Self::value) and [`slope`](Self::slope), from one evaluation of the Lagrange polynomials.
+    #[inline]
+    pub fn value_and_slope(&self, values: &Stages, tau: f64) -> (f64, f64) {
+        let (basis, slopes) = (lagrange(&self.c, &self.scales, tau), self.slopes(values));
+        let slope = basis.iter().zip(&slopes[1..]).map(|(l, slope)| l * slope).sum();
+        (self.value_of(&basis, values, tau), slope)
     }
 
     /// Value at τ of the polynomial of degree s - 1 through values at the nodes.
@@ -205,36 +224,8 @@ fn coefficients_about_the_end(c: &Stages, scales: &Stages) -> [Stages; STAGES] {
     rows
 }
 
-/// The zeros of `P_s - P_{s-1}`, P the Legendre polynomials of 2τ-1: one at 1, the others between the
-/// zeros of `P_s`, where the difference changes sign. (The Jacobi rule of gauss-quad 0.3.2 would be
-/// shorter, but sets the middle node of odd degrees to 0.)
-fn nodes() -> Stages {
-    let difference = |x: f64| {
-        let (mut last, mut here) = (1.0, x);
-        for n in 1..STAGES {
-            let n = n as f64;
-            (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
-        }
-        here - last
-    };
-    let mut brackets: Vec<f64> = gauss().as_node_weight_pairs().iter().map(|(x, _)| *x).collect();
-    sort_numbers(&mut brackets);
-    let mut c = [1.0; STAGES];
-    for (c, bracket) in c.iter_mut().zip(brackets.windows(2)) {
-        // Every number that the program writes hangs on the last bits of these nodes, and a faster method
-        // ends on others.
-        *c = 0.5 * (1.0 + halved_between(difference, bracket[0], bracket[1]));
-    }
-    c
-}
-
-fn gauss() -> GaussLegendre {
-    GaussLegendre::new(const { NonZeroUsize::new(STAGES).unwrap() })
-}
-
-/// ∫_0^{end} of a polynomial of degree below 2s.
-fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let rule = gauss();
+/// ∫_0^{end} of a polynomial of degree below 2s, by Gauss's rule of s nodes.
+fn integral(rule: &GaussLegendre, end: f64, f: impl Fn(f64) -> f64) -> f64 {
     let term = |(x, w): &(f64, f64)| 0.5 * end * w * f(0.5 * end * (1.0 + x));
     rule.as_node_weight_pairs().iter().map(term).sum()
 }
@@ -242,6 +233,28 @@ fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::roots::halved_between;
+    use crate::sorting::sort_numbers;
+
+    /// By bisection between the zeros of P_s, where the difference changes sign: every number that the program writes
+    /// hangs on the last bits of these nodes. (The Jacobi rule of gauss-quad 0.3.2 sets the middle node of odd degrees to 0.)
+    #[test]
+    fn the_nodes_are_zeros_of_the_polynomials() {
+        let difference = |x: f64| {
+            let (mut last, mut here) = (1.0, x);
+            for n in 1..STAGES {
+                let n = n as f64;
+                (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
+            }
+            here - last
+        };
+        let rule = GaussLegendre::new(NonZeroUsize::new(STAGES).unwrap());
+        let mut brackets: Vec<f64> = rule.as_node_weight_pairs().iter().map(|(x, _)| *x).collect();
+        sort_numbers(&mut brackets);
+        let zeros = brackets.windows(2).map(|pair| halved_between(difference, pair[0], pair[1]));
+        let nodes = zeros.map(|zero| 0.5 * (1.0 + zero)).chain([1.0]);
+        assert!(nodes.map(f64::to_bits).eq(NODES.map(f64::to_bits)));
+    }
 
     #[test]
     fn the_weights_integrate_polynomials_up_to_degree_2s_minus_2_and_no_further() {

@@ -102,7 +102,16 @@ impl Step {
     /// The values of [`lag`](Self::lag), [`position`](Self::position) and, for a support of constant velocity,
     /// [`l`](Self::l), from one evaluation of the stage polynomial.
     pub fn place(&self, support: &Support, t: f64) -> Place {
-        let moved = self.moved(t);
+        self.placed(self.moved(t), support, t)
+    }
+
+    /// [`place`](Self::place) and [`velocity`](Self::velocity), for less than the two take.
+    pub fn place_and_velocity(&self, support: &Support, t: f64) -> (Place, f64) {
+        let (moved, slope) = RADAU.value_and_slope(&self.displacement, self.part(t));
+        (self.placed(moved, support, t), slope / self.h)
+    }
+
+    fn placed(&self, moved: f64, support: &Support, t: f64) -> Place {
         let lag = self.lag_after(moved, support, t);
         match support {
             Support::Moving(r) => {

@@ -40,13 +40,14 @@ impl Moving for Watched<'_> {
 
 impl Moved for Step {
     fn sample(&self, (support, wider): (&Support, &Wider), t: f64) -> SampleLine {
-        let (height, Place { lag, x0, l }) = (self.height(t), self.place(support, t));
+        let height = self.height(t);
+        let (Place { lag, x0, l }, velocity) = self.place_and_velocity(support, t);
         SampleLine {
             t,
             l,
             lag: (!matches!(support, Support::None)).then_some(lag),
             x0,
-            velocity: self.velocity(t),
+            velocity,
             height,
             weight: height.map(|height| wider.weight(height)),
             ..SampleLine::default()

@@ -6,7 +6,7 @@ use super::values::{BLOCK, Block, Table};
 use crate::collocation::{RADAU, STAGES, Stages};
 use crate::history::Step;
 use crate::state::{Damaged, Reader, State};
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 pub(crate) const MOST_PIECES: usize = 8;
 /// Room for values at the nodes of all pieces.
@@ -105,12 +105,10 @@ pub(crate) struct Nodes {
     pub(crate) table: Table,
 }
 
-static NODES_OF: LazyLock<[Nodes; MOST_PIECES]> =
-    LazyLock::new(|| std::array::from_fn(|i| Nodes::new(i + 1)));
-
-/// The nodes of a step in this number of pieces.
+/// The nodes of a step in this number of pieces, made at their first use, because no run needs all.
 pub(crate) fn nodes(pieces: usize) -> &'static Nodes {
-    &NODES_OF[pieces - 1]
+    static NODES: [OnceLock<Nodes>; MOST_PIECES] = [const { OnceLock::new() }; MOST_PIECES];
+    NODES[pieces - 1].get_or_init(|| Nodes::new(pieces))
 }
 
 impl Nodes {

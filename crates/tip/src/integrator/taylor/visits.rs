@@ -1,11 +1,13 @@
 //! The visits of a long step for a memory: positions of the tip, and times spent there.
 
+mod zeros;
+
 use super::series::Series;
 use super::values::{BLOCK, Block, Table};
-use crate::elementary::{LARGEST, cos, exp, exp_within, ln};
-use crate::roots::zero_between;
+use crate::elementary::{LARGEST, exp, exp_within, ln};
 use multiversion::multiversion;
 use std::sync::{LazyLock, OnceLock};
+use zeros::ZEROS;
 
 /// Radau's rule on the unit step: exact for polynomials of degree 2n - 2, with its last node at the end.
 #[derive(Debug)]
@@ -26,7 +28,7 @@ pub(crate) const ROOM: [Block; MOST_NODES.div_ceil(BLOCK)] =
 /// The rule with the number of nodes at this index of [`COUNTS`], made at its first use, because no run uses all rules.
 fn rule(index: usize) -> &'static Rule {
     static RULES: [OnceLock<Rule>; COUNTS.len()] = [const { OnceLock::new() }; COUNTS.len()];
-    RULES[index].get_or_init(|| Rule::new(COUNTS[index]))
+    RULES[index].get_or_init(|| Rule::new(COUNTS[index], ZEROS[index]))
 }
 
 /// Logarithms of 2 (2n-1)!³/(n (n-1)!⁴), by which the error of the rule of n nodes is divided.
@@ -136,30 +138,25 @@ impl Rule {
 
     /// Nodes x on [-1, 1] are 1 and the zeros of (P_n - P_{n-1})/(x - 1), weights (1 + x)/(n P_{n-1}(x))²; Hairer &
     /// Wanner II, IV.5.
-    fn new(n: usize) -> Self {
-        let legendre = |x: f64| {
-            let (mut last, mut here) = (1.0, x);
-            for k in 1..n {
-                let k = k as f64;
-                (last, here) = (here, ((2.0 * k + 1.0) * x * here - k * last) / (k + 1.0));
-            }
-            (last, here)
-        };
-        let difference = |x: f64| {
-            let (last, here) = legendre(x);
-            here - last
-        };
-        // Zeros of P_n - P_{n-1} and points x = cos(kπ/n) alternate.
-        let between = |k: usize| -cos(std::f64::consts::PI * k as f64 / n as f64);
-        let zero = |k: usize| zero_between(difference, between(k), between(k + 1));
-        let ends = (0..n - 1).map(zero).chain([1.0]);
-        let squared = |x: f64| (n as f64 * legendre(x).0).powi(2);
+    fn new(n: usize, zeros: &[f64]) -> Self {
+        let squared = |x: f64| (n as f64 * legendre(n, x).0).powi(2);
         let pair = |x: f64| (0.5 * (1.0 + x), 0.5 * (1.0 + x) / squared(x));
+        let ends = zeros.iter().copied().chain([1.0]);
         let (nodes, weights): (Vec<f64>, Vec<f64>) = ends.map(pair).unzip();
         let sum: f64 = weights.iter().sum();
         let weights = weights.iter().map(|weight| weight / sum).collect();
         Self { table: Table::of_parts(&nodes), nodes, weights }
     }
+}
+
+/// The Legendre polynomials P_{n-1} and P_n.
+fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut last, mut here) = (1.0, x);
+    for k in 1..n {
+        let k = k as f64;
+        (last, here) = (here, ((2.0 * k + 1.0) * x * here - k * last) / (k + 1.0));
+    }
+    (last, here)
 }
 
 #[cfg(test)]

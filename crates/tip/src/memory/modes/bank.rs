@@ -246,11 +246,13 @@ pub(crate) fn expansion_lengths(terms: &[Term], error: f64) -> Vec<f64> {
     let allowed = (0.1 * error).max(2e-14);
     let cancelling = |(s, w): (f64, f64)| ln(allowed / (f64::EPSILON * w)).max(0.5) / s;
     let longest = sizes.clone().map(cancelling).fold(f64::INFINITY, f64::min);
-    let log_factorial = |n: usize| (1..=n).map(|k| ln(k as f64)).sum::<f64>();
+    let shares: Vec<_> = sizes.map(|(s, w)| (s, ln(share / w))).collect();
+    let mut log_factorial: f64 = (1..=LOWEST_DEGREE).map(|k| ln(k as f64)).sum();
     let length = |degree: usize| {
-        let (n, factorial) = ((degree + 1) as f64, log_factorial(degree + 1));
-        let one = |(s, w): (f64, f64)| elementary::exp((ln(share / w) + factorial) / n) / s;
-        sizes.clone().map(one).fold(longest, f64::min)
+        let n = (degree + 1) as f64;
+        log_factorial += ln(n);
+        let one = |(s, share): &(f64, f64)| elementary::exp((share + log_factorial) / n) / s;
+        shares.iter().map(one).fold(longest, f64::min)
     };
     (LOWEST_DEGREE..=HIGHEST_DEGREE).map(length).collect()
 }

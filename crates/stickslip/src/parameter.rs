@@ -1,16 +1,16 @@
-//! The parameters of a question, read from its JSON Schema, a file made from the type. Options of the command line,
-//! keywords of Python and parameter files follow from them: a parameter is declared once, as a field of a question.
+//! The parameters of a question: options of the command line, keywords of Python and parameter files follow from them. A
+//! parameter is declared once, as a field of a question; `make reference` writes the tables from the types, because a
+//! program that read schemas at each start would take a twentieth longer for a short run.
+
+#[cfg(feature = "schema")]
+pub(crate) mod declared;
 
 pub use crate::distinct::Distinct;
 use crate::{Refused, Typed};
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
-use std::any::TypeId;
-use std::borrow::Cow;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
 
 /// Schema attributes of a parameter, by the key `x-option`: the symbol of its value, its group, and its rank on the
 /// help page. A field without them, such as a result of [`Ask::resolved`](crate::Ask::resolved), is part of documents
@@ -31,28 +31,33 @@ pub(crate) const NOTHING_DRAGS: &str =
     "without a spring nothing drags the tip: there is no steady motion behind a support";
 
 /// A parameter of a question.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parameter {
     /// The name, such as `alpha_above`.
-    pub name: String,
+    pub name: &'static str,
     /// Meaning, unit and range.
-    pub description: String,
+    pub description: &'static str,
     /// The kind of its values.
     pub kind: Kind,
-    /// The default value, if there is one.
-    pub default: Option<Value>,
+    /// The default value as JSON, if there is one.
+    pub default: Option<&'static str>,
     /// Whether the parameter is required.
     pub is_required: bool,
     /// The symbol of its value on the help page, such as `R`.
-    pub symbol: String,
+    pub symbol: &'static str,
     /// The group of parameters that it belongs to, such as `Extended model`.
-    pub group: String,
-    /// Its rank on the help page.
-    place: u64,
+    pub group: &'static str,
+}
+
+impl Parameter {
+    /// The default value, if there is one.
+    pub fn default_value(&self) -> Option<Value> {
+        serde_json::from_str(self.default?).ok()
+    }
 }
 
 /// The values that a parameter takes.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
     /// A number.
@@ -62,13 +67,13 @@ pub enum Kind {
     /// True or false.
     Switch,
     /// One name out of this list of names with their meanings.
-    Name(Vec<(String, String)>),
+    Name(&'static [(&'static str, &'static str)]),
     /// Both ends of a range; `points` and `spacing` of the same question define its division.
     Ends,
     /// A list of numbers.
     Numbers,
     /// Several names out of this list of names with their meanings.
-    Names(Vec<(String, String)>),
+    Names(&'static [(&'static str, &'static str)]),
     /// A text, such as a unit.
     Text,
     /// A footprint, as [`Tip`](crate::Tip) reads it.
@@ -77,193 +82,49 @@ pub enum Kind {
     Other,
 }
 
+/// The parameters of a question, or the names of an enumeration.
+#[derive(Debug)]
+pub struct Declared {
+    /// Parameters that a user may give, in the order of a help page.
+    pub options: &'static [Parameter],
+    /// Other properties by name, such as results of [`Ask::resolved`](crate::Ask::resolved): documents contain them.
+    pub others: &'static [Parameter],
+    /// The variants of an enumeration, each with its meaning.
+    pub names: &'static [(&'static str, &'static str)],
+}
+
 /// A type with parameters or names that users may set.
 pub trait Parameters: DeserializeOwned + 'static {
-    /// JSON Schema of the type.
-    const SCHEMA: &'static str;
-}
-
-/// The parts of a JSON Schema that define parameters. No others are parsed: every command parses a schema when it
-/// starts.
-#[derive(Deserialize, Default)]
-#[serde(default)]
-struct Schema<'a> {
-    #[serde(borrow)]
-    required: Vec<&'a str>,
-    #[serde(borrow)]
-    properties: BTreeMap<&'a str, PropertySchema<'a>>,
-    #[serde(borrow, rename = "$defs")]
-    definitions: BTreeMap<&'a str, PropertySchema<'a>>,
-    #[serde(borrow, rename = "oneOf")]
-    names: Vec<NameSchema<'a>>,
-}
-
-/// The schema of a property, or of a type that properties refer to.
-#[derive(Deserialize, Default)]
-#[serde(default)]
-struct PropertySchema<'a> {
-    #[serde(borrow)]
-    description: Cow<'a, str>,
-    #[serde(rename = "type")]
-    types: Value,
-    items: Value,
-    #[serde(rename = "maxItems")]
-    most_items: Value,
-    #[serde(rename = "anyOf")]
-    alternatives: Vec<Value>,
-    #[serde(rename = "$ref")]
-    reference: Option<&'a str>,
-    default: Value,
-    #[serde(rename = "x-option")]
-    option: Option<OptionSchema>,
-    /// The constants of an enumeration.
-    #[serde(borrow, rename = "oneOf")]
-    names: Vec<NameSchema<'a>>,
-}
-
-/// The value of `x-option`, as [`option`] writes it.
-#[derive(Clone, Default, Deserialize)]
-struct OptionSchema {
-    symbol: String,
-    group: String,
-    place: u64,
-}
-
-#[derive(Deserialize, Default)]
-#[serde(default)]
-struct NameSchema<'a> {
-    #[serde(rename = "const")]
-    name: Option<&'a str>,
-    #[serde(borrow)]
-    description: Cow<'a, str>,
+    /// They, as `make reference` wrote them from the type.
+    const DECLARED: Declared;
 }
 
 /// The names of the variants of an enumeration, each with its meaning.
-pub fn names<T: Parameters>() -> Vec<(String, String)> {
-    names_of(&Schema::of::<T>().names)
-}
-
-/// The parsed schema of a question, computed once per process.
-struct Described {
-    /// All properties of the schema, options or not, by name.
-    properties: &'static [Parameter],
-    /// Those that are options, as on the help page.
-    options: Vec<&'static Parameter>,
-}
-
-/// The parsed schema of a question, cached because parsing takes longer than many answers.
-fn described<Q: Parameters>() -> &'static Described {
-    // There are as many as types of questions.
-    static KNOWN: Mutex<Vec<(TypeId, &'static Described)>> = Mutex::new(vec![]);
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let of_type = TypeId::of::<Q>();
-    if let Some((_, described)) = known.iter().find(|(other, _)| *other == of_type) {
-        return described;
-    }
-    let described = Box::leak(Box::new(Described::of(&Schema::of::<Q>())));
-    known.push((of_type, described));
-    described
-}
-
-impl Schema<'_> {
-    /// The schema of a type; empty if its file is damaged, which a test excludes.
-    fn of<Q: Parameters>() -> Self {
-        serde_json::from_str(Q::SCHEMA).unwrap_or_default()
-    }
-
-    /// The names of the enumeration that a reference leads to; none for other types.
-    fn names_at(&self, reference: &str) -> Vec<(String, String)> {
-        let name = reference.trim_start_matches("#/$defs/");
-        self.definitions.get(name).map(|named| names_of(&named.names)).unwrap_or_default()
-    }
-}
-
-impl Described {
-    fn of(schema: &Schema<'_>) -> Self {
-        let parameter = |(name, property): (&&str, &PropertySchema<'_>)| {
-            let OptionSchema { symbol, group, place } = property.option.clone().unwrap_or_default();
-            Parameter {
-                name: (*name).into(),
-                description: property.description.replace('\n', " "),
-                kind: kind(name, property, schema),
-                default: Some(&property.default).filter(|value| !value.is_null()).cloned(),
-                is_required: schema.required.contains(name),
-                symbol,
-                group,
-                place,
-            }
-        };
-        let properties = schema.properties.iter().map(parameter).collect::<Vec<_>>().leak();
-        let is_option = schema.properties.values().map(|property| property.option.is_some());
-        let options = properties.iter().zip(is_option).filter(|(_, is_option)| *is_option);
-        let mut options: Vec<&Parameter> = options.map(|(parameter, _)| parameter).collect();
-        options.sort_by_key(|parameter| parameter.place);
-        Self { properties, options }
-    }
-
-    fn property(&self, name: &str) -> Option<&Parameter> {
-        self.properties.iter().find(|parameter| parameter.name == name)
-    }
+pub fn names<T: Parameters>() -> &'static [(&'static str, &'static str)] {
+    T::DECLARED.names
 }
 
 /// The parameters that a user may give, in the order of a help page.
-pub fn parameters<Q: Parameters>() -> &'static [&'static Parameter] {
-    &described::<Q>().options
+pub fn parameters<Q: Parameters>() -> &'static [Parameter] {
+    Q::DECLARED.options
 }
 
-/// The kind of a property, from its type or from the definition that it refers to.
-fn kind(name: &str, property: &PropertySchema<'_>, schema: &Schema<'_>) -> Kind {
-    if name == "tip" {
-        return Kind::Tip;
+impl Declared {
+    /// All properties, options or not.
+    fn properties(&self) -> impl Iterator<Item = &'static Parameter> + Clone + use<> {
+        self.options.iter().chain(self.others)
     }
-    let types = match &property.types {
-        Value::String(one) => vec![one.as_str()],
-        Value::Array(several) => several.iter().filter_map(Value::as_str).collect(),
-        _ => vec![],
-    };
-    if types.contains(&"number") {
-        return Kind::Number;
-    }
-    if types.contains(&"integer") {
-        return Kind::Integer;
-    }
-    if types.contains(&"boolean") {
-        return Kind::Switch;
-    }
-    if types.contains(&"string") {
-        return Kind::Text;
-    }
-    if types.contains(&"array") {
-        return kind_of_list(property, schema);
-    }
-    let alternatives = property.alternatives.iter().filter_map(|one| one["$ref"].as_str());
-    let reference = alternatives.chain(property.reference).next();
-    let names = reference.map(|path| schema.names_at(path)).unwrap_or_default();
-    if names.is_empty() { Kind::Other } else { Kind::Name(names) }
-}
 
-fn kind_of_list(
-    PropertySchema { items, most_items, .. }: &PropertySchema<'_>,
-    schema: &Schema<'_>,
-) -> Kind {
-    if let Some(path) = items["$ref"].as_str() {
-        let names = schema.names_at(path);
-        return if names.is_empty() { Kind::Other } else { Kind::Names(names) };
+    fn property(&self, name: &str) -> Option<&'static Parameter> {
+        self.properties().find(|parameter| parameter.name == name)
     }
-    match (&items["type"], most_items) {
-        (Value::String(of), Value::Null) if of == "number" => Kind::Numbers,
-        (Value::String(of), _) if of == "number" => Kind::Ends,
-        _ => Kind::Other,
-    }
-}
 
-/// The names of an enumeration, each with its description.
-fn names_of(names: &[NameSchema<'_>]) -> Vec<(String, String)> {
-    let named = names.iter().filter_map(|NameSchema { name, description }| {
-        let meaning = description.replace('\n', " ");
-        Some(((*name)?.to_owned(), meaning.trim_end_matches('.').to_owned()))
-    });
-    named.collect()
+    /// All properties by name.
+    fn by_name(&self) -> Vec<&'static Parameter> {
+        let mut properties: Vec<_> = self.properties().collect();
+        properties.sort_by_key(|parameter| parameter.name);
+        properties
+    }
 }
 
 /// The question with the given parameters, and defaults for the others.
@@ -271,11 +132,11 @@ fn names_of(names: &[NameSchema<'_>]) -> Vec<(String, String)> {
 /// # Errors
 /// An unknown name, a missing parameter, or a value of the wrong kind.
 pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused> {
-    let described = described::<Q>();
-    let names = described.properties.iter().map(|parameter| &parameter.name);
+    let declared = Q::DECLARED;
     for (name, value) in &values {
-        let Some(property) = described.property(name) else {
-            let advice = match nearest(names, name) {
+        let Some(property) = declared.property(name) else {
+            let known = declared.by_name();
+            let advice = match nearest(known.iter().map(|property| property.name), name) {
                 Some(meant) => format!("did you mean \"{meant}\"?"),
                 None => "leave it out".into(),
             };
@@ -286,18 +147,18 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
         }
     }
     let is_missing =
-        |property: &&Parameter| property.is_required && !values.contains_key(&property.name);
-    if let Some(property) = described.properties.iter().find(is_missing) {
+        |property: &&Parameter| property.is_required && !values.contains_key(property.name);
+    if let Some(property) = declared.properties().filter(is_missing).min_by_key(|one| one.name) {
         if values.get("no_spring") == Some(&Value::Bool(true)) {
             return Err(Refused::whole("no_spring", NOTHING_DRAGS));
         }
         let meaning = property.description.trim_end_matches('.').to_owned();
         // Other parameters in it are named in the style of the interface.
-        let named = |text: String, name: &String| {
+        let named = |text: String, Parameter { name, .. }: &Parameter| {
             text.replace(&format!("`{name}`"), &format!("{{{name}}}"))
         };
-        let meaning = names.fold(meaning, named);
-        return Err(Refused::whole(property.name.clone(), format!("is needed: {meaning}")));
+        let meaning = declared.properties().fold(meaning, named);
+        return Err(Refused::whole(property.name, format!("is needed: {meaning}")));
     }
     serde_json::from_value(Value::Object(values.clone())).map_err(|error| {
         let parameter = culprit::<Q>(&values).unwrap_or("tip").to_owned();
@@ -321,10 +182,10 @@ const SHARED: usize = 3;
 
 /// The known name that differs from `name` in the fewest letters, if these are few. Otherwise, of the names that share
 /// the most initial letters with it, the shortest; `None` if they share less than half of `name`.
-fn nearest<'a>(names: impl Iterator<Item = &'a String> + Clone, name: &str) -> Option<&'a String> {
+fn nearest<'a>(names: impl Iterator<Item = &'a str> + Clone, name: &str) -> Option<&'a str> {
     // Two letters that changed places are two changes.
     let most = (name.len() / 2).min(1 + name.len() / 5);
-    let changes = |other: &&String| strsim::levenshtein(name, other);
+    let changes = |other: &&str| strsim::levenshtein(name, other);
     if let Some(other) = names.clone().min_by_key(changes).filter(|other| changes(other) <= most) {
         return Some(other);
     }
@@ -375,7 +236,7 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
         Kind::Switch => "must be true or false".into(),
         Kind::Ends => "must be two finite numbers".into(),
         Kind::Name(names) | Kind::Names(names) => {
-            let names: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
+            let names: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
             format!("must be one of {}", names.join(", "))
         }
         Kind::Text => "must be a text".into(),
@@ -386,8 +247,7 @@ fn mistaken(kind: &Kind, value: &Value) -> Option<String> {
 
 /// The first name in `values` that is no parameter of `Q`.
 pub fn unknown_parameter<Q: Parameters>(values: &Map<String, Value>) -> Option<&str> {
-    let described = described::<Q>();
-    values.keys().map(String::as_str).find(|name| described.property(name).is_none())
+    values.keys().map(String::as_str).find(|name| Q::DECLARED.property(name).is_none())
 }
 
 /// The parameters `base` with the values `given` in their place. Values that become stale are removed: α and αc(r) + D

@@ -10,7 +10,7 @@ use stickslip::{Raster, Run, Walker};
 struct Declared {
     name: &'static str,
     description: &'static str,
-    default: Option<&'static Value>,
+    default: Option<Value>,
 }
 
 /// The parameters of all questions that have sliders.
@@ -21,11 +21,11 @@ pub(crate) struct Questions {
     walker: Vec<Declared>,
 }
 
-fn declared(all: &'static [&'static Parameter]) -> Vec<Declared> {
-    let of = |one: &&'static Parameter| Declared {
-        name: &one.name,
-        description: &one.description,
-        default: one.default.as_ref(),
+fn declared(all: &'static [Parameter]) -> Vec<Declared> {
+    let of = |one: &'static Parameter| Declared {
+        name: one.name,
+        description: one.description,
+        default: one.default_value(),
     };
     all.iter().map(of).collect()
 }

@@ -15,8 +15,8 @@ where
 
 /// The names of an enumeration, each of which has a description.
 fn names<T: Parameters>() -> Vec<PossibleValue> {
-    let names = parameter::names::<T>().into_iter();
-    names.map(|(name, meaning)| PossibleValue::new(name).help(meaning)).collect()
+    let names = parameter::names::<T>().iter();
+    names.map(|(name, meaning)| PossibleValue::new(*name).help(*meaning)).collect()
 }
 
 #[cfg(test)]
@@ -29,7 +29,7 @@ mod tests {
     fn of<Q: Parameters>(parameter: &str) -> Vec<PossibleValue> {
         let found = parameters::<Q>().iter().find(|one| one.name == parameter).unwrap();
         let Kind::Name(names) = &found.kind else { panic!("{:?}", found.kind) };
-        names.iter().map(|(name, meaning)| PossibleValue::new(name).help(meaning)).collect()
+        names.iter().map(|(name, meaning)| PossibleValue::new(*name).help(*meaning)).collect()
     }
 
     #[test]

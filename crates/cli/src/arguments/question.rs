@@ -25,7 +25,7 @@ pub(crate) trait Questions {
 
 impl<Q: Question> Questions for Q {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Q>().to_vec()
+        parameters::<Q>().iter().collect()
     }
 
     fn formats() -> Vec<&'static str> {
@@ -117,7 +117,7 @@ impl Given {
     fn of(all: &[&Parameter], matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut given = Map::new();
         for parameter in all {
-            if parameter.kind != Kind::Tip && is_given(matches, &parameter.name) {
+            if parameter.kind != Kind::Tip && is_given(matches, parameter.name) {
                 insert(&mut given, parameter, matches);
             }
         }
@@ -128,12 +128,12 @@ impl Given {
         let parameters = matches.try_get_one("parameters").ok().flatten().cloned();
         let ends = all.iter().filter(|parameter| parameter.kind == Kind::Ends);
         let range = |parameter: &&Parameter| {
-            let interval: &Interval = matches.get_one(&parameter.name)?;
-            Some((format!("--{}", long(&parameter.name)), interval.clone()))
+            let interval: &Interval = matches.get_one(parameter.name)?;
+            Some((format!("--{}", long(parameter.name)), interval.clone()))
         };
         let ranges = ends.filter_map(range).collect();
         let counts = |name: &str| name == "points" && is_given(matches, name);
-        let counted_by = all.iter().any(|parameter| counts(&parameter.name)).then_some("--points");
+        let counted_by = all.iter().any(|parameter| counts(parameter.name)).then_some("--points");
         Ok(Self { given, tip, parameters, ranges, counted_by })
     }
 }
@@ -144,8 +144,8 @@ fn is_given(matches: &ArgMatches, name: &str) -> bool {
 
 /// The command-line option of a parameter.
 fn argument(parameter: &'static Parameter) -> Arg {
-    let Parameter { name, kind, symbol, group, .. } = parameter;
-    let mut argument = Arg::new(name.as_str()).long(long(name)).help_heading(group.as_str());
+    let Parameter { name, kind, symbol, group, .. } = *parameter;
+    let mut argument = Arg::new(name).long(long(name)).help_heading(group);
     if has_help() {
         argument = argument.help(help(parameter));
     }
@@ -154,20 +154,20 @@ fn argument(parameter: &'static Parameter) -> Arg {
             .action(ArgAction::SetTrue)
             .help("Equal ratios from one to the next, in place of equal differences");
     }
-    if *kind == Kind::Switch {
+    if kind == Kind::Switch {
         return argument.action(ArgAction::SetTrue);
     }
-    let argument = argument.value_name(symbol.as_str()).allow_hyphen_values(true);
+    let argument = argument.value_name(symbol).allow_hyphen_values(true);
     match kind {
         Kind::Integer => argument.value_parser(value_parser!(u64)),
         Kind::Name(names) => {
-            let value = |(name, meaning): &'static (String, String)| {
-                PossibleValue::new(name).help(has_help().then_some(meaning.as_str()))
+            let value = |(name, meaning): &(&'static str, &'static str)| {
+                PossibleValue::new(*name).help(has_help().then_some(*meaning))
             };
             argument.value_parser(PossibleValuesParser::new(names.iter().map(value)))
         }
         Kind::Names(names) => {
-            let names = names.iter().map(|(name, _)| name.as_str());
+            let names = names.iter().map(|(name, _)| *name);
             argument.value_parser(PossibleValuesParser::new(names)).value_delimiter(',')
         }
         Kind::Text => argument,
@@ -195,7 +195,7 @@ fn help(parameter: &Parameter) -> String {
     let text: String = parts
         .map(|(i, part)| if i % 2 == 1 { format!("--{}", long(part)) } else { part.to_owned() })
         .collect();
-    match &parameter.default {
+    match parameter.default_value() {
         Some(Value::String(name)) => format!("{text} [default: {name}]"),
         Some(Value::Number(number)) if number.is_f64() => {
             format!("{text} [default: {}]", stickslip::Typed(number.as_f64().unwrap_or_default()))
@@ -212,7 +212,7 @@ fn number(value: f64) -> Value {
 
 /// Adds the value of a parameter to the others; a range may contain its number of values.
 fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMatches) {
-    let Parameter { name, kind, .. } = parameter;
+    let Parameter { name, kind, .. } = *parameter;
     let value = match kind {
         _ if is_spacing(name) => json!("logarithmic"),
         Kind::Switch => json!(true),
@@ -234,5 +234,5 @@ fn insert(given: &mut Map<String, Value>, parameter: &Parameter, matches: &ArgMa
         }
         _ => number(*matches.get_one::<f64>(name).unwrap_or(&f64::NAN)),
     };
-    given.insert(name.clone(), value);
+    given.insert(name.into(), value);
 }

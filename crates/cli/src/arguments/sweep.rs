@@ -68,7 +68,7 @@ pub(crate) struct Swept;
 
 impl Questions for Swept {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Sweep>().to_vec()
+        parameters::<Sweep>().iter().collect()
     }
 
     fn formats() -> Vec<&'static str> {

@@ -50,7 +50,7 @@ pub(crate) struct Given;
 
 impl Questions for Given {
     fn parameters() -> Vec<&'static Parameter> {
-        parameters::<Units>().to_vec()
+        parameters::<Units>().iter().collect()
     }
 
     fn formats() -> Vec<&'static str> {

@@ -1,6 +1,8 @@
-//! The schemas of all documents and questions: files, made from the types by `make reference`.
+//! The schemas of all documents, and the tables of parameters: files, made from the types by `make reference`.
 
-use crate::parameter::Parameters;
+#[cfg(feature = "schema")]
+use crate::parameter::declared::declared;
+use crate::parameter::{Declared, Kind, Parameter, Parameters};
 use crate::{
     Boundary, BoundaryDocument, CheckpointHead, CompareDocument, CompareParameters, Continue,
     ContinueDocument, Cycle, CycleDocument, FigureDocument, Fit, FitDocument, FitImage,
@@ -63,8 +65,8 @@ documents! {
 macro_rules! parameters {
     ($($question:ident),+ $(,)?) => {
         $(impl Parameters for $question {
-            const SCHEMA: &'static str =
-                include_str!(concat!("../../schemas/questions/", stringify!($question), ".json"));
+            const DECLARED: Declared =
+                include!(concat!("../../schemas/parameters/", stringify!($question), ".rs"));
         })+
 
         #[cfg(feature = "schema")]
@@ -88,11 +90,16 @@ pub fn schema(name: &str) -> Option<&'static str> {
 #[cfg(feature = "schema")]
 type Derived = (&'static str, fn() -> Schema);
 
-/// The schemas that the types have now, each with the name of its file in the folder `schemas` of this crate.
+/// The contents of all files in the folder `schemas` of this crate, as the types are now, each with its name.
 #[cfg(feature = "schema")]
-pub fn derived() -> Vec<(String, Schema)> {
-    let of = |folder: &'static str, all: &'static [Derived]| {
-        all.iter().map(move |(name, schema)| (format!("{folder}/{name}.json"), schema()))
-    };
-    of("documents", DOCUMENTS).chain(of("questions", QUESTIONS)).collect()
+pub fn derived() -> Vec<(String, String)> {
+    let document = |(name, schema): &Derived| (format!("documents/{name}.json"), pretty(&schema()));
+    let question =
+        |(name, schema): &Derived| (format!("parameters/{name}.rs"), declared(schema().as_value()));
+    DOCUMENTS.iter().map(document).chain(QUESTIONS.iter().map(question)).collect()
+}
+
+#[cfg(feature = "schema")]
+fn pretty(schema: &Schema) -> String {
+    format!("{}\n", serde_json::to_string_pretty(schema).unwrap_or_default())
 }

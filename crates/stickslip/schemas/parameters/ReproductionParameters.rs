@@ -1,0 +1,6 @@
+// Made by `make reference`: do not edit.
+Declared {
+    options: &[],
+    others: &[],
+    names: &[],
+}

@@ -193,11 +193,11 @@ pub fn load(path: &Path) -> Result<Box<dyn Document>, Refusal> {
 /// # Errors
 /// The stream is not a document of this program.
 pub fn read(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
-    let (kind, mut source) = identified(source, "stickslip/COMMAND")?;
+    let (kind, mut source) = identified(Box::new(source), "stickslip/COMMAND")?;
     match kind.format.as_deref() {
         Some(UnitsDocument::FORMAT) => Ok(Box::new(UnitsDocument::read(&mut source)?)),
         Some(VerifyDocument::FORMAT) => Ok(Box::new(VerifyDocument::read(&mut source)?)),
-        _ => drawn(source),
+        _ => drawn(Box::new(source)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Documents of a kind that is known at run time.
 
-use crate::Saved;
+use crate::{Saved, Writable};
 use std::any::Any;
 use std::io::Read;
 use stickslip::{
@@ -14,9 +14,7 @@ use stickslip::{
 use stickslip_figures::Drawn;
 
 /// A document whose type is not known at compile time.
-pub trait Document: Any + Send + Sync {
-    /// The document for a serializer.
-    fn serialized(&self) -> &dyn erased_serde::Serialize;
+pub trait Document: Writable + Any + Send + Sync {
     /// The document as a table and as a picture.
     fn drawn(&self) -> &dyn Drawn;
     /// A copy of the document.
@@ -24,10 +22,6 @@ pub trait Document: Any + Send + Sync {
 }
 
 impl<D: Saved + Drawn> Document for D {
-    fn serialized(&self) -> &dyn erased_serde::Serialize {
-        Saved::serialized(self)
-    }
-
     fn drawn(&self) -> &dyn Drawn {
         self
     }
@@ -43,7 +37,7 @@ macro_rules! by_format {
         ///
         /// # Errors
         /// The stream is not JSON, is a document without a figure, or is damaged.
-        pub fn drawn(source: impl Read) -> Result<Box<dyn Document>, Unusable> {
+        pub fn drawn(source: Box<dyn Read + '_>) -> Result<Box<dyn Document>, Unusable> {
             let (kind, mut source) = identified(source, "stickslip/COMMAND")?;
             let format = kind.format.unwrap_or_default();
             match format.as_str() {

@@ -21,7 +21,7 @@ use stickslip::{
 };
 
 /// A document that commands write and read.
-pub trait Saved: Clone + Send + Sync + 'static {
+pub trait Saved: Writable + Clone + Send + Sync + 'static {
     /// Value of the field `format`, such as "stickslip/run".
     const FORMAT: &'static str;
 
@@ -30,7 +30,10 @@ pub trait Saved: Clone + Send + Sync + 'static {
     /// # Errors
     /// The stream is not JSON, is a document of another format or version, is damaged, or fails.
     fn read(source: &mut dyn Read) -> Result<Self, Unusable>;
+}
 
+/// A document as it is written.
+pub trait Writable {
     /// Writes the document as JSON, by this number of threads if its kind may be large enough for several.
     ///
     /// # Errors
@@ -49,7 +52,9 @@ macro_rules! saved {
             fn read(source: &mut dyn Read) -> Result<Self, Unusable> {
                 $read(source)
             }
+        }
 
+        impl Writable for $document {
             fn write(&self, out: &mut dyn Write, threads: usize) -> io::Result<()> {
                 $write(out, self, threads)
             }

@@ -285,8 +285,17 @@ pub(crate) fn refuse_unknown<Q: Question, K: Questions>(
     values: &Map<String, Value>,
     chosen_by: &str,
 ) -> Result<(), Failure> {
-    let Some(name) = parameter::unknown_parameter::<Q>(values) else { return Ok(()) };
-    if K::parameters().iter().all(|parameter| parameter.name != name) {
+    let unknown = parameter::unknown_parameter::<Q>(values);
+    unknown.map_or(Ok(()), |name| refused_unless_misspelt(name, values, chosen_by, K::parameters))
+}
+
+fn refused_unless_misspelt(
+    name: &str,
+    values: &Map<String, Value>,
+    chosen_by: &str,
+    known: fn() -> Vec<&'static Parameter>,
+) -> Result<(), Failure> {
+    if known().iter().all(|parameter| parameter.name != name) {
         // Unknown to all questions: reported with the question.
         return Ok(());
     }

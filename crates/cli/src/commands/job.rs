@@ -15,7 +15,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use stickslip::Tabular;
 use stickslip_figures::Drawn;
-use stickslip_saved::Saved;
+use stickslip_saved::{Document, Saved, Writable};
 
 /// The result of a command: a document with columns, a figure and a summary.
 pub(crate) trait Product: Saved + Drawn {
@@ -95,19 +95,23 @@ impl Job {
 
     /// Draws and writes the result, and prints the summary.
     pub(crate) fn finish(self, product: impl Product) -> Result<(), Failure> {
-        // The document first: a picture that fails costs no result.
-        let session = self.session.clone();
         let summary = product.summary().in_units(product.physical());
-        let figure = self.write_with(&product, &product, &summary)?;
-        let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        session.give(|| summary.of(product));
+        self.finish_with(Box::new(product), summary)
+    }
+
+    fn finish_with(self, document: Box<dyn Document>, summary: Summary) -> Result<(), Failure> {
+        let session = self.session.clone();
+        // The document first: a picture that fails costs no result.
+        let figure = self.write_with(&*document, document.drawn(), &summary)?;
+        let drawn = figure.map_or(Ok(()), |figure| figure.draw(document.drawn()));
+        session.give(|| summary.of(document));
         drawn
     }
 
     /// Writes a result, as a document or as this table, and prints the summary; returns the figure still to be drawn.
     pub(crate) fn write_with(
         self,
-        document: &impl Saved,
+        document: &dyn Writable,
         table: &dyn Tabular,
         summary: &Summary,
     ) -> Result<Option<Figure>, Failure> {
@@ -136,7 +140,7 @@ impl Job {
         self.output.write_bytes(bytes)?;
         after(&self.session, product.serialized(), &summary, &self.fields, self.has_summary)?;
         let drawn = figure.map_or(Ok(()), |figure| figure.draw(&product));
-        self.session.give(|| summary.of(product));
+        self.session.give(|| summary.of(Box::new(product)));
         drawn
     }
 }

@@ -55,7 +55,7 @@ pub(crate) fn parse_tip(table: &Table) -> Result<TipFile, String> {
         Table::Text(text) if text.trim_start().starts_with('{') => text,
         _ => return table_of(table),
     };
-    let kind = documents::kind_of(text.as_bytes(), MeasuredTipDocument::FORMAT);
+    let kind = documents::kind_of(&mut text.as_bytes(), MeasuredTipDocument::FORMAT);
     if kind.is_ok_and(|kind| kind.format.is_some()) {
         let measured = MeasuredTipDocument::read(&mut text.as_bytes());
         return measured.map(|m| TipFile::Measured(Box::new(m))).map_err(|e| e.to_string());
@@ -156,7 +156,7 @@ pub(crate) fn format_of(
     path: &Path,
     wanted: &str,
 ) -> Result<Option<String>, Failure> {
-    let kind = documents::kind_of(open(session, option, path)?, wanted);
+    let kind = documents::kind_of(&mut open(session, option, path)?, wanted);
     let refused = |error| Failure::file(option, path, error);
     kind.map(|kind| kind.format).map_err(refused)
 }

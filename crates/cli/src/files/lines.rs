@@ -142,8 +142,8 @@ impl<R: BufRead> Lines<R> {
                 return Ok(());
             }
             if before == 0 && self.line.len() as u64 == LONGEST_LINE {
-                let kind =
-                    kind_of(&*self.line, RunHead::FORMAT).and_then(|k| k.judge(RunHead::FORMAT));
+                let kind = kind_of(&mut &*self.line, RunHead::FORMAT)
+                    .and_then(|k| k.judge(RunHead::FORMAT));
                 kind.map_err(|error| self.damaged(error))?;
             }
             if self.line.len() as u64 > LONGEST_HEAD {

@@ -1,14 +1,14 @@
 //! Output files: places are checked before the computation, and files get their names when complete.
 
 use super::place::{Place, place};
-use super::special::is_special;
+use super::special::{is_special, stdout};
 use super::temporary::kept_elsewhere;
 use super::temporary::through;
 use crate::arguments::Format;
 use crate::failure::Failure;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use stickslip_saved::Saved;
+use stickslip_saved::Writable;
 
 /// The format of an output by its extension. For the error message, `more` names extensions that the command handles itself,
 /// such as ", .gsf".
@@ -60,7 +60,7 @@ impl Output {
     }
 
     /// Writes the document as JSON, followed by a line break.
-    pub(crate) fn write_json(self, document: &impl Saved) -> Result<(), Failure> {
+    pub(crate) fn write_json(self, document: &dyn Writable) -> Result<(), Failure> {
         let threads = self.threads;
         self.write_with(|out| {
             document.write(out, threads)?;
@@ -86,7 +86,9 @@ impl Output {
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let (target, done) = match &self.place {
-            Place::Stdout => ("standard output".into(), through(io::stdout().lock(), write)),
+            Place::Stdout => {
+                ("standard output".into(), stdout().and_then(|out| through(out, write)))
+            }
             Place::Special(file) => (self.path.display().to_string(), through(file, write)),
             Place::File(target) => (self.path.display().to_string(), target.replace(write)),
         };

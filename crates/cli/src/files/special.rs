@@ -1,7 +1,7 @@
 //! Devices and pipes, and safe opening of files that may have been replaced by links or pipes.
 
 use std::fs::{File, OpenOptions};
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Whether the path is a device or a pipe, which must not be replaced by a rename.
@@ -19,6 +19,19 @@ pub(super) fn not_followed(options: &mut OpenOptions) -> &mut OpenOptions {
 #[cfg(not(unix))]
 pub(super) fn not_followed(options: &mut OpenOptions) -> &mut OpenOptions {
     options
+}
+
+/// Standard output without the buffer of `io::Stdout`, which searches all that it is given for line breaks.
+#[cfg(unix)]
+pub(super) fn stdout() -> io::Result<File> {
+    use std::os::fd::AsFd;
+    io::stdout().flush()?;
+    io::stdout().as_fd().try_clone_to_owned().map(File::from)
+}
+
+#[cfg(not(unix))]
+pub(super) fn stdout() -> io::Result<io::StdoutLock<'static>> {
+    Ok(io::stdout().lock())
 }
 
 /// Opens a device or pipe for writing. A pipe must have a reader soon.

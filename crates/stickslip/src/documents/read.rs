@@ -68,7 +68,7 @@ pub fn read_from<D: DeserializeOwned>(mut source: impl Read, wanted: &str) -> Re
 
 /// Reads a document from a stream of any type: the long code that reads documents is compiled once for all types.
 fn read_through<D: DeserializeOwned>(source: &mut dyn Read, wanted: &str) -> Result<D, Unusable> {
-    let (kind, mut whole) = identified(source, wanted)?;
+    let (kind, mut whole) = identified(Box::new(source), wanted)?;
     kind.judge(wanted)?;
     // From memory JSON is read in two thirds of the time that it takes byte by byte from a stream. Damage is found also in
     // a stream without end: that of the first megabyte within 16 times its distance from the beginning.
@@ -114,12 +114,12 @@ pub fn from_json<T: DeserializeOwned>(bytes: &[u8]) -> serde_json::Result<T> {
 /// # Errors
 /// As [`kind_of`].
 pub fn identified<'a>(
-    source: impl Read + 'a,
+    source: Box<dyn Read + 'a>,
     wanted: &str,
 ) -> Result<(Kind, BufReader<Box<dyn Read + 'a>>), Unusable> {
     let mut source = BufReader::with_capacity(BLOCK, source);
     let mut seen = vec![];
-    let kind = kind_of(Seen { source: &mut source, seen: &mut seen }, wanted)?;
+    let kind = kind_of(&mut Seen { source: &mut source, seen: &mut seen }, wanted)?;
     let whole: Box<dyn Read + 'a> = Box::new(Cursor::new(seen).chain(source));
     Ok((kind, BufReader::with_capacity(BLOCK, whole)))
 }
@@ -145,7 +145,7 @@ fn no_document(error: &serde_json::Error, wanted: &str) -> Unusable {
 ///
 /// # Errors
 /// The source is not JSON, or ends before the format.
-pub fn kind_of(source: impl Read, wanted: &str) -> Result<Kind, Unusable> {
+pub fn kind_of(source: &mut dyn Read, wanted: &str) -> Result<Kind, Unusable> {
     let mut kind = Kind { format: None, format_version: None };
     let source = BufReader::new(source.take(LARGEST_BEGINNING));
     let read = serde_json::Deserializer::from_reader(source).deserialize_map(Fields(&mut kind));
@@ -184,12 +184,12 @@ impl<'de> Visitor<'de> for Fields<'_> {
 }
 
 /// A stream that keeps a copy of the bytes read from it.
-struct Seen<'a, R> {
-    source: &'a mut R,
+struct Seen<'a> {
+    source: &'a mut dyn Read,
     seen: &'a mut Vec<u8>,
 }
 
-impl<R: Read> Read for Seen<'_, R> {
+impl Read for Seen<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.source.read(buffer)?;
         self.seen.extend(&buffer[..count]);

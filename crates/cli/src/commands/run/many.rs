@@ -38,5 +38,5 @@ fn summary(order: &Order, run: RunDocument) -> Made {
     let summary = summary::of_run(&document, &RunEnd::from(&document));
     let summary = summary.in_units(document.physical.as_ref());
     document.history.take_if(|_| !order.history);
-    summary.of(document)
+    summary.of(Box::new(document))
 }

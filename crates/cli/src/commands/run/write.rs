@@ -105,7 +105,7 @@ pub(super) fn all<R: Motion>(
         document.history.take_if(|_| !order.history);
     }
     let tolerance = document.parameters.tolerance;
-    session.give(|| summary.of(document));
+    session.give(|| summary.of(Box::new(document)));
     let failure = match found {
         Err(failure) => Some(failure),
         Ok(found) => found.and_then(|found| verify::broken(&found, tolerance)),

@@ -82,8 +82,8 @@ impl Summary {
     }
 
     /// The result of an in-process command: the document and its summary, without commands to try.
-    pub(crate) fn of(self, document: impl Document) -> Made {
-        let (summary, document) = (Self { next: vec![], ..self }, Box::new(document));
+    pub(crate) fn of(self, document: Box<dyn Document>) -> Made {
+        let summary = Self { next: vec![], ..self };
         Made { document, text: summary.text(), headline: summary.headline }
     }
 

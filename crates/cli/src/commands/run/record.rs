@@ -35,6 +35,9 @@ pub(super) enum Sink {
     Journal(PathBuf, Rows),
 }
 
+/// Number of steps that a history has room for from the start: a longer one is copied as it grows.
+const USUAL_STEPS: usize = 1024;
+
 /// Samples between two checks of the signals; a step may be as long as the run and contain all its samples.
 const SAMPLES_PER_LOOK: u64 = 1024;
 
@@ -44,7 +47,7 @@ impl<S: Recorded> Record<S> {
         let (times, places) = times.in_order();
         let kept = if matches!(sink, Sink::Lines(_)) { 0 } else { times.count() };
         let samples = Samples::with_capacity(usize::try_from(kept).unwrap_or(0));
-        let steps = keeps_history.then(Vec::new);
+        let steps = keeps_history.then(|| Vec::with_capacity(USUAL_STEPS));
         Self { support, wider, times, places, taken: 0, samples, steps, sink }
     }
 

@@ -95,7 +95,7 @@ bench: ## measure: cost per step, whole runs, surfaces
 work-precision: ## measure time against error, into data/work_precision.json, which `figures` draws
 	$(CARGO) run --release --locked --example work_precision -- data/work_precision.json
 
-reference: ## write the schemas anew, from the types, and the generated pages of docs/reference, from `--help` and the schemas
+reference: ## write the schemas and tables of parameters anew, from the types, and the generated pages of docs/reference, from `--help` and the schemas
 	STICKSLIP_WRITE_REFERENCE=1 $(CARGO) test --locked -p stickslip-cli --test program reference::schemas
 	STICKSLIP_WRITE_REFERENCE=1 $(CARGO) test --locked -p stickslip-cli --test program reference::
 

@@ -1,26 +1,29 @@
 //! The text of documents: the same bytes by any number of threads, and errors of the output.
 
-use serde_json::json;
+use serde_json::{Value, json};
 use std::io::{self, Write};
+use stickslip::List;
 
-/// Documents of several pieces, with any number and any text, have the same bytes on any number of threads.
+/// Lists of any length, with any number and any text, have the same bytes on any number of threads.
 #[test]
 fn bytes_do_not_depend_on_threads() {
-    let numbers: Vec<f64> = (0..60_000_u64)
+    let numbers = (0..60_000_u64)
         .map(|n| f64::from_bits(n.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
-        .chain([0.0, -0.0, 1.0, 1e300, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY])
-        .collect();
-    let text = "\u{7f}\u{9b}31m ÿ \u{ff} \"σ\"\n";
-    let document = json!({ text: { "numbers": numbers, "count": 7, "none": null, "text": text } });
-    let written = |threads| {
-        let mut out = vec![];
-        stickslip::write_on_threads(&mut out, &(&document, &numbers), threads).unwrap();
-        out
-    };
-    let alone = written(1);
-    assert!(alone.len() > 20 << 16, "{}", alone.len());
-    for threads in [2, 3, 64] {
-        assert!(written(threads) == alone, "{threads} threads");
+        .chain([0.0, -0.0, 1.0, 1e300, f64::MIN_POSITIVE, f64::NAN, f64::INFINITY]);
+    let text = "\u{7f}\u{9b}31m ÿ \u{ff} \"σ\"\n \"lines\":[]";
+    let numbers: Vec<f64> = numbers.collect();
+    let mut rows: Vec<Value> = numbers.chunks(50).map(|row| json!({ "row": row })).collect();
+    rows.push(json!({ text: text, "lines": [1], "none": null }));
+    let document = |first: &[Value], second: &[Value]| json!([text, { "lines": first, "number": 7 }, { "count": 1, "history": { "lines": second } }]);
+    for second in [0, 1, 5, rows.len()] {
+        let mut alone = vec![];
+        stickslip::write(&mut alone, &document(&rows, &rows[..second])).unwrap();
+        for threads in [1, 2, 3, 64] {
+            let (mut out, lists) = (vec![], [List::of(&rows), List::of(&rows[..second])]);
+            let frame = document(&[], &[]);
+            stickslip::write_lists(&mut out, &frame, ("lines", &lists), threads).unwrap();
+            assert!(out == alone, "{second} {threads} threads");
+        }
     }
 }
 
@@ -40,7 +43,9 @@ fn an_error_is_returned() {
     }
     let numbers = vec![0.1_f64.sqrt(); 200_000];
     for room in [0, 300_000, 2_000_000] {
-        let error = stickslip::write_on_threads(&mut Full(room), &numbers, 2).unwrap_err();
+        let (frame, lists) = (json!({ "lines": [] }), [List::of(&numbers)]);
+        let written = stickslip::write_lists(&mut Full(room), &frame, ("lines", &lists), 2);
+        let error = written.unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     }
 }

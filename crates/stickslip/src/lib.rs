@@ -112,7 +112,7 @@ pub use documents::verification::{EndingName, LinesDocument, VerificationDocumen
 pub use documents::verify::{ClaimDocument, VerifyDocument};
 
 pub use documents::work::{SteadyState, WorkDocument};
-pub use documents::write::{is_harmful, write, write_on_threads};
+pub use documents::write::{List, is_harmful, write, write_lists};
 
 /// The README's example is compiled and run.
 #[cfg(doctest)]

@@ -1,8 +1,8 @@
 //! Reading and writing of documents that may be large: this code is compiled here, with optimisation.
 
 use crate::{
-    RasterDocument, RasterSurfaceDocument, RasterSweepDocument, RunDocument, SurfaceDocument,
-    SweepDocument, Unusable, read_from, write, write_on_threads,
+    List, RasterDocument, RasterFound, RasterSurfaceDocument, RasterSweepDocument, RunDocument,
+    SurfaceDocument, SweepDocument, Unusable, read_from, write, write_lists,
 };
 use std::io::{self, Read, Write};
 
@@ -67,5 +67,11 @@ pub fn write_raster(
     document: &RasterDocument,
     threads: usize,
 ) -> io::Result<()> {
-    write_on_threads(out, document, threads)
+    if threads < 2 {
+        return write(out, document);
+    }
+    let frame = document.without_lines();
+    let RasterFound { lines, history, .. } = &document.answer;
+    let lists = [List::of(lines), List::of(&history.lines)];
+    write_lists(out, &frame, ("lines", &lists), threads)
 }

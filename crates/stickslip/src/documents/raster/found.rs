@@ -2,7 +2,7 @@
 
 use crate::documents::table::{Array, Column, Named, Tabular};
 use crate::schema::JsonSchema;
-use crate::{Pattern, RasterHistory, RasterLine, RasterSamples};
+use crate::{Pattern, RasterDocument, RasterHistory, RasterLine, RasterSamples};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use stickslip_raster::{Line, Plan, Regime, Written, pattern, volume};
@@ -47,6 +47,32 @@ impl RasterFound {
             },
         };
         (found, doubts.iter().map(ToString::to_string).collect())
+    }
+}
+
+impl RasterDocument {
+    /// A copy without samples and history of the lines.
+    pub(crate) fn without_lines(&self) -> Self {
+        let Self { format, format_version, software, parameters, answer, remarks, physical } = self;
+        let RasterHistory { nodes, weights, .. } = &answer.history;
+        let history =
+            RasterHistory { nodes: nodes.clone(), weights: weights.clone(), lines: vec![] };
+        Self {
+            format: format.clone(),
+            format_version: *format_version,
+            software: software.clone(),
+            parameters: parameters.clone(),
+            answer: RasterFound {
+                lines: vec![],
+                history,
+                regime: answer.regime,
+                pattern: answer.pattern,
+                volume: answer.volume,
+                work: answer.work,
+            },
+            remarks: remarks.clone(),
+            physical: physical.clone(),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use super::temporary::{Unfinished, beside, remove_left_behind, through};
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::Path;
+use std::thread::{self, Scope, ScopedJoinHandle};
 
 /// The permissions of a file, within the umask, and if possible its owner.
 #[derive(Debug, Default)]
@@ -48,15 +49,60 @@ pub(super) fn replace(
     permissions: &Permissions,
     write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut file = beside(path, folder_of(path))?;
+    let file = beside(path, folder_of(path))?;
     let _unfinished = Unfinished::at(file.path());
     permissions.give_to(file.as_file())?;
-    through(file.as_file_mut(), write)?;
+    thread::scope(|scope| {
+        let mut synced = Synced { file: file.as_file(), scope, since: 0, syncing: None };
+        through(&mut synced, write)?;
+        synced.wait()
+    })?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;
     sync_folder(path);
     remove_left_behind(path, folder_of(path));
     Ok(())
+}
+
+/// Number of bytes after which a file is synced while more is written.
+const AHEAD: usize = 4 << 20;
+
+/// A file that is synced while it is written: at the end the disk would take a twentieth of the time of a large raster.
+struct Synced<'scope, 'env> {
+    file: &'env File,
+    scope: &'scope Scope<'scope, 'env>,
+    /// Number of bytes written since the last sync began.
+    since: usize,
+    syncing: Option<ScopedJoinHandle<'scope, io::Result<()>>>,
+}
+
+impl Synced<'_, '_> {
+    /// Waits for the last sync.
+    fn wait(&mut self) -> io::Result<()> {
+        let last = self.syncing.take().map(ScopedJoinHandle::join);
+        last.map_or(Ok(()), |done| {
+            done.unwrap_or_else(|_| Err(io::Error::other("the sync failed")))
+        })
+    }
+}
+
+impl Write for Synced<'_, '_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut file = self.file;
+        let count = file.write(bytes)?;
+        self.since += count;
+        let is_idle = self.syncing.as_ref().is_none_or(ScopedJoinHandle::is_finished);
+        if self.since >= AHEAD && is_idle {
+            self.wait()?;
+            self.since = 0;
+            self.syncing = Some(self.scope.spawn(|| file.sync_data()));
+        }
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// Syncs the folder after a rename. Systems that cannot sync a folder give their own guarantee.

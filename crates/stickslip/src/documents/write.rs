@@ -71,9 +71,9 @@ impl<'a> List<'a> {
         Self { count: elements.len(), text_of: Box::new(text_of) }
     }
 
-    /// The text of the elements from n on that are turned into text together.
-    fn text(&self, n: usize) -> io::Result<Vec<u8>> {
-        let mut text = vec![];
+    /// The text of the elements from n on that are turned into text together; it is expected to have this length.
+    fn text(&self, n: usize, length: usize) -> io::Result<Vec<u8>> {
+        let mut text = Vec::with_capacity(length);
         for n in n..self.count.min(n + TOGETHER) {
             if n > 0 {
                 text.push(b',');
@@ -92,7 +92,7 @@ fn json<W: Write>(out: W) -> Serializer<W, Harmless> {
 /// `frame` is this document with empty lists, and has no other empty list of that name.
 ///
 /// # Errors
-/// The output fails.
+/// The output fails; the frame has fewer empty lists.
 pub fn write_lists(
     out: &mut dyn Write,
     frame: &impl Serialize,
@@ -103,10 +103,11 @@ pub fn write_lists(
     frame.serialize(&mut json(&mut text))?;
     let (mut rest, begins) = (&text[..], format!("\"{name}\":["));
     for list in lists {
-        let mut places = rest.windows(begins.len() + 1);
+        let is_empty = |at: &[u8]| at.starts_with(begins.as_bytes()) && at.ends_with(b"]");
+        let at = rest.windows(begins.len() + 1).position(is_empty);
         let at =
-            places.position(|place| place.starts_with(begins.as_bytes()) && place.ends_with(b"]"));
-        let (before, after) = rest.split_at(at.map_or(rest.len(), |at| at + begins.len()));
+            at.ok_or_else(|| io::Error::other(format!("the frame has no empty list {name}")))?;
+        let (before, after) = rest.split_at(at + begins.len());
         out.write_all(before)?;
         write_elements(out, list, threads)?;
         rest = after;
@@ -117,13 +118,20 @@ pub fn write_lists(
 /// The threads take the elements in turn, and this one writes them in their order.
 fn write_elements(out: &mut dyn Write, list: &List, threads: usize) -> io::Result<()> {
     let groups = list.count.div_ceil(TOGETHER);
+    let threads = threads.clamp(1, groups.max(1));
     thread::scope(|scope| {
         let of_thread = |first: usize| {
             let (send, receive) = sync_channel(WAITING);
             scope.spawn(move || {
-                let texts = (first..groups).step_by(threads).map(|n| list.text(n * TOGETHER));
-                // Nobody waits for more once the document cannot be written.
-                texts.map(|text| send.send(text)).all(|sent| sent.is_ok())
+                let mut longest = 0;
+                for n in (first..groups).step_by(threads) {
+                    let text = list.text(n * TOGETHER, longest);
+                    longest = text.as_ref().map_or(0, |text| longest.max(text.len()));
+                    // Nobody waits for more once the document cannot be written.
+                    if send.send(text).is_err() {
+                        break;
+                    }
+                }
             });
             receive
         };

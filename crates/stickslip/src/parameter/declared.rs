@@ -31,9 +31,8 @@ fn parameter(name: &str, property: &Value, schema: &Value) -> String {
         property.get("default").filter(|value| !value.is_null()).map(|value| value.to_string());
     let of_option = |key: &str| property["x-option"][key].as_str().unwrap_or_default().to_owned();
     format!(
-        "        Parameter {{\n            name: {name:?},\n            description: {:?},\n            kind: {},\n            \
-         default: {default:?},\n            is_required: {is_required},\n            symbol: {:?},\n            \
-         group: {:?},\n        }},\n",
+        "        Parameter {{ name: {name:?}, description: {:?}, kind: {}, default: {default:?}, is_required: \
+         {is_required}, symbol: {:?}, group: {:?} }},\n",
         on_one_line(&property["description"]),
         kind(name, property, schema),
         of_option("symbol"),

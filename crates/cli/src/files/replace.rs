@@ -115,6 +115,18 @@ mod tests {
     use super::*;
     use std::fs;
 
+    /// Synced more than once before its end.
+    #[test]
+    fn a_long_file_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("long");
+        let line = [b"0123456789abcdef".repeat(64), b"\n".to_vec()].concat();
+        let count = 3 * AHEAD / line.len();
+        let write = |out: &mut dyn Write| (0..count).try_for_each(|_| out.write_all(&line));
+        replace(&path, &Permissions::default(), &write).unwrap();
+        assert!(fs::read(&path).unwrap() == line.repeat(count));
+    }
+
     #[cfg(unix)]
     #[test]
     fn the_mode_of_a_file_outlives_its_contents() {

@@ -95,7 +95,7 @@ pub struct Declared {
 
 /// A type with parameters or names that users may set.
 pub trait Parameters: DeserializeOwned + 'static {
-    /// They, as `make reference` wrote them from the type.
+    /// The table that `make reference` writes from the type.
     const DECLARED: Declared;
 }
 

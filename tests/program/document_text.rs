@@ -14,10 +14,14 @@ fn bytes_do_not_depend_on_threads() {
     let numbers: Vec<f64> = numbers.collect();
     let mut rows: Vec<Value> = numbers.chunks(50).map(|row| json!({ "row": row })).collect();
     rows.push(json!({ text: text, "lines": [1], "none": null }));
-    let document = |first: &[Value], second: &[Value]| json!([text, { "lines": first, "number": 7 }, { "count": 1, "history": { "lines": second } }]);
+    let document = |first: &[Value], second: &[Value]| {
+        let history = json!({ "lines": second });
+        json!([text, { "lines": first, "number": 7 }, { "count": 1, "history": history }])
+    };
     for second in [0, 1, 5, rows.len()] {
         let mut alone = vec![];
         stickslip::write(&mut alone, &document(&rows, &rows[..second])).unwrap();
+        assert!(alone.len() > 20 << 16, "{}", alone.len());
         for threads in [1, 2, 3, 64] {
             let (mut out, lists) = (vec![], [List::of(&rows), List::of(&rows[..second])]);
             let frame = document(&[], &[]);

@@ -118,13 +118,6 @@ impl Declared {
     fn property(&self, name: &str) -> Option<&'static Parameter> {
         self.properties().find(|parameter| parameter.name == name)
     }
-
-    /// All properties by name.
-    fn by_name(&self) -> Vec<&'static Parameter> {
-        let mut properties: Vec<_> = self.properties().collect();
-        properties.sort_by_key(|parameter| parameter.name);
-        properties
-    }
 }
 
 /// The question with the given parameters, and defaults for the others.
@@ -135,8 +128,8 @@ pub fn question<Q: Parameters>(values: Map<String, Value>) -> Result<Q, Refused>
     let declared = Q::DECLARED;
     for (name, value) in &values {
         let Some(property) = declared.property(name) else {
-            let known = declared.by_name();
-            let advice = match nearest(known.iter().map(|property| property.name), name) {
+            let known = declared.properties().map(|property| property.name);
+            let advice = match nearest(known, name) {
                 Some(meant) => format!("did you mean \"{meant}\"?"),
                 None => "leave it out".into(),
             };
@@ -181,16 +174,18 @@ pub(crate) fn strictly<'de, D: Deserializer<'de>, Q: Parameters>(
 const SHARED: usize = 3;
 
 /// The known name that differs from `name` in the fewest letters, if these are few. Otherwise, of the names that share
-/// the most initial letters with it, the shortest; `None` if they share less than half of `name`.
+/// the most initial letters with it, the shortest; `None` if they share less than half of `name`. Of equal ones the order
+/// of letters decides.
 fn nearest<'a>(names: impl Iterator<Item = &'a str> + Clone, name: &str) -> Option<&'a str> {
     // Two letters that changed places are two changes.
     let most = (name.len() / 2).min(1 + name.len() / 5);
-    let changes = |other: &&str| strsim::levenshtein(name, other);
-    if let Some(other) = names.clone().min_by_key(changes).filter(|other| changes(other) <= most) {
+    let changes = |other: &str| strsim::levenshtein(name, other);
+    let fewest = names.clone().min_by_key(|other| (changes(other), *other));
+    if let Some(other) = fewest.filter(|other| changes(other) <= most) {
         return Some(other);
     }
     let shared = |other: &str| name.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
-    let best = names.max_by_key(|other| (shared(other), Reverse(other.len())))?;
+    let best = names.max_by_key(|other| (shared(other), Reverse(other.len()), *other))?;
     (shared(best) >= SHARED.max(name.len().div_ceil(2))).then_some(best)
 }
 

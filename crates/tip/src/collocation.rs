@@ -224,6 +224,16 @@ fn coefficients_about_the_end(c: &Stages, scales: &Stages) -> [Stages; STAGES] {
     rows
 }
 
+/// The Legendre polynomials P_{n-1} and P_n.
+pub(crate) fn legendre(n: usize, x: f64) -> (f64, f64) {
+    let (mut last, mut here) = (1.0, x);
+    for k in 1..n {
+        let k = k as f64;
+        (last, here) = (here, ((2.0 * k + 1.0) * x * here - k * last) / (k + 1.0));
+    }
+    (last, here)
+}
+
 /// ∫_0^{end} of a polynomial of degree below 2s, by Gauss's rule of s nodes.
 fn integral(rule: &GaussLegendre, end: f64, f: impl Fn(f64) -> f64) -> f64 {
     let term = |(x, w): &(f64, f64)| 0.5 * end * w * f(0.5 * end * (1.0 + x));
@@ -241,11 +251,7 @@ mod tests {
     #[test]
     fn the_nodes_are_zeros_of_the_polynomials() {
         let difference = |x: f64| {
-            let (mut last, mut here) = (1.0, x);
-            for n in 1..STAGES {
-                let n = n as f64;
-                (last, here) = (here, ((2.0 * n + 1.0) * x * here - n * last) / (n + 1.0));
-            }
+            let (last, here) = legendre(STAGES, x);
             here - last
         };
         let rule = GaussLegendre::new(NonZeroUsize::new(STAGES).unwrap());

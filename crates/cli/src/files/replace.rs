@@ -95,7 +95,9 @@ impl Write for Synced<'_, '_> {
         if self.since >= AHEAD && is_idle {
             self.wait()?;
             self.since = 0;
-            self.syncing = Some(self.scope.spawn(|| file.sync_data()));
+            // Without a thread all is synced at the end.
+            self.syncing =
+                thread::Builder::new().spawn_scoped(self.scope, || file.sync_data()).ok();
         }
         Ok(count)
     }

@@ -101,18 +101,17 @@ pub fn write_lists(
 ) -> io::Result<()> {
     let mut text = vec![];
     frame.serialize(&mut json(&mut text))?;
-    let (mut rest, begins) = (&text[..], format!("\"{name}\":["));
+    let text = String::from_utf8(text).map_err(io::Error::other)?;
+    let (mut rest, empty) = (&*text, format!("\"{name}\":[]"));
     for list in lists {
-        let is_empty = |at: &[u8]| at.starts_with(begins.as_bytes()) && at.ends_with(b"]");
-        let at = rest.windows(begins.len() + 1).position(is_empty);
-        let at =
-            at.ok_or_else(|| io::Error::other(format!("the frame has no empty list {name}")))?;
-        let (before, after) = rest.split_at(at + begins.len());
-        out.write_all(before)?;
+        let parts = rest.split_once(&empty);
+        let (before, after) = parts.ok_or_else(|| io::Error::other(format!("no {empty}")))?;
+        write!(out, "{before}\"{name}\":[")?;
         write_elements(out, list, threads)?;
+        out.write_all(b"]")?;
         rest = after;
     }
-    out.write_all(rest)
+    out.write_all(rest.as_bytes())
 }
 
 /// The threads take the elements in turn, and this one writes them in their order.

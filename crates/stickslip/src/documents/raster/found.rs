@@ -62,14 +62,7 @@ impl RasterDocument {
             format_version: *format_version,
             software: software.clone(),
             parameters: parameters.clone(),
-            answer: RasterFound {
-                lines: vec![],
-                history,
-                regime: answer.regime,
-                pattern: answer.pattern,
-                volume: answer.volume,
-                work: answer.work,
-            },
+            answer: RasterFound { lines: vec![], history, ..*answer },
             remarks: remarks.clone(),
             physical: physical.clone(),
         }

@@ -4,6 +4,7 @@ mod zeros;
 
 use super::series::Series;
 use super::values::{BLOCK, Block, Table};
+use crate::collocation::legendre;
 use crate::elementary::{LARGEST, exp, exp_within, ln};
 use multiversion::multiversion;
 use std::sync::{LazyLock, OnceLock};
@@ -147,16 +148,6 @@ impl Rule {
         let weights = weights.iter().map(|weight| weight / sum).collect();
         Self { table: Table::of_parts(&nodes), nodes, weights }
     }
-}
-
-/// The Legendre polynomials P_{n-1} and P_n.
-fn legendre(n: usize, x: f64) -> (f64, f64) {
-    let (mut last, mut here) = (1.0, x);
-    for k in 1..n {
-        let k = k as f64;
-        (last, here) = (here, ((2.0 * k + 1.0) * x * here - k * last) / (k + 1.0));
-    }
-    (last, here)
 }
 
 #[cfg(test)]

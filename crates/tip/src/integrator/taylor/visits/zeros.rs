@@ -36,8 +36,8 @@ pub(super) const ZEROS: [&[f64]; COUNTS.len()] = [
 
 #[cfg(test)]
 mod tests {
-    use super::super::legendre;
     use super::*;
+    use crate::collocation::legendre;
     use crate::roots::zero_between;
 
     /// To the last bit, by a search between points x = cos(kπ/n), which alternate with the zeros.

@@ -32,6 +32,18 @@ pub(crate) const fn inverse_factorials<const N: usize>() -> [f64; N] {
     inverse
 }
 
+/// The larger of two numbers, the second one if the first is NaN: one operation, where [`f64::max`] takes five.
+#[inline(always)]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers, the second one if the first is NaN.
+#[inline(always)]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// e^x with an error of one unit in the last place.
 #[inline]
 pub fn exp(x: f64) -> f64 {

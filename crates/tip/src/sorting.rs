@@ -1,6 +1,8 @@
 //! Sorting by a number, and the least and the largest of numbers. The sort itself is compiled once, for all kinds of
 //! items: a copy of it for each takes as long to compile as the code that uses it.
 
+use crate::elementary::{larger, smaller};
+
 /// Sorts numbers, the least first, as [`f64::total_cmp`] orders them.
 pub fn sort_numbers(numbers: &mut [f64]) {
     numbers.sort_by(f64::total_cmp);
@@ -8,9 +10,30 @@ pub fn sort_numbers(numbers: &mut [f64]) {
 
 /// The least and the largest of these numbers; ∞ and -∞ if there are none.
 pub fn ends(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    let wider = |(low, high): (f64, f64), number: f64| (low.min(number), high.max(number));
+    let wider = |(low, high), number| (smaller(number, low), larger(number, high));
     numbers.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), wider)
 }
+
+/// The least and the largest of these numbers, as [`ends`], which compares each with all before.
+#[inline]
+pub(crate) fn ends_of(numbers: &[f64]) -> (f64, f64) {
+    let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+    let (groups, rest) = numbers.as_chunks::<LANES>();
+    for group in groups {
+        for i in 0..LANES {
+            low[i] = smaller(group[i], low[i]);
+            high[i] = larger(group[i], high[i]);
+        }
+    }
+    for (i, number) in rest.iter().enumerate() {
+        low[i] = smaller(*number, low[i]);
+        high[i] = larger(*number, high[i]);
+    }
+    let low = smaller(smaller(low[0], low[1]), smaller(low[2], low[3]));
+    (low, larger(larger(high[0], high[1]), larger(high[2], high[3])))
+}
+
+const LANES: usize = 4;
 
 /// Sorts items by a number, the least first. Items with the same number keep their order.
 pub fn sort_by_number<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {

@@ -1,8 +1,10 @@
 //! The end of a step: at a representable time, exactly at a required end, and where the tip leaves the stretch.
 
 use super::Integrator;
+use crate::elementary::{larger, smaller};
 use crate::relief::Piece;
 use crate::roots::zero_between;
+use crate::sorting::ends_of;
 
 /// Largest extension of a step, in roundings of t, that lets it end at a required time.
 const MOST_ROUNDINGS: usize = 64;
@@ -12,11 +14,11 @@ const MOST_ROUNDINGS: usize = 64;
 pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
     // The difference of two representable times: t loses nothing as it grows.
     let mut h = (t + h) - t;
-    let roundings = |t: f64| 4.0 * f64::EPSILON * t.abs().max(1e-3);
+    let roundings = |t: f64| 4.0 * f64::EPSILON * larger(t.abs(), 1e-3);
     let least = roundings(t);
     // Near t = 0 no such difference may end just there: then a rounding beyond, as no step could
     // make up for a rounding short.
-    let rounding = least.max(roundings(end));
+    let rounding = larger(roundings(end), least);
     let is_short = |h: f64| t + h < end && end - (t + h) <= rounding;
     for _ in 0..MOST_ROUNDINGS {
         if !is_short(h) {
@@ -34,8 +36,8 @@ pub(crate) fn landing(t: f64, h: f64, end: f64) -> Option<f64> {
 impl Integrator<'_> {
     /// Latest end of the next step.
     pub(super) fn next_end(&self) -> f64 {
-        let breaks = self.force.next_break(self.t).min(self.support.next_break(self.t));
-        breaks.min(self.until)
+        let breaks = smaller(self.force.next_break(self.t), self.support.next_break(self.t));
+        smaller(breaks, self.until)
     }
 
     /// As [`leaves`], for the tip and its stretch.
@@ -58,8 +60,12 @@ pub(crate) fn leaves(
     at: impl Fn(f64) -> f64,
 ) -> Option<f64> {
     // A tip that already stands beyond an end, within the slack, has its end where it stands.
-    let (low, high) = ((low - x).min(0.0), (high - x).max(0.0));
+    let (low, high) = (smaller(low - x, 0.0), larger(high - x, 0.0));
     let outside = |d: f64| d < low - slack || d > high + slack;
+    let (least, most) = ends_of(displacement);
+    if !outside(least) && !outside(most) {
+        return None;
+    }
     let after = (0..nodes.len()).find(|&i| outside(displacement[i]))?;
     // Nearer than where the tip is found outside, farther than where it starts: the sign changes
     // between the two, whatever the nodes between them do.

@@ -9,9 +9,6 @@ pub const ROOM: usize = 32;
 /// [`Policy::derivatives`](crate::memory::Policy::derivatives).
 #[derive(Debug, Clone)]
 pub struct Derivatives {
-    /// Derivatives of f at 0, on the side of the past: the contribution to `past` of a unit of time spent at the
-    /// present position.
-    pub of_tip: [f64; ROOM],
     /// ∫ f⁽ⁿ⁾(tip - x0(t'))dt' over the past.
     pub past: [f64; ROOM],
     /// The farthest-forward point of the past, as a displacement from the tip; -∞ without a past.
@@ -54,7 +51,6 @@ impl SteadyPast {
 impl Derivatives {
     /// No past.
     pub fn nothing() -> Self {
-        let (of_tip, past, farthest) = ([0.0; ROOM], [0.0; ROOM], f64::NEG_INFINITY);
-        Self { of_tip, past, farthest, retreat: 0.0, room: vec![] }
+        Self { past: [0.0; ROOM], farthest: f64::NEG_INFINITY, retreat: 0.0, room: vec![] }
     }
 }

@@ -4,7 +4,7 @@ mod retreats;
 mod saved;
 
 use super::choice::{CROSSOVER_NODES, CROSSOVER_STEPS, MemoryChoice};
-use super::derivatives::{Derivatives, SteadyPast};
+use super::derivatives::{Derivatives, ROOM, SteadyPast};
 use super::direct;
 use super::fading::Fading;
 use super::fft::{Fft, Lattice};
@@ -240,17 +240,17 @@ impl Policy {
         }
     }
 
-    /// Computes `count` derivatives of the groove at the tip, including those of a steady past before the first node;
-    /// false if no series is valid at every point that the next step may reach.
+    /// Computes `count` derivatives of the groove at the tip, including those of a steady past before the first node.
+    /// Returns the derivatives of f at 0, on the side of the past, which a unit of time spent at the present position adds
+    /// to them; `None` if no series is valid at every point that the next step may reach.
     pub fn derivatives(
         &self,
         steady: Option<&SteadyPast>,
         count: usize,
         told: &mut Derivatives,
-    ) -> bool {
-        let Now::Modes(modes, Retreats { fft: None, .. }) = &self.now else { return false };
-        modes.derivatives(steady, self.fading.left().unwrap_or(1.0), count, told);
-        true
+    ) -> Option<&[f64; ROOM]> {
+        let Now::Modes(modes, Retreats { fft: None, .. }) = &self.now else { return None };
+        Some(modes.derivatives(steady, self.fading.left().unwrap_or(1.0), count, told))
     }
 }
 

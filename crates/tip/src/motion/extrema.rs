@@ -1,6 +1,7 @@
 //! The latest maxima and minima of l(t).
 
 use crate::collocation::{RADAU, apply};
+use crate::elementary::{larger, smaller};
 use crate::roots::zero_between;
 use crate::state::{Damaged, Reader, State};
 use crate::{Step, Trajectory};
@@ -119,9 +120,7 @@ impl Turn {
 fn turns(step: &Step, r: f64, mut found: impl FnMut(Turn)) {
     let (radau, advance) = (&*RADAU, r * step.h);
     let slopes = radau.slopes(&step.displacement);
-    let larger = |a: f64, b: f64| if b > a { b } else { a };
-    let smaller = |a: f64, b: f64| if b < a { b } else { a };
-    let ends = |(low, high), slope: &f64| (smaller(low, *slope), larger(high, *slope));
+    let ends = |(low, high), slope: &f64| (smaller(*slope, low), larger(*slope, high));
     let (slowest, fastest) = slopes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
     // Most steps have none.
     if slowest > advance || fastest < advance {

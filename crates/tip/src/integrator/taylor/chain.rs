@@ -31,7 +31,10 @@ pub(crate) const INVERSE: [f64; MOST_ORDER + 1] = {
 
 /// The terms of the equation of motion during a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Acting {
+pub(super) struct Acting<'a> {
+    pub(super) alpha: f64,
+    /// Derivatives of f at 0, on the side of the past, from the 0th on.
+    pub(super) of_tip: &'a [f64; ROOM],
     /// κ: 1, or 0 without a spring.
     pub(super) spring: f64,
     /// R', velocity of the support.
@@ -54,8 +57,6 @@ pub(super) struct Chain {
     rows: Box<[Row; MOST_ORDER]>,
     /// Index of `g_1` in a row.
     slope: usize,
-    /// Source terms α f⁽ⁿ⁾(0) of the entries of a row, from index 1 on.
-    sources: Row,
     /// Coefficients of the force.
     pub(super) force: [f64; MOST_ORDER],
     /// Coefficients of the velocity, the highest first, so that a product of two series is a sum in the order of both
@@ -76,7 +77,6 @@ impl Chain {
             order: 0,
             rows: Box::new([[0.0; WIDTH]; MOST_ORDER]),
             slope: 0,
-            sources: [0.0; WIDTH],
             force: [0.0; MOST_ORDER],
             velocity: [0.0; MOST_ORDER],
             weight: [0.0; MOST_ORDER + LANES],
@@ -112,13 +112,13 @@ impl Chain {
         self.rows[0][0]
     }
 
-    /// Sets the data at the start of the series, derivatives from the 0th on: `past` of the groove divided by α,
-    /// `of_tip` of f at 0, `relief` of u0.
+    /// Sets the data at the start of the series, derivatives from the 0th on: `past` of the groove divided by α, and
+    /// `relief` of u0.
     pub(super) fn start(
         &mut self,
         (order, with_height): (usize, bool),
         alpha: f64,
-        (past, of_tip): (&[f64; ROOM], &[f64; ROOM]),
+        past: &[f64; ROOM],
         relief: &[f64],
     ) {
         if order != self.order {
@@ -128,11 +128,9 @@ impl Chain {
         }
         self.slope = usize::from(with_height);
         let from = 1 - self.slope;
-        let first = &mut self.rows[0];
+        let first = &mut self.rows[0][..=order - from];
         first.iter_mut().zip(&past[from..]).for_each(|(g, past)| *g = alpha * past);
         first.iter_mut().zip(relief.iter().skip(from)).for_each(|(g, relief)| *g -= relief);
-        let sources = self.sources[1..].iter_mut().zip(&of_tip[from..]);
-        sources.for_each(|(source, of_tip)| *source = alpha * of_tip);
     }
 
     /// Computes the series from the data of [`start`](Self::start) and from the force.
@@ -208,31 +206,35 @@ impl Chain {
         // An index: of iterators over rows so long the lengths would be divisions.
         let mut i = 1;
         while other == 1 && i + 1 < k {
-            add(&mut sums[0], &rows[i], factors[i]);
-            add(&mut sums[1], &rows[i + 1], factors[i + 1]);
+            add(&mut sums[0], groups(&rows[i][1..]), factors[i]);
+            add(&mut sums[1], groups(&rows[i + 1][1..]), factors[i + 1]);
             i += 2;
         }
         while i < k {
-            add(&mut sums[0], &rows[i], factors[i]);
+            add(&mut sums[0], groups(&rows[i][1..]), factors[i]);
             i += 1;
         }
-        // What has only just been found comes last: nothing else waits for it.
-        if k > 0 {
-            add(&mut sums[0], &rows[k], factors[k]);
-        }
         if k == 0 || acting.depth.is_some() {
-            add(&mut sums[other], &self.sources, self.weight[MOST_ORDER - 1 - k]);
+            let weight = acting.alpha * self.weight[MOST_ORDER - 1 - k];
+            add(&mut sums[other], groups(&acting.of_tip[1 - self.slope..]), weight);
         }
-        add(&mut sums[other], &rows[0], factors[0]);
-        let (before, next) = (rows[k].as_chunks::<LANES>().0, INVERSE[k + 1]);
-        let new = after[0].as_chunks_mut::<LANES>().0.iter_mut();
-        let [even, odd] = &sums;
-        for (((new, old), even), odd) in new.zip(before).zip(even).zip(odd) {
+        if acting.healing > 0.0 {
+            add(&mut sums[other], groups(&rows[k]), -acting.healing);
+        }
+        // What has only just been found comes last, already divided by k + 1: little waits for it.
+        let next = INVERSE[k + 1];
+        let (of_last, of_first) = (if k > 0 { next * factors[k] } else { 0.0 }, next * factors[0]);
+        let (last, first) = (groups::<GROUPS>(&rows[k][1..]), groups::<GROUPS>(&rows[0][1..]));
+        // Not stored entry by entry: compilers cannot see that these are three rows.
+        let mut row = [[0.0; LANES]; GROUPS];
+        for g in 0..GROUPS {
             for i in 0..LANES {
-                let sum = if GROUPS <= FEW { even[i] + odd[i] } else { even[i] };
-                new[i] = next * (sum - acting.healing * old[i]);
+                let (even, odd) = (sums[0][g][i], sums[1][g][i]);
+                let sum = if GROUPS <= FEW { even + odd } else { even };
+                row[g][i] = (next * sum + of_last * last[g][i]) + of_first * first[g][i];
             }
         }
+        after[0][..LANES * GROUPS].copy_from_slice(row.as_flattened());
     }
 
     /// Computes the next coefficient of w by `w' = rate w g_0'`.
@@ -272,10 +274,20 @@ fn run(chain: &mut Chain, acting: &Acting) {
 /// Largest number of groups of lanes in a short row.
 const FEW: usize = 2;
 
-/// Adds a row, from its second entry on, times a factor.
+/// The groups of lanes with which this part of a row begins.
 #[inline(always)]
-fn add<const GROUPS: usize>(sum: &mut [[f64; LANES]; GROUPS], row: &Row, factor: f64) {
-    for (sum, row) in sum.iter_mut().zip(row[1..].as_chunks::<LANES>().0) {
+fn groups<const GROUPS: usize>(row: &[f64]) -> &[[f64; LANES]; GROUPS] {
+    row.as_chunks().0.first_chunk().expect("rows have room for all groups")
+}
+
+/// Adds a row times a factor.
+#[inline(always)]
+fn add<const GROUPS: usize>(
+    sum: &mut [[f64; LANES]; GROUPS],
+    row: &[[f64; LANES]; GROUPS],
+    factor: f64,
+) {
+    for (sum, row) in sum.iter_mut().zip(row) {
         for (sum, entry) in sum.iter_mut().zip(row) {
             *sum += factor * entry;
         }

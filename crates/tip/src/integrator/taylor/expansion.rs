@@ -13,9 +13,8 @@ impl Integrator<'_> {
         let Some(count) = known else { return false };
         let steady = self.steady_past();
         let derivatives = &mut self.taylor.derivatives;
-        if !self.memory.derivatives(steady.as_ref(), order + 1, derivatives) {
-            return false;
-        }
+        let of_tip = self.memory.derivatives(steady.as_ref(), order + 1, derivatives);
+        let Some(of_tip) = of_tip else { return false };
         if let Some(steady) = steady {
             derivatives.farthest = derivatives.farthest.max(-steady.distance);
         }
@@ -26,10 +25,9 @@ impl Integrator<'_> {
         let age = self.t - self.start;
         let relief = self.model.wider().left_after(age);
         let alpha = self.model.alpha();
-        let groove = (&derivatives.past, &derivatives.of_tip);
         let first = (order, self.corner.is_some());
         jet[..count].iter_mut().for_each(|jet| *jet *= relief);
-        self.taylor.chain.start(first, alpha, groove, &jet[..count]);
+        self.taylor.chain.start(first, alpha, &derivatives.past, &jet[..count]);
         let depth_now = self.taylor.chain.depth_now();
         let depth = self.corner.as_mut().map(|corner| corner.stand_at(-depth_now));
         if !self.force.series(self.t, &mut self.taylor.chain.force[..order]) {
@@ -37,6 +35,8 @@ impl Integrator<'_> {
         }
         let wider = self.model.wider();
         let acting = Acting {
+            alpha,
+            of_tip,
             spring: if wider.spring { 1.0 } else { 0.0 },
             support: self.support.velocity(self.t),
             healing: wider.healing_rate(),

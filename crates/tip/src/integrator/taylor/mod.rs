@@ -17,10 +17,11 @@ pub(crate) mod visits;
 use super::Integrator;
 use super::corner::Corner;
 use super::landing::landing;
-use crate::elementary::exp;
+use crate::elementary::{exp, larger, smaller};
 use crate::history::Step;
 use crate::memory::Derivatives;
 use crate::model::Model;
+use crate::sorting::ends_of;
 use crate::state::{Damaged, Reader, State};
 use crate::step;
 use chain::Chain;
@@ -148,11 +149,12 @@ impl Integrator<'_> {
         let Taylor { chain, limits, switch, .. } = &mut self.taylor;
         let (series, wider) = (chain.displacement(), self.model.wider());
         let heights = self.corner.as_ref().map(|corner| (corner, chain.height()));
-        let over = limits.accurate(series, heights, wider).min(self.force.longest_step(self.t));
+        let over =
+            smaller(limits.accurate(series, heights, wider), self.force.longest_step(self.t));
         let longest = limits.farthest(wider.healing_time.map_or(0.0, |time| over / time));
         let (over, mut outlook) = plan::within(over, longest, |over| Outlook::over(series, over));
         let of_heights = heights::steepness(self.corner.as_ref(), chain.height(), over);
-        outlook.steepest = outlook.steepest.max(of_heights);
+        outlook.steepest = larger(of_heights, outlook.steepest);
         let stiffness = step::fastest(1.0 - chain.curvature(), wider.inertia);
         limits.plan(switch, (over, outlook), stiffness, end - self.t)
     }
@@ -195,8 +197,14 @@ impl Integrator<'_> {
         }
         let derivatives = &self.taylor.derivatives;
         let mut farthest = derivatives.farthest;
+        // Most steps are far from any limit, which the least and the largest position tell.
+        let (least, most) = ends_of(positions);
+        let is_finite = least <= most && (most - least).is_finite();
+        if is_finite && least >= larger(most, farthest) - derivatives.retreat {
+            return None;
+        }
         for (part, position) in parts.iter().zip(positions) {
-            farthest = farthest.max(*position);
+            farthest = larger(*position, farthest);
             // A comparison with NaN is false.
             let is_held = *position >= farthest - derivatives.retreat;
             if !(is_held && position.is_finite()) {
@@ -215,10 +223,10 @@ impl Integrator<'_> {
             positions.as_chunks().0.iter().copied(),
             heights,
         ) {
-            if let Some(corner) = &mut self.corner {
-                corner.arrive(&step);
-            }
             self.taylor.pieces.push(step);
+        }
+        if let Some(corner) = &mut self.corner {
+            self.taylor.pieces.left().iter().for_each(|step| corner.arrive(step));
         }
         self.taylor.switch.made_series();
         self.work.series += 1;

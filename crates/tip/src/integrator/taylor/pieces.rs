@@ -1,9 +1,10 @@
 //! A long polynomial divided into steps: each is the interpolant of degree s (the number of stages) on a piece.
 
+use super::chain::INVERSE;
 use super::heights::Along;
-use super::length;
 use super::values::{BLOCK, Block, Table};
 use crate::collocation::{RADAU, STAGES, Stages};
+use crate::elementary::pow;
 use crate::history::Step;
 use crate::state::{Damaged, Reader, State};
 use std::sync::OnceLock;
@@ -95,8 +96,30 @@ pub(crate) fn steps(
 /// The longest fraction of a step that can be a piece with an interpolation error of at most `error`. The largest
 /// divided difference of the step is `steepest`.
 pub(crate) fn longest(steepest: f64, error: f64) -> f64 {
-    length::root(error, RADAU.interpolation_bound(steepest), STAGES + 1)
+    pow(error / RADAU.interpolation_bound(steepest), INVERSE[STAGES + 1])
 }
+
+/// The least number of pieces of a step with an interpolation error of at most `error`; more than the largest number if
+/// that does not suffice.
+pub(crate) fn fewest(steepest: f64, error: f64) -> usize {
+    let bound = RADAU.interpolation_bound(steepest);
+    1 + SMALLER_BY.iter().filter(|smaller| bound > error * **smaller).count()
+}
+
+/// Factor by which the interpolation error of n pieces is smaller than that of one, from n = 1 on.
+const SMALLER_BY: [f64; MOST_PIECES] = {
+    let mut factors = [1.0; MOST_PIECES];
+    let mut n = 1;
+    while n <= MOST_PIECES {
+        let mut power = 0;
+        while power < STAGES + 1 {
+            factors[n - 1] *= n as f64;
+            power += 1;
+        }
+        n += 1;
+    }
+    factors
+};
 
 /// The nodes of all pieces of a step, as fractions of the step.
 #[derive(Debug)]

@@ -10,6 +10,7 @@ use super::switch::Switch;
 use super::values::Outlook;
 use super::visits::Visits;
 use crate::Wider;
+use crate::elementary::{larger, smaller};
 use crate::step::longest_displacement;
 
 pub(crate) struct Plan {
@@ -77,27 +78,28 @@ impl Limits {
             for (k, c) in along.coefficients().iter().enumerate() {
                 coasting[k] = mass * k as f64 * c;
             }
-            over = over.min(length(&coasting[1..=self.order], self.error));
+            over = smaller(length(&coasting[1..=self.order], self.error), over);
         }
         if let Some((corner, height)) = heights {
-            over = over.min(length_by_heights(corner, height, self.error));
+            over = smaller(length_by_heights(corner, height, self.error), over);
         }
         if let Some(time) = wider.healing_time {
             // The quadrature rules for nodes have a limited order, and beyond the order of the series the terms of
             // e^{-t/T} must decrease by half from one to the next.
-            over = over.min(self.visits.most_healing().min(0.5 * self.order as f64) * time);
+            let times = smaller(0.5 * self.order as f64, self.visits.most_healing());
+            over = smaller(times * time, over);
         }
         over
     }
 
     /// The largest displacement in a step of this number of healing times.
     pub(crate) fn farthest(&self, healing: f64) -> f64 {
-        (FARTHEST * self.reach).min(self.visits.farthest(healing))
+        smaller(self.visits.farthest(healing), FARTHEST * self.reach)
     }
 
     /// The largest time of a step of collocation at this speed: it leads no farther than a few pieces either.
     pub(crate) fn longest_stages(&self, speed: f64) -> f64 {
-        self.reach / (REACH_OF_PIECE * speed.max(f64::MIN_POSITIVE))
+        self.reach / (REACH_OF_PIECE * larger(speed, f64::MIN_POSITIVE))
     }
 
     /// The plan of a step that ends within this distance in time, from the properties of its series over the length
@@ -109,16 +111,22 @@ impl Limits {
         stiffness: f64,
         distance: f64,
     ) -> Option<Plan> {
-        let part = pieces::longest(outlook.steepest, self.of_piece);
-        let piece = over * part.min(self.reach / outlook.moved.abs().max(f64::MIN_POSITIVE));
-        let length = over.min(MOST_PIECES as f64 * piece);
+        let fewest = pieces::fewest(outlook.steepest, self.of_piece);
+        let pieces = fewest.min(MOST_PIECES).max(count(outlook.moved.abs(), self.reach));
+        let longest = if fewest > MOST_PIECES {
+            over * MOST_PIECES as f64 * pieces::longest(outlook.steepest, self.of_piece)
+        } else {
+            over
+        };
         let fastest = outlook.fastest / over;
         let most = self.longest_stages(fastest);
-        if switch.leaves(stiffness * length, stiffness * most, self.order) {
+        if switch.leaves(stiffness * longest, stiffness * most, self.order) {
             return None;
         }
-        let length = to_end(length, distance);
-        Some(Plan { length, pieces: count(length, piece), fastest })
+        let length = to_end(longest, distance);
+        let is_shorter = length < longest;
+        let fewer = if is_shorter { count(pieces as f64 * length, longest) } else { pieces };
+        Some(Plan { length, pieces: fewer.min(pieces), fastest })
     }
 }
 

@@ -3,7 +3,7 @@
 pub(crate) const MOST_ORDER: usize = 28;
 const LANES: usize = 4;
 /// Coefficients, with room to fill the lanes.
-const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
+pub(crate) const WIDTH: usize = (MOST_ORDER + 1).next_multiple_of(LANES);
 
 /// k at index k.
 const ORDERS: [f64; WIDTH] = {
@@ -31,6 +31,12 @@ impl Series {
     /// The coefficients, from that of the power 0 on.
     pub(crate) fn coefficients(&self) -> &[f64] {
         &self.coefficients[..=self.order]
+    }
+
+    /// The coefficients in groups of four, the last one filled up with 0.
+    #[inline(always)]
+    pub(crate) fn groups(&self) -> &[[f64; LANES]] {
+        &self.coefficients.as_chunks().0[..(self.order + 1).div_ceil(LANES)]
     }
 
     /// The coefficient of the power k.

@@ -1,8 +1,9 @@
 //! Values of a series at fixed fractions of a step, by a table of powers. The sums run in SIMD lanes, whereas Horner's
 //! rule would wait for each product.
 
-use super::series::{MOST_ORDER, Series};
+use super::series::{MOST_ORDER, Series, WIDTH};
 use crate::collocation::STAGES;
+use crate::elementary::larger;
 use multiversion::multiversion;
 use std::sync::LazyLock;
 
@@ -14,13 +15,13 @@ pub(crate) type Block = [f64; BLOCK];
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
     sums: usize,
-    blocks: Vec<[Block; MOST_ORDER + 1]>,
+    blocks: Vec<[Block; WIDTH]>,
 }
 
 impl Table {
     /// A table in which the factor of the k-th coefficient in sum n is `of(n, k)`.
     pub(crate) fn new(sums: usize, of: impl Fn(usize, usize) -> f64) -> Self {
-        let entry = |n: usize, k: usize| if n < sums { of(n, k) } else { 0.0 };
+        let entry = |n: usize, k: usize| if n < sums && k <= MOST_ORDER { of(n, k) } else { 0.0 };
         let row = |b: usize, k: usize| std::array::from_fn(|i| entry(b * BLOCK + i, k));
         let block = |b: usize| std::array::from_fn(|k| row(b, k));
         Self { sums, blocks: (0..sums.div_ceil(BLOCK)).map(block).collect() }
@@ -52,25 +53,20 @@ fn powers(x: f64) -> [f64; MOST_ORDER + 1] {
     powers
 }
 
-/// Even and odd rows are summed separately, in the same order on every machine.
+/// Every fourth row goes to the same sum: a sum waits for each of its terms. The order is the same on every machine.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn sums(blocks: &[[Block; MOST_ORDER + 1]], series: &Series, room: &mut [Block]) {
-    let (pairs, rest) = series.coefficients().as_chunks::<2>();
+fn sums(blocks: &[[Block; WIDTH]], series: &Series, room: &mut [Block]) {
     for (block, sums) in blocks.iter().zip(room) {
-        let (mut even, mut odd) = ([0.0; BLOCK], [0.0; BLOCK]);
-        let (rows, _) = block.as_chunks::<2>();
-        for ([first, second], [a, b]) in rows.iter().zip(pairs) {
+        let (mut a, mut b, mut c, mut d) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        for (rows, factors) in block.as_chunks::<4>().0.iter().zip(series.groups()) {
             for i in 0..BLOCK {
-                even[i] += a * first[i];
-                odd[i] += b * second[i];
+                a[i] += factors[0] * rows[0][i];
+                b[i] += factors[1] * rows[1][i];
+                c[i] += factors[2] * rows[2][i];
+                d[i] += factors[3] * rows[3][i];
             }
         }
-        for (row, coefficient) in block[2 * pairs.len()..].iter().zip(rest) {
-            for i in 0..BLOCK {
-                even[i] += coefficient * row[i];
-            }
-        }
-        *sums = std::array::from_fn(|i| even[i] + odd[i]);
+        *sums = std::array::from_fn(|i| (a[i] + b[i]) + (c[i] + d[i]));
     }
 }
 
@@ -94,7 +90,7 @@ impl Outlook {
     pub(crate) fn of(series: &Series) -> Self {
         let mut room = [[0.0; BLOCK]];
         let sums = OUTLOOK.sums(series, &mut room);
-        let largest = |sums: &[f64]| sums.iter().fold(0.0, |most: f64, sum| most.max(sum.abs()));
+        let largest = |sums: &[f64]| sums.iter().fold(0.0, |most, sum| larger(sum.abs(), most));
         let (fastest, steepest) = (largest(&sums[1..4]), largest(&sums[4..]));
         Self { moved: sums[0], fastest, steepest }
     }

@@ -6,8 +6,9 @@ mod saved;
 use super::fit::Fit;
 use super::local::{HIGHEST_DEGREE, LocalGroove};
 use super::term::Term;
-use crate::elementary::{self, ln, norm};
+use crate::elementary::{self, larger, ln, norm};
 use crate::exponential::of_lanes as exp;
+use crate::sorting::ends_of;
 use powers::Powers;
 use std::sync::Arc;
 
@@ -69,7 +70,8 @@ impl Tables {
 
     /// The degree that expands every `e^{s_j y}` for |y| ≤ radius; `None` if no degree suffices.
     pub(crate) fn degree(&self, radius: f64) -> Option<usize> {
-        let k = self.lengths.partition_point(|length| *length < radius);
+        // Not by halving, where each comparison would wait for the one before.
+        let k = self.lengths.iter().filter(|length| **length < radius).count();
         (k < self.lengths.len()).then_some(k + LOWEST_DEGREE)
     }
 
@@ -83,7 +85,8 @@ impl Tables {
     ) {
         let Some(&end) = position.last() else { return };
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-        let radius = position.iter().fold(half.abs(), |m: f64, p| m.max((middle - p).abs()));
+        let (low, high) = ends_of(position);
+        let radius = larger(larger(high - middle, middle - low), half.abs());
         let degree = self.degree(radius);
         if degree.is_some() || position.len() == 1 {
             return each(ExpandedPart { position, weights, middle, half, degree });

@@ -23,10 +23,10 @@ pub(crate) use prepared::Prepared;
 pub use term::Term;
 pub use window::Retreat;
 
-use super::derivatives::{Derivatives, SteadyPast};
+use super::derivatives::{Derivatives, ROOM, SteadyPast};
 use super::groove::Groove;
-use crate::elementary::complex_exp;
-use crate::sorting::ends;
+use crate::elementary::{complex_exp, larger};
+use crate::sorting::{ends, ends_of};
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
@@ -98,7 +98,7 @@ impl Modes {
     /// Records positions without adding them to the state, while it is not in use.
     pub(super) fn pass(&mut self, position: &[f64]) {
         let Some(moved) = position.last() else { return };
-        self.farthest = position.iter().copied().fold(self.farthest, f64::max) - moved;
+        self.farthest = larger(ends_of(position).1, self.farthest) - moved;
         self.groove.forget();
     }
 
@@ -146,7 +146,7 @@ impl Modes {
         left: f64,
         count: usize,
         told: &mut Derivatives,
-    ) {
+    ) -> &[f64; ROOM] {
         (told.farthest, told.retreat) = (self.farthest, self.fit.retreat());
         let mut room = std::mem::take(&mut told.room);
         self.bank.all_states(left, &mut room);
@@ -158,8 +158,9 @@ impl Modes {
                 z[1] += steady.im;
             }
         }
-        self.prepared.powers.derivatives(&room, count, told);
+        self.prepared.powers.derivatives(&room, count, &mut told.past);
         told.room = room;
+        &self.prepared.powers.of_tip
     }
 
     pub(super) fn save(&self, state: &mut State) {

@@ -4,7 +4,7 @@
 //! `Σ_j Re(w_j s_j^{n-1} z_j)`: a table of real numbers times the state.
 
 use super::term::Term;
-use crate::memory::derivatives::{Derivatives, ROOM};
+use crate::memory::derivatives::ROOM;
 use multiversion::multiversion;
 
 const LANES: usize = 4;
@@ -39,9 +39,8 @@ impl Powers {
 
     /// Computes the first `count` derivatives, and further ones that fill the lanes. `states` contains real and
     /// imaginary parts in turn.
-    pub(super) fn derivatives(&self, states: &[f64], count: usize, told: &mut Derivatives) {
-        told.of_tip = self.of_tip;
-        sums(&self.rows, states, count, &mut told.past);
+    pub(super) fn derivatives(&self, states: &[f64], count: usize, past: &mut Row) {
+        sums(&self.rows, states, count, past);
     }
 }
 
@@ -58,16 +57,24 @@ fn sums(rows: &[Row], states: &[f64], count: usize, past: &mut Row) {
     }
 }
 
-/// Sums of rows times states, in the order of the terms: the same bits on every machine.
+/// Sums of rows times states, of real and of imaginary parts, in the order of the terms: the same bits on every machine.
 #[inline(always)]
 fn groups<const GROUPS: usize>(rows: &[Row], states: &[f64], past: &mut Row) {
-    let mut sums = [[0.0; LANES]; GROUPS];
-    for (row, state) in rows.iter().zip(states) {
-        for (sum, row) in sums.iter_mut().zip(row.as_chunks::<LANES>().0) {
-            for (sum, power) in sum.iter_mut().zip(row) {
-                *sum += power * state;
+    let mut sums = [[[0.0; LANES]; GROUPS]; 2];
+    for (rows, states) in rows.as_chunks::<2>().0.iter().zip(states.as_chunks::<2>().0) {
+        for ((sums, row), state) in sums.iter_mut().zip(rows).zip(states) {
+            for (sum, row) in sums.iter_mut().zip(row.as_chunks::<LANES>().0) {
+                for (sum, power) in sum.iter_mut().zip(row) {
+                    *sum += power * state;
+                }
             }
         }
     }
-    past[..LANES * GROUPS].copy_from_slice(sums.as_flattened());
+    let [real, imaginary] = &sums;
+    let both = real.iter().zip(imaginary);
+    for (past, (real, imaginary)) in past.as_chunks_mut::<LANES>().0.iter_mut().zip(both) {
+        for i in 0..LANES {
+            past[i] = real[i] + imaginary[i];
+        }
+    }
 }

@@ -67,7 +67,6 @@ fn the_series_is_that_of_the_exponentials() {
     ];
     for (healing, inertia, depth) in laws {
         let (spring, support, extension) = (1.0, 0.8, 1.7);
-        let acting = Acting { spring, support, healing, inertia, extension, depth };
         let mut chain = Chain::new();
         // Left over from a step before.
         chain.rows.iter_mut().flatten().for_each(|entry| *entry = 7.0);
@@ -77,7 +76,10 @@ fn the_series_is_that_of_the_exponentials() {
             past[n] = modes().iter().map(|m| (power(m) * m[2]).re).sum::<f64>();
             of_tip[n] = modes().iter().map(|m| power(m).re).sum::<f64>();
         }
-        chain.start((ORDER, depth.is_some()), ALPHA, (&past, &of_tip), &[]);
+        let alpha = ALPHA;
+        let of_tip = &of_tip;
+        let acting = Acting { alpha, of_tip, spring, support, healing, inertia, extension, depth };
+        chain.start((ORDER, depth.is_some()), ALPHA, &past, &[]);
         chain.force[..ORDER].copy_from_slice(&force);
         let mut plain = chain.clone();
         chain.run(&acting);

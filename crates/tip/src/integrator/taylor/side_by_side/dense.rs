@@ -5,10 +5,9 @@
 //! with these derivatives errs far less than that of degree 6 through its values at the nodes, in which steps are stored.
 
 use super::super::chain::INVERSE;
-use super::super::length::{exp2, log2};
 use super::super::pieces::MOST_PIECES;
 use super::super::plan::MOST_SHORTENINGS;
-use super::lanes::{LANES, Lanes};
+use super::lanes::{LANES, Lanes, exp2, log2};
 use crate::collocation::{RADAU, STAGES};
 
 /// A value and four derivatives over factorials, at one point.

@@ -1,5 +1,6 @@
 //! Numbers of several motions, one in each SIMD lane.
 
+use crate::elementary::{larger, smaller};
 use std::ops::{Add, AddAssign, Mul, MulAssign, Sub};
 
 pub(super) const LANES: usize = 8;
@@ -46,6 +47,32 @@ impl Lanes {
         Self([value; LANES])
     }
 }
+
+/// The binary logarithm of a normal number above 0, to 0.01, by a parabola in its mantissa.
+#[inline(always)]
+pub(super) fn log2(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let mantissa = f64::from_bits(bits & MANTISSA | 1.0_f64.to_bits()) - 1.0;
+    let biased = f64::from_bits(bits >> MANTISSA.count_ones() | WHOLE.to_bits()) - WHOLE;
+    biased - 1023.0 + mantissa * (1.0 + BEND * (1.0 - mantissa))
+}
+
+/// 2^y, to half a per cent; y is limited to ±1000.
+#[inline(always)]
+pub(super) fn exp2(y: f64) -> f64 {
+    let above = smaller(larger(y, -1000.0), 1000.0) + 1023.0;
+    let nearest = (above + WHOLE) - WHOLE;
+    let whole = if nearest > above { nearest - 1.0 } else { nearest };
+    let part = above - whole;
+    let power = f64::from_bits((whole + WHOLE).to_bits() << MANTISSA.count_ones());
+    power * (1.0 + part * (1.0 - BEND * (1.0 - part)))
+}
+
+const MANTISSA: u64 = (1 << 52) - 1;
+/// Numbers from here on are whole, and the last bits of one are those of a small integer added to it. Unlike a conversion
+/// to integers, such an addition is one instruction on every processor.
+const WHOLE: f64 = (MANTISSA + 1) as f64;
+const BEND: f64 = 0.34;
 
 impl Add for Lanes {
     type Output = Self;

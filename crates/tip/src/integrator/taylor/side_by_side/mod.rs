@@ -16,7 +16,7 @@ mod rest;
 mod series;
 
 use super::chain::INVERSE;
-use super::length::{LAST, ORDER_PER_DIGIT, exp2, log2};
+use super::length::{LAST, ORDER_PER_DIGIT};
 use super::switch::Switch;
 use crate::TipFunction;
 use crate::collocation::STAGES;
@@ -26,7 +26,7 @@ use crate::integrator::landing::landing;
 use crate::memory::Fit;
 use crate::stop;
 use dense::Pieces;
-use lanes::{LANES, Lanes};
+use lanes::{LANES, Lanes, exp2, log2};
 use multiversion::multiversion;
 use num_complex::Complex;
 use past::{Exponentials, Past};

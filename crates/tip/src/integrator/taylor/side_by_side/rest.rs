@@ -23,8 +23,10 @@ pub(super) fn first_step(
 ) -> Option<(Vec<Step>, Vec<Complex<f64>>)> {
     let Begin { alpha, r, t, extension, until, .. } = *begin;
     let mut chain = Chain::new();
-    chain.start((limits.order, false), alpha, (&[0.0; ROOM], &exponentials.of_tip), &[]);
+    chain.start((limits.order, false), alpha, &[0.0; ROOM], &[]);
     chain.run(&Acting {
+        alpha,
+        of_tip: &exponentials.of_tip,
         spring: 1.0,
         support: r,
         healing: 0.0,

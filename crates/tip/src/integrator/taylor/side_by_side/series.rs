@@ -188,8 +188,10 @@ mod tests {
             }
             for lane in 0..LANES {
                 let (mut chain, past) = (Chain::new(), std::array::from_fn(|n| number(lane, n)));
-                chain.start((order, false), acting.alpha.0[lane], (&past, &of_tip), &[]);
+                chain.start((order, false), acting.alpha.0[lane], &past, &[]);
                 chain.run(&chain::Acting {
+                    alpha: acting.alpha.0[lane],
+                    of_tip: &of_tip,
                     spring: 1.0,
                     support: acting.support.0[lane],
                     healing: 0.0,

@@ -7,12 +7,14 @@
 //! itself is below round-off; for all longer waves they are below round-off.
 
 mod bins;
+mod recent;
 mod saved;
 
 use crate::TipFunction;
 use crate::collocation::STAGES;
 use crate::sorting::ends;
 use bins::Bins;
+use recent::Recent;
 use std::ops::Range;
 
 /// Number of nodes kept unchanged in a buffer of bounded size: for a tip that moves on, twice as many as lie within
@@ -28,6 +30,7 @@ pub(crate) struct Record {
     /// Position of the tip, relative to an origin that moves with it: positions remain small, so that their
     /// differences keep full precision however far the tip travels.
     position: f64,
+    /// The nodes of an unbounded buffer.
     nodes: Vec<(f64, f64)>,
     kept: Kept,
 }
@@ -37,8 +40,8 @@ pub(crate) struct Record {
 enum Kept {
     /// All nodes are kept, in blocks of at most the number of nodes of a step.
     All(Vec<Block>),
-    /// Nodes are compressed in bins.
-    Gathered(Bins),
+    /// The latest nodes are kept, those before are compressed in bins.
+    Gathered(Bins, Recent),
     /// All nodes are kept; the origin is that of a lattice, which determines when it moves.
     OnLattice,
 }
@@ -54,23 +57,24 @@ struct Block {
 impl Record {
     /// An unbounded buffer.
     pub(crate) fn whole(tip: &TipFunction) -> Self {
-        Self::new(tip, Kept::All(vec![]), vec![])
+        Self::new(tip, Kept::All(vec![]))
     }
 
     /// A buffer of bounded length. It allocates its memory once, and that of its bins at the first compression; later
     /// operations do not allocate.
     pub(super) fn bounded(tip: &TipFunction) -> Self {
-        Self::new(tip, Kept::Gathered(Bins::new(tip)), Vec::with_capacity(MOST_NODES))
+        let recent = Recent::with_capacity(MOST_NODES);
+        Self::new(tip, Kept::Gathered(Bins::new(tip), recent))
     }
 
     /// An unbounded buffer about the origin of a lattice.
     pub(super) fn on_lattice(tip: &TipFunction) -> Self {
-        Self::new(tip, Kept::OnLattice, vec![])
+        Self::new(tip, Kept::OnLattice)
     }
 
-    fn new(tip: &TipFunction, kept: Kept, nodes: Vec<(f64, f64)>) -> Self {
+    fn new(tip: &TipFunction, kept: Kept) -> Self {
         let reach = tip.reach().unwrap_or(f64::INFINITY);
-        Self { reach, position: 0.0, nodes, kept }
+        Self { reach, position: 0.0, nodes: vec![], kept }
     }
 
     /// Position of the tip, about the origin of the nodes.
@@ -78,7 +82,7 @@ impl Record {
         self.position
     }
 
-    /// Nodes that have not been compressed, about their origin.
+    /// The nodes of an unbounded buffer, about their origin.
     pub(crate) fn nodes(&self) -> &[(f64, f64)] {
         &self.nodes
     }
@@ -92,18 +96,17 @@ impl Record {
     /// As [`Policy::remember`](crate::memory::Policy::remember).
     pub(crate) fn remember(&mut self, position: &[f64], weight: &[f64]) {
         let Some(moved) = position.last() else { return };
-        match &self.kept {
+        match &mut self.kept {
             Kept::All(_) => self.push_blocks(position, weight),
-            Kept::Gathered(_) | Kept::OnLattice => self.push(position, weight),
+            Kept::OnLattice => self.push(position, weight),
+            Kept::Gathered(bins, recent) => {
+                make_room(bins, recent, position.len());
+                let lowest = recent.push(self.position, position, weight);
+                bins.look_from(lowest - self.reach);
+            }
         }
         self.position += moved;
         self.follow();
-        if let Kept::Gathered(bins) = &mut self.kept {
-            bins.look_from(|| {
-                let lowest = position.iter().copied().fold(f64::INFINITY, f64::min);
-                self.position + (lowest - moved) - self.reach
-            });
-        }
     }
 
     /// Adds blocks of at most one step.
@@ -116,9 +119,13 @@ impl Record {
 
     /// Adds nodes given as displacements from the last position of the tip.
     fn push(&mut self, position: &[f64], weight: &[f64]) {
-        self.make_room(position.len());
         let here = self.position;
-        self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
+        if let Kept::Gathered(bins, recent) = &mut self.kept {
+            make_room(bins, recent, position.len());
+            recent.push(here, position, weight);
+        } else {
+            self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
+        }
     }
 
     fn close_block(&mut self, nodes: usize) {
@@ -128,35 +135,11 @@ impl Record {
         blocks.push(Block { low, high, end });
     }
 
-    fn make_room(&mut self, nodes: usize) {
-        if self.nodes.len() + nodes > MOST_NODES {
-            self.thin();
-        }
-    }
-
-    /// Drops nodes farther behind than the distance kept, and compresses the others unless this drops half of them.
-    #[cold]
-    fn thin(&mut self) {
-        if let Kept::Gathered(bins) = &mut self.kept {
-            bins.forget(&mut self.nodes);
-            if self.nodes.len() > MOST_NODES / 2 {
-                self.gather();
-            }
-        }
-    }
-
-    fn gather(&mut self) {
-        if let Kept::Gathered(bins) = &mut self.kept {
-            self.nodes.iter().for_each(|node| bins.add(*node));
-            self.nodes.clear();
-        }
-    }
-
     /// Moves the origin towards the tip.
     fn follow(&mut self) {
         let step = match &self.kept {
             Kept::All(_) => ORIGIN_STEP,
-            Kept::Gathered(bins) => bins.origin_step(),
+            Kept::Gathered(bins, _) => bins.origin_step(),
             Kept::OnLattice => return,
         };
         if self.position.abs() > 2.0 * step {
@@ -175,15 +158,19 @@ impl Record {
                     block.high -= shift;
                 }
             }
-            Kept::Gathered(bins) => bins.move_origin(shift),
+            Kept::Gathered(bins, recent) => {
+                bins.move_origin(shift);
+                recent.move_origin(shift);
+            }
             Kept::OnLattice => {}
         }
     }
 
     pub(crate) fn scale(&mut self, factor: f64) {
         self.nodes.iter_mut().for_each(|(_, weight)| *weight *= factor);
-        if let Kept::Gathered(bins) = &mut self.kept {
+        if let Kept::Gathered(bins, recent) = &mut self.kept {
             bins.moments.iter_mut().flatten().for_each(|moment| *moment *= factor);
+            recent.scale(factor);
         }
     }
 
@@ -194,13 +181,16 @@ impl Record {
 
     /// Displacements and weights of the nodes between two displacements.
     fn within(&self, low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + Clone {
-        let bins = match &self.kept {
-            Kept::Gathered(bins) => Some(bins.points(self.position + low, self.position + high)),
+        let gathered = match &self.kept {
+            Kept::Gathered(bins, recent) => {
+                let points = bins.points(self.position + low, self.position + high);
+                Some(points.chain(recent.iter()))
+            }
             Kept::All(_) | Kept::OnLattice => None,
         };
-        let gathered = bins.into_iter().flatten();
-        let told = gathered.chain(self.nodes.iter().copied()).map(|(x, w)| (x - self.position, w));
-        told.filter(move |(x, _)| (low..=high).contains(x))
+        let nodes = gathered.into_iter().flatten().chain(self.nodes.iter().copied());
+        let displacements = nodes.map(|(x, w)| (x - self.position, w));
+        displacements.filter(move |(x, _)| (low..=high).contains(x))
     }
 
     /// Displacements and weights of the nodes within reach of displacements in [low, high].
@@ -235,7 +225,7 @@ impl Record {
     fn blocks(&self) -> &[Block] {
         match &self.kept {
             Kept::All(blocks) => blocks,
-            Kept::Gathered(_) | Kept::OnLattice => &[],
+            Kept::Gathered(..) | Kept::OnLattice => &[],
         }
     }
 
@@ -252,10 +242,30 @@ impl Record {
     /// positions that were dropped; `None` otherwise.
     pub(super) fn forgotten(&self) -> Option<f64> {
         match &self.kept {
-            Kept::Gathered(bins) => bins.forgotten(),
+            Kept::Gathered(bins, _) => bins.forgotten(),
             Kept::All(_) | Kept::OnLattice => None,
         }
     }
+}
+
+fn make_room(bins: &mut Bins, recent: &mut Recent, nodes: usize) {
+    if recent.len() + nodes > MOST_NODES {
+        thin(bins, recent);
+    }
+}
+
+/// Drops nodes farther behind than the distance kept, and compresses the others unless this drops half of them.
+#[cold]
+fn thin(bins: &mut Bins, recent: &mut Recent) {
+    bins.forget(recent);
+    if recent.len() > MOST_NODES / 2 {
+        gather(bins, recent);
+    }
+}
+
+fn gather(bins: &mut Bins, recent: &mut Recent) {
+    recent.iter().for_each(|node| bins.add(node));
+    recent.clear();
 }
 
 #[cfg(test)]
@@ -267,7 +277,7 @@ mod tests {
         let tip = TipFunction::gaussian(1.0).unwrap();
         let mut record = Record::bounded(&tip);
         let room = |record: &Record| match &record.kept {
-            Kept::Gathered(bins) => (record.nodes.capacity(), bins.moments.capacity()),
+            Kept::Gathered(bins, recent) => (recent.capacity(), bins.moments.capacity()),
             _ => unreachable!("the record is bounded"),
         };
         let (nodes, _) = room(&record);
@@ -276,7 +286,7 @@ mod tests {
             record.remember(&c.map(|c| length * c), &b);
         }
         // Of bins all or none.
-        let bins = if matches!(&record.kept, Kept::Gathered(bins) if bins.moments.is_empty()) {
+        let bins = if matches!(&record.kept, Kept::Gathered(bins, _) if bins.moments.is_empty()) {
             0
         } else {
             bins::MOST_BINS
@@ -286,7 +296,7 @@ mod tests {
     }
 
     fn dropped(record: &Record) -> bool {
-        matches!(&record.kept, Kept::Gathered(bins) if bins.dropped)
+        matches!(&record.kept, Kept::Gathered(bins, _) if bins.dropped)
     }
 
     #[test]
@@ -299,7 +309,7 @@ mod tests {
     #[test]
     fn what_is_far_behind_is_dropped_ungathered() {
         let mut record = carried(20_000, 0.4);
-        let Kept::Gathered(bins) = &record.kept else { unreachable!("the record is bounded") };
+        let Kept::Gathered(bins, _) = &record.kept else { unreachable!("the record is bounded") };
         assert!(bins.moments.is_empty() && bins.dropped);
         let kept = bins.length_kept();
         let first = record.all().map(|(x, _)| x).fold(0.0, f64::min);
@@ -317,8 +327,9 @@ mod tests {
             record.near(0.0, 0.0).map(|(x, w)| w * tip.slope(0.3 - x)).sum::<f64>()
         };
         let before = slope(&record);
-        record.gather();
-        assert!(record.nodes.is_empty());
+        let Kept::Gathered(bins, recent) = &mut record.kept else { unreachable!("it is bounded") };
+        gather(bins, recent);
+        assert_eq!(recent.len(), 0);
         assert!((slope(&record) - before).abs() < 1e-13 * 2000.0, "{}", slope(&record) - before);
     }
 

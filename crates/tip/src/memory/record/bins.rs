@@ -1,5 +1,6 @@
 //! Nodes compressed in bins, with as many moments of each bin as act on f.
 
+use super::recent::Recent;
 use crate::TipFunction;
 use crate::elementary::{cos, exp2, log2};
 use std::collections::VecDeque;
@@ -51,8 +52,8 @@ impl Bins {
     }
 
     /// Records how far back the memory is evaluated.
-    pub(super) fn look_from(&mut self, x: impl Fn() -> f64) {
-        self.missed |= self.dropped && x() < self.first as f64 * self.length;
+    pub(super) fn look_from(&mut self, x: f64) {
+        self.missed |= self.dropped && x < self.first as f64 * self.length;
     }
 
     /// Distance behind the farthest point of the tip within which the past is kept, if positions beyond it were
@@ -67,17 +68,15 @@ impl Bins {
     }
 
     /// Removes nodes and bins that are farther behind than the distance kept.
-    pub(super) fn forget(&mut self, visits: &mut Vec<(f64, f64)>) {
-        let farthest = visits.iter().map(|visit| visit.0).fold(f64::NEG_INFINITY, f64::max);
+    pub(super) fn forget(&mut self, recent: &mut Recent) {
         let end = if self.moments.is_empty() { i64::MIN } else { self.end() };
-        let end = end.max(self.number(farthest).saturating_add(1));
+        let end = end.max(self.number(recent.farthest()).saturating_add(1));
         let horizon = end.saturating_sub(MOST_BINS as i64);
         let horizon = if self.dropped { horizon.max(self.first) } else { horizon };
-        let (start, before) = (horizon as f64 * self.length, visits.len());
-        visits.retain(|visit| visit.0 >= start);
+        let has_dropped = recent.drop_before(horizon as f64 * self.length);
         let gone = usize::try_from(horizon.saturating_sub(self.first)).unwrap_or(0);
         let gone = gone.min(self.moments.len());
-        if gone == 0 && visits.len() == before {
+        if gone == 0 && !has_dropped {
             return;
         }
         self.dropped = true;

@@ -19,8 +19,8 @@ impl Record {
                     start = block.end;
                 }
             }
-            Kept::Gathered(bins) => {
-                state.pairs(self.nodes.iter());
+            Kept::Gathered(bins, recent) => {
+                recent.save(state);
                 state.whole(bins.first);
                 state.flag(bins.dropped);
                 state.numbers(
@@ -34,7 +34,7 @@ impl Record {
     pub(crate) fn restore(&mut self, state: &mut Reader) -> Result<(), Damaged> {
         let steps = match &self.kept {
             Kept::All(_) => ORIGIN_STEP,
-            Kept::Gathered(bins) => bins.origin_step(),
+            Kept::Gathered(bins, _) => bins.origin_step(),
             Kept::OnLattice => return Ok(()),
         };
         self.position = state.within(4.0 * steps)?;
@@ -46,19 +46,16 @@ impl Record {
                     self.restore_block(state)?;
                 }
             }
-            Kept::Gathered(bins) => {
-                let nodes = state.pairs()?;
+            Kept::Gathered(bins, recent) => {
+                recent.restore(state, MOST_NODES)?;
                 (bins.first, bins.dropped) = (state.whole()?, state.flag()?);
                 let moments = state.numbers()?;
                 let (moments, rest) = moments.as_chunks::<MOMENTS>();
                 // So far behind may the first bin be where all since is kept as nodes.
                 let far = bins.first.unsigned_abs() > 1 << 32;
-                if nodes.len() > MOST_NODES || moments.len() > MOST_BINS || !rest.is_empty() || far
-                {
+                if moments.len() > MOST_BINS || !rest.is_empty() || far {
                     return Err(Damaged::OutOfRange);
                 }
-                // Into the room taken at the start: no step is to allocate.
-                self.nodes.extend(nodes);
                 bins.moments.clear();
                 bins.moments.extend(moments);
             }
@@ -92,7 +89,7 @@ impl Record {
     }
 
     pub(in crate::memory) fn set_missed(&mut self, missed: bool) {
-        if let Kept::Gathered(bins) = &mut self.kept {
+        if let Kept::Gathered(bins, _) = &mut self.kept {
             bins.missed = missed;
         }
     }

@@ -60,11 +60,13 @@ struct Shared<T> {
     returned: Option<usize>,
     /// The first line that has not been passed to `take`.
     out: usize,
+    /// Whether a thread waits until lines have been passed.
+    is_full: bool,
     ended: bool,
 }
 
 /// Number of finished lines per thread that may wait for those before them.
-const WAITING: usize = 4;
+const WAITING: usize = 16;
 /// Longest time until waiting threads notice that the work is cancelled.
 const PATIENCE: Duration = Duration::from_millis(20);
 
@@ -115,8 +117,16 @@ impl<'a> Course<'a> {
         mut take: impl FnMut(Made<T>) -> bool,
     ) -> Result<(), RasterError> {
         let (under_way, finished) = (vec![], vec![]);
-        let shared =
-            Shared { next: out, rows, under_way, finished, returned: None, out, ended: false };
+        let shared = Shared {
+            next: out,
+            rows,
+            under_way,
+            finished,
+            returned: None,
+            out,
+            is_full: false,
+            ended: false,
+        };
         let (shared, news) = (&Mutex::new(shared), &Condvar::new());
         let flag = stop::flag().unwrap_or_default();
         std::thread::scope(|scope| {
@@ -147,6 +157,7 @@ impl<'a> Course<'a> {
         loop {
             let mut now = lock(shared);
             while !now.is_over() && (now.returned.is_some() || now.next >= now.out + most) {
+                now.is_full |= now.next >= now.out + most;
                 now = wait(news, now);
             }
             if now.is_over() || now.next >= self.plan.lines() {
@@ -162,8 +173,12 @@ impl<'a> Course<'a> {
                 (line, of_line, rows)
             };
             if let Some(made) = made.map(|made| made.map(with)) {
-                lock(shared).take(&job, made);
-                news.notify_all();
+                let mut now = lock(shared);
+                now.take(&job, made);
+                if 2 * now.finished.len() >= most || now.under_way.is_empty() {
+                    drop(now);
+                    news.notify_all();
+                }
             }
         }
     }
@@ -324,7 +339,11 @@ fn next_finished<T>(
         if let Some(at) = now.finished.iter().position(|(line, _)| *line == n) {
             let (_, line) = now.finished.swap_remove(at);
             now.out = n + 1;
-            news.notify_all();
+            if now.is_full {
+                now.is_full = false;
+                drop(now);
+                news.notify_all();
+            }
             return Some(line);
         }
         now = wait(news, now);

@@ -22,6 +22,7 @@ use crate::plan::Plan;
 use crate::surface::Scanned;
 use estimate::Estimate;
 use local::Local;
+use rayon::prelude::*;
 use regime::{FLAT, Measures, PITTED};
 use sheet::{Sheet, halves_of};
 use stickslip_tip::sorting::ends;
@@ -181,12 +182,14 @@ const SAME_LAG: f64 = 0.02;
 /// window (Hann).
 pub fn pattern(plan: &Plan, lines: &[Line]) -> Written {
     let mut doubts = vec![];
-    let all = lines.iter().filter(|line| is_stuck(line)).count();
+    let stuck: Vec<bool> = lines.par_iter().map(is_stuck).collect();
+    let count = |stuck: &[bool]| stuck.iter().filter(|stuck| **stuck).count();
+    let all = count(&stuck);
     if all > 0 {
         doubts.push(Doubt::Stuck { lines: all, of: lines.len() });
     }
-    let last = &lines[lines.len() / 2..];
-    if 2 * last.iter().filter(|line| is_stuck(line)).count() > last.len() {
+    let last = &stuck[lines.len() / 2..];
+    if 2 * count(last) > last.len() {
         return Written { regime: Regime::StuckAtTheEdge, pattern: None, doubts };
     }
     let unknown = |mut doubts: Vec<Doubt>, why: Doubt| {

@@ -2,6 +2,7 @@
 
 use ndarray::{Array1, Array2, ArrayView2, Axis, Slice};
 use num_complex::Complex64;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use stickslip_tip::sorting::ends;
@@ -17,6 +18,9 @@ pub(super) struct Sheet {
     /// sin² windows (Hann), of the points of a line and of the lines.
     pub(super) windows: (Vec<f64>, Vec<f64>),
 }
+
+/// Number of lines that a thread sums together: another one begins for no less.
+const TOGETHER: usize = 32;
 
 fn window(count: usize) -> Vec<f64> {
     (0..count).map(|i| (PI * (i as f64 + 0.5) / count as f64).sin().powi(2)).collect()
@@ -153,9 +157,9 @@ impl Sheet {
             Complex64::from_polar(*window, -q * (self.from + self.spacing * i as f64))
         };
         let factors: Vec<Complex64> = self.windows.0.iter().enumerate().map(factor).collect();
-        let line =
-            |row: ndarray::ArrayView1<f64>| row.iter().zip(&factors).map(|(u, f)| f * u).sum();
-        self.u.rows().into_iter().map(line).collect()
+        let line = |n: usize| self.u.row(n).iter().zip(&factors).map(|(u, f)| f * u).sum();
+        let lines = (0..self.u.nrows()).into_par_iter().with_min_len(TOGETHER);
+        lines.map(line).collect::<Vec<_>>().into()
     }
 
     /// |Σ_n window a_n e^{-iκy_n}|² over all lines n, where `along` contains a_n.

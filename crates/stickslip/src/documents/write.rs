@@ -3,7 +3,10 @@
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
+use std::collections::HashMap;
 use std::io::{self, BufWriter, Write};
+use std::iter::repeat_n;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
@@ -71,15 +74,17 @@ impl<'a> List<'a> {
         Self { count: elements.len(), text_of: Box::new(text_of) }
     }
 
-    /// The text of the elements from n on that are turned into text together; it is expected to have this length.
-    fn text(&self, n: usize, length: usize) -> io::Result<Vec<u8>> {
-        let mut text = Vec::with_capacity(length);
+    /// The text of the elements from n on that are turned into text together. It is expected to be no longer than the
+    /// longest before.
+    fn text(&self, n: usize, longest: &mut usize) -> io::Result<Vec<u8>> {
+        let mut text = Vec::with_capacity(*longest);
         for n in n..self.count.min(n + TOGETHER) {
             if n > 0 {
                 text.push(b',');
             }
             (self.text_of)(n, &mut text)?;
         }
+        *longest = text.len().max(*longest);
         Ok(text)
     }
 }
@@ -114,30 +119,38 @@ pub fn write_lists(
     out.write_all(rest.as_bytes())
 }
 
-/// The threads take the elements in turn, and this one writes them in their order.
+/// The threads, of which this is one, take the next elements as soon as they can; this one writes all in their order.
 fn write_elements(out: &mut dyn Write, list: &List, threads: usize) -> io::Result<()> {
     let groups = list.count.div_ceil(TOGETHER);
-    let threads = threads.clamp(1, groups.max(1));
+    let others = threads.clamp(1, groups.max(1)) - 1;
+    let next = &AtomicUsize::new(0);
+    let take = move || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|n| *n < groups);
     thread::scope(|scope| {
-        let of_thread = |first: usize| {
-            let (send, receive) = sync_channel(WAITING);
+        let (send, receive) = sync_channel(WAITING * others);
+        for send in repeat_n(send, others) {
             scope.spawn(move || {
                 let mut longest = 0;
-                for n in (first..groups).step_by(threads) {
-                    let text = list.text(n * TOGETHER, longest);
-                    longest = text.as_ref().map_or(0, |text| longest.max(text.len()));
+                while let Some(n) = take() {
+                    let text = list.text(n * TOGETHER, &mut longest);
                     // Nobody waits for more once the document cannot be written.
-                    if send.send(text).is_err() {
+                    if send.send((n, text)).is_err() {
                         break;
                     }
                 }
             });
-            receive
-        };
-        let texts: Vec<_> = (0..threads).map(of_thread).collect();
+        }
+        let (mut texts, mut longest) = (HashMap::new(), 0);
         for n in 0..groups {
-            let text = texts[n % threads].recv().map_err(io::Error::other)??;
-            out.write_all(&text)?;
+            while !texts.contains_key(&n) {
+                let made = receive.try_recv().ok().or_else(|| {
+                    let own = |n| (n, list.text(n * TOGETHER, &mut longest));
+                    take().map(own).or_else(|| receive.recv().ok())
+                });
+                texts.extend([made.ok_or_else(|| io::Error::other("a thread has ended"))?]);
+            }
+            if let Some(text) = texts.remove(&n) {
+                out.write_all(&text?)?;
+            }
         }
         Ok(())
     })

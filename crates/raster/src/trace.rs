@@ -4,7 +4,8 @@ use crate::path::Track;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::thread;
+use std::time::{Duration, Instant};
 use stickslip_convolution::Density;
 use stickslip_tip::{Step, Support, Wider, stop};
 
@@ -20,6 +21,8 @@ const BELOW: i64 = 8;
 const RETREAT: i64 = 16;
 /// Number of pieces by which a line that had to wait falls back, so that it need not wait again at each piece.
 const LEAD: i64 = 2;
+/// Time that a line waits before its thread sleeps: to wake it may take as long.
+const AWAKE: Duration = Duration::from_micros(200);
 /// Longest time until a waiting line notices that the work is cancelled.
 const PATIENCE: Duration = Duration::from_millis(20);
 
@@ -41,6 +44,13 @@ struct Known {
     wanted: Option<i64>,
 }
 
+impl Known {
+    /// Whether all pieces below this one are known.
+    fn reaches(&self, to: i64) -> bool {
+        self.to.is_some_and(|known| known >= to)
+    }
+}
+
 impl Trace {
     /// The pieces `from`..`to`, once all of them are known; `None` if the line that needs them is given up before.
     pub(crate) fn pieces(
@@ -49,10 +59,13 @@ impl Trace {
         given_up: &AtomicBool,
     ) -> Option<Vec<(i64, Arc<Piece>)>> {
         let mut known = self.lock();
-        if known.to.is_none_or(|known| known < to) {
+        if !known.reaches(to) {
+            known = self.awake(known, to);
+        }
+        if !known.reaches(to) {
             known.wanted = known.wanted.max(Some(to.saturating_add(LEAD)));
         }
-        while known.to.is_none_or(|known| known < to) {
+        while !known.reaches(to) {
             if given_up.load(Ordering::Relaxed) || stop::is_requested() {
                 return None;
             }
@@ -60,6 +73,17 @@ impl Trace {
             known = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         Some(known.pieces.range(from..to).map(|(n, piece)| (*n, Arc::clone(piece))).collect())
+    }
+
+    /// Waits a while, without sleep, until all pieces below this one are known.
+    fn awake<'a>(&'a self, mut known: MutexGuard<'a, Known>, to: i64) -> MutexGuard<'a, Known> {
+        let began = Instant::now();
+        while !known.reaches(to) && began.elapsed() < AWAKE {
+            drop(known);
+            thread::yield_now();
+            known = self.lock();
+        }
+        known
     }
 
     /// All pieces, if they are known.

@@ -60,8 +60,6 @@ struct Shared<T> {
     returned: Option<usize>,
     /// The first line that has not been passed to `take`.
     out: usize,
-    /// Whether a thread waits until lines have been passed.
-    is_full: bool,
     ended: bool,
 }
 
@@ -117,28 +115,21 @@ impl<'a> Course<'a> {
         mut take: impl FnMut(Made<T>) -> bool,
     ) -> Result<(), RasterError> {
         let (under_way, finished) = (vec![], vec![]);
-        let shared = Shared {
-            next: out,
-            rows,
-            under_way,
-            finished,
-            returned: None,
-            out,
-            is_full: false,
-            ended: false,
-        };
+        let shared =
+            Shared { next: out, rows, under_way, finished, returned: None, out, ended: false };
+        let most = WAITING * threads;
         let (shared, news) = (&Mutex::new(shared), &Condvar::new());
         let flag = stop::flag().unwrap_or_default();
         std::thread::scope(|scope| {
             for _ in 0..threads {
                 scope.spawn(|| {
                     let _on_panic = End { shared, news, is_due: std::thread::panicking };
-                    let work = || self.work((shared, news), WAITING * threads, &of_line);
+                    let work = || self.work((shared, news), most, &of_line);
                     stop::with_flag(&flag, work);
                 });
             }
             let _on_return = End { shared, news, is_due: || true };
-            while let Some(made) = next_finished(self.plan.lines(), (shared, news)) {
+            while let Some(made) = next_finished(self.plan.lines(), most, (shared, news)) {
                 if !take(made?) {
                     break;
                 }
@@ -157,7 +148,6 @@ impl<'a> Course<'a> {
         loop {
             let mut now = lock(shared);
             while !now.is_over() && (now.returned.is_some() || now.next >= now.out + most) {
-                now.is_full |= now.next >= now.out + most;
                 now = wait(news, now);
             }
             if now.is_over() || now.next >= self.plan.lines() {
@@ -175,6 +165,7 @@ impl<'a> Course<'a> {
             if let Some(made) = made.map(|made| made.map(with)) {
                 let mut now = lock(shared);
                 now.take(&job, made);
+                // For fewer lines it is not worth to wake a thread, which looks for them by itself after a while.
                 if 2 * now.finished.len() >= most || now.under_way.is_empty() {
                     drop(now);
                     news.notify_all();
@@ -331,6 +322,7 @@ impl<T> Shared<T> {
 /// The next line in order, once it is finished; `None` after the last one, or when the work ends.
 fn next_finished<T>(
     lines: usize,
+    most: usize,
     (shared, news): (&Mutex<Shared<T>>, &Condvar),
 ) -> Option<Result<Made<T>, RasterError>> {
     let mut now = lock(shared);
@@ -339,8 +331,8 @@ fn next_finished<T>(
         if let Some(at) = now.finished.iter().position(|(line, _)| *line == n) {
             let (_, line) = now.finished.swap_remove(at);
             now.out = n + 1;
-            if now.is_full {
-                now.is_full = false;
+            // Until now as many as may wait did.
+            if now.next >= n + most {
                 drop(now);
                 news.notify_all();
             }

@@ -3,7 +3,7 @@
 use super::groove::Groove;
 use super::record::Record;
 use crate::TipFunction;
-use crate::sorting::ends;
+use crate::sorting::ends_of;
 use multiversion::multiversion;
 
 /// Number of points per vector: the stages of a step, and idle ones that fill the SIMD vectors.
@@ -14,7 +14,7 @@ const LANES: usize = 8;
 /// The cost is proportional to the number of nodes within reach, plus one comparison per block.
 pub(super) fn groove(record: &Record, tip: &TipFunction, at: &[f64], groove: &mut Groove<'_>) {
     let position = record.position();
-    let (low, high) = ends(at.iter().copied());
+    let (low, high) = ends_of(at);
     groove.clear();
     for visits in record.blocks_near(position + low, position + high) {
         add(visits, tip, (position, at), groove);

@@ -13,7 +13,7 @@ use super::modes::{Fit, FitError, Modes, Retreat};
 use super::record::Record;
 use super::report::{MemoryReport, Sum};
 use crate::TipFunction;
-use crate::sorting::ends;
+use crate::sorting::ends_of;
 use retreats::Retreats;
 use std::sync::Arc;
 
@@ -186,7 +186,7 @@ impl Policy {
                     modes.groove(at, groove);
                 } else {
                     // An iteration gone astray, or the last step before a retreat is noticed.
-                    let (low, high) = ends(at.iter().copied());
+                    let (low, high) = ends_of(at);
                     groove.clear();
                     for visit in record.near(low, high) {
                         direct::add(&[visit], &self.tip, (0.0, at), groove);
@@ -247,10 +247,10 @@ impl Policy {
         &self,
         steady: Option<&SteadyPast>,
         count: usize,
-        told: &mut Derivatives,
+        found: &mut Derivatives,
     ) -> Option<&[f64; ROOM]> {
         let Now::Modes(modes, Retreats { fft: None, .. }) = &self.now else { return None };
-        Some(modes.derivatives(steady, self.fading.left().unwrap_or(1.0), count, told))
+        Some(modes.derivatives(steady, self.fading.left().unwrap_or(1.0), count, found))
     }
 }
 

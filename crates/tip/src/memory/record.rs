@@ -100,8 +100,7 @@ impl Record {
             Kept::All(_) => self.push_blocks(position, weight),
             Kept::OnLattice => self.push(position, weight),
             Kept::Gathered(bins, recent) => {
-                make_room(bins, recent, position.len());
-                let lowest = recent.push(self.position, position, weight);
+                let lowest = keep((bins, recent), self.position, position, weight);
                 bins.look_from(lowest - self.reach);
             }
         }
@@ -121,8 +120,7 @@ impl Record {
     fn push(&mut self, position: &[f64], weight: &[f64]) {
         let here = self.position;
         if let Kept::Gathered(bins, recent) = &mut self.kept {
-            make_room(bins, recent, position.len());
-            recent.push(here, position, weight);
+            keep((bins, recent), here, position, weight);
         } else {
             self.nodes.extend(position.iter().zip(weight).map(|(p, w)| (here + p, *w)));
         }
@@ -248,10 +246,17 @@ impl Record {
     }
 }
 
-fn make_room(bins: &mut Bins, recent: &mut Recent, nodes: usize) {
-    if recent.len() + nodes > MOST_NODES {
+/// Keeps nodes at displacements from `here`, and returns the least of their positions.
+fn keep(
+    (bins, recent): (&mut Bins, &mut Recent),
+    here: f64,
+    position: &[f64],
+    weight: &[f64],
+) -> f64 {
+    if recent.len() + position.len() > MOST_NODES {
         thin(bins, recent);
     }
+    recent.push(here, position, weight)
 }
 
 /// Drops nodes farther behind than the distance kept, and compresses the others unless this drops half of them.

@@ -26,7 +26,7 @@ pub use window::Retreat;
 use super::derivatives::{Derivatives, ROOM, SteadyPast};
 use super::groove::Groove;
 use crate::elementary::{complex_exp, larger};
-use crate::sorting::{ends, ends_of};
+use crate::sorting::ends_of;
 use crate::state::{Damaged, Reader, State};
 use bank::Bank;
 use local::LocalGroove;
@@ -112,7 +112,7 @@ impl Modes {
     /// As [`Policy::groove`](crate::memory::Policy::groove), where the sum is valid.
     pub(super) fn groove(&mut self, at: &[f64], groove: &mut Groove<'_>) {
         if !self.groove.holds(at) {
-            let (low, high) = ends(at.iter().copied());
+            let (low, high) = ends_of(at);
             let (center, radius) = (0.5 * (low + high), 0.5 * BEYOND_THE_STAGES * (high - low));
             if !self.bank.expand(center, radius, &mut self.groove, groove.height.is_some()) {
                 self.groove.forget();
@@ -145,10 +145,10 @@ impl Modes {
         steady: Option<&SteadyPast>,
         left: f64,
         count: usize,
-        told: &mut Derivatives,
+        found: &mut Derivatives,
     ) -> &[f64; ROOM] {
-        (told.farthest, told.retreat) = (self.farthest, self.fit.retreat());
-        let mut room = std::mem::take(&mut told.room);
+        (found.farthest, found.retreat) = (self.farthest, self.fit.retreat());
+        let mut room = std::mem::take(&mut found.room);
         self.bank.all_states(left, &mut room);
         if let Some(past) = steady {
             for (z, term) in room.chunks_exact_mut(2).zip(self.fit.terms()) {
@@ -158,8 +158,8 @@ impl Modes {
                 z[1] += steady.im;
             }
         }
-        self.prepared.powers.derivatives(&room, count, &mut told.past);
-        told.room = room;
+        self.prepared.powers.derivatives(&room, count, &mut found.past);
+        found.room = room;
         &self.prepared.powers.of_tip
     }
 

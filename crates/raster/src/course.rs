@@ -47,8 +47,9 @@ struct Job {
 
 /// A line, the result of `of_line` for it, and the rows after it.
 type Made<T> = (Line, T, Rows);
+type Take<'a, T> = Box<dyn FnMut(Made<T>) -> bool + Send + 'a>;
 
-struct Shared<T> {
+struct Shared<'a, T> {
     /// The next line to begin, and the rows before it.
     next: usize,
     rows: Rows,
@@ -60,7 +61,17 @@ struct Shared<T> {
     returned: Option<usize>,
     /// The first line that has not been passed to `take`.
     out: usize,
-    ended: bool,
+    /// `None` while a thread calls it.
+    take: Option<Take<'a, T>>,
+    /// Number of threads that wait.
+    waiting: usize,
+    ended: Option<Result<(), RasterError>>,
+}
+
+/// What a thread does next.
+enum Turn<'a, T> {
+    Scan(Job),
+    Take(Take<'a, T>, Result<Made<T>, RasterError>),
 }
 
 /// Number of finished lines per thread that may wait for those before them.
@@ -106,72 +117,100 @@ impl<'a> Course<'a> {
     }
 
     /// Scans one-way or repeated lines from `out` on with this number of threads. Each is passed to `take` in its order,
-    /// with the result of `of_line` and the rows after it, until `take` returns false or the work is cancelled.
+    /// with the result of `of_line` and the rows after it, until `take` returns false or the work is cancelled. Any thread
+    /// takes lines between those that it scans: one for that alone would displace others.
     pub(crate) fn each_line<T: Send>(
         &self,
         (out, rows): (usize, Rows),
         threads: usize,
         of_line: impl Fn(usize, &Line) -> T + Sync,
-        mut take: impl FnMut(Made<T>) -> bool,
+        take: impl FnMut(Made<T>) -> bool + Send,
     ) -> Result<(), RasterError> {
-        let (under_way, finished) = (vec![], vec![]);
-        let shared =
-            Shared { next: out, rows, under_way, finished, returned: None, out, ended: false };
+        let shared = Shared {
+            next: out,
+            rows,
+            under_way: vec![],
+            finished: vec![],
+            returned: None,
+            out,
+            take: Some(Box::new(take)),
+            waiting: 0,
+            ended: None,
+        };
         let most = WAITING * threads;
-        let (shared, news) = (&Mutex::new(shared), &Condvar::new());
+        let (shared, news) = (Mutex::new(shared), Condvar::new());
         let flag = stop::flag().unwrap_or_default();
+        let work = || {
+            let course = (&shared, &news);
+            let _on_panic = OnPanic(course);
+            stop::with_flag(&flag, || self.work(course, most, &of_line));
+        };
         std::thread::scope(|scope| {
-            for _ in 0..threads {
-                scope.spawn(|| {
-                    let _on_panic = End { shared, news, is_due: std::thread::panicking };
-                    let work = || self.work((shared, news), most, &of_line);
-                    stop::with_flag(&flag, work);
-                });
+            for _ in 1..threads {
+                scope.spawn(work);
             }
-            let _on_return = End { shared, news, is_due: || true };
-            while let Some(made) = next_finished(self.plan.lines(), most, (shared, news)) {
-                if !take(made?) {
-                    break;
-                }
-            }
-            Ok(())
-        })
+            work();
+        });
+        let shared = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
+        shared.ended.unwrap_or(Ok(()))
     }
 
-    /// The work of one thread: it scans lines until there are no more. At most `most` lines wait for those before them.
-    fn work<T>(
+    /// The work of one thread: it scans lines and passes them on until there are no more.
+    fn work<'t, T>(
         &self,
-        (shared, news): (&Mutex<Shared<T>>, &Condvar),
+        course: (&Mutex<Shared<'t, T>>, &Condvar),
         most: usize,
         of_line: &impl Fn(usize, &Line) -> T,
     ) {
-        loop {
-            let mut now = lock(shared);
-            while !now.is_over() && (now.returned.is_some() || now.next >= now.out + most) {
-                now = wait(news, now);
-            }
-            if now.is_over() || now.next >= self.plan.lines() {
-                return;
-            }
-            let job = self.job(now.next, &now.rows);
-            (now.next, now.rows) = (job.n + 1, job.after.clone());
-            now.under_way.push((job.n, Arc::clone(&job.given_up)));
-            drop(now);
-            let made = self.make(&job, shared).transpose();
-            let with = |(line, rows)| {
-                let of_line = of_line(job.n, &line);
-                (line, of_line, rows)
-            };
-            if let Some(made) = made.map(|made| made.map(with)) {
-                let mut now = lock(shared);
-                now.take(&job, made);
-                // For fewer lines it is not worth to wake a thread, which looks for them by itself after a while.
-                if 2 * now.finished.len() >= most || now.under_way.is_empty() {
-                    drop(now);
-                    news.notify_all();
+        while let Some(turn) = self.turn(course, most) {
+            match turn {
+                Turn::Scan(job) => {
+                    let Some(made) = self.make(&job, course.0).transpose() else { continue };
+                    let made = made.map(|(line, rows)| {
+                        let of_line = of_line(job.n, &line);
+                        (line, of_line, rows)
+                    });
+                    change(course, |now| now.finish(&job, made));
+                }
+                Turn::Take(mut take, made) => {
+                    let goes_on = made.map(&mut take);
+                    change(course, |now| {
+                        now.take = Some(take);
+                        match goes_on {
+                            Ok(true) => {}
+                            ended => now.end(ended.map(|_| ())),
+                        }
+                    });
                 }
             }
         }
+    }
+
+    /// What a thread does next; `None` if nothing is left for it. At most `most` lines wait for those before them.
+    fn turn<'t, T>(
+        &self,
+        (shared, news): (&Mutex<Shared<'t, T>>, &Condvar),
+        most: usize,
+    ) -> Option<Turn<'t, T>> {
+        let mut now = lock(shared);
+        while !now.is_over() {
+            if let Some(take) = now.next_finished() {
+                return Some(take);
+            }
+            if now.next >= self.plan.lines() {
+                return None;
+            }
+            if now.returned.is_none() && now.next < now.out + most {
+                let job = self.job(now.next, &now.rows);
+                (now.next, now.rows) = (job.n + 1, job.after.clone());
+                now.under_way.push((job.n, Arc::clone(&job.given_up)));
+                return Some(Turn::Scan(job));
+            }
+            now.waiting += 1;
+            now = news.wait_timeout(now, PATIENCE).unwrap_or_else(PoisonError::into_inner).0;
+            now.waiting -= 1;
+        }
+        None
     }
 
     /// Scans a line, and returns it with the rows after it; `None` if it is given up.
@@ -284,9 +323,23 @@ impl Rows {
     }
 }
 
-impl<T> Shared<T> {
+impl<'a, T> Shared<'a, T> {
     fn is_over(&self) -> bool {
-        self.ended || stop::is_requested()
+        self.ended.is_some() || stop::is_requested()
+    }
+
+    /// To take the next line in order, if it is finished and no other is being taken.
+    fn next_finished(&mut self) -> Option<Turn<'a, T>> {
+        let at = self.finished.iter().position(|(line, _)| *line == self.out)?;
+        let take = self.take.take()?;
+        self.out += 1;
+        Some(Turn::Take(take, self.finished.swap_remove(at).1))
+    }
+
+    /// Ends the work: gives up all lines.
+    fn end(&mut self, ended: Result<(), RasterError>) {
+        self.ended.get_or_insert(ended);
+        self.give_up_from(0);
     }
 
     /// Gives up all later lines, because the tip of this line has returned to places that they have passed.
@@ -306,7 +359,7 @@ impl<T> Shared<T> {
     }
 
     /// Stores a finished line, unless it was given up meanwhile.
-    fn take(&mut self, job: &Job, made: Result<Made<T>, RasterError>) {
+    fn finish(&mut self, job: &Job, made: Result<Made<T>, RasterError>) {
         if job.given_up.load(Ordering::Relaxed) {
             return;
         }
@@ -319,53 +372,30 @@ impl<T> Shared<T> {
     }
 }
 
-/// The next line in order, once it is finished; `None` after the last one, or when the work ends.
-fn next_finished<T>(
-    lines: usize,
-    most: usize,
-    (shared, news): (&Mutex<Shared<T>>, &Condvar),
-) -> Option<Result<Made<T>, RasterError>> {
-    let mut now = lock(shared);
-    let n = now.out;
-    while n < lines && !now.is_over() {
-        if let Some(at) = now.finished.iter().position(|(line, _)| *line == n) {
-            let (_, line) = now.finished.swap_remove(at);
-            now.out = n + 1;
-            // Until now as many as may wait did.
-            if now.next >= n + most {
-                drop(now);
-                news.notify_all();
-            }
-            return Some(line);
-        }
-        now = wait(news, now);
-    }
-    None
-}
+/// Ends the work of all threads if one panics.
+struct OnPanic<'a, 't, T>((&'a Mutex<Shared<'t, T>>, &'a Condvar));
 
-/// Ends the work of all threads when it is dropped, if that is due.
-struct End<'a, T> {
-    shared: &'a Mutex<Shared<T>>,
-    news: &'a Condvar,
-    is_due: fn() -> bool,
-}
-
-impl<T> Drop for End<'_, T> {
+impl<T> Drop for OnPanic<'_, '_, T> {
     fn drop(&mut self) {
-        if (self.is_due)() {
-            let mut now = lock(self.shared);
-            now.ended = true;
-            now.give_up_from(0);
-            drop(now);
-            self.news.notify_all();
+        if std::thread::panicking() {
+            change(self.0, |now| now.end(Ok(())));
         }
     }
 }
 
-fn lock<T>(shared: &Mutex<Shared<T>>) -> MutexGuard<'_, Shared<T>> {
+fn lock<'a, 't, T>(shared: &'a Mutex<Shared<'t, T>>) -> MutexGuard<'a, Shared<'t, T>> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn wait<'a, T>(news: &Condvar, now: MutexGuard<'a, Shared<T>>) -> MutexGuard<'a, Shared<T>> {
-    news.wait_timeout(now, PATIENCE).unwrap_or_else(PoisonError::into_inner).0
+/// Changes the state, and lets threads look at it that wait.
+fn change<'t, T>(
+    (shared, news): (&Mutex<Shared<'t, T>>, &Condvar),
+    change: impl FnOnce(&mut Shared<'t, T>),
+) {
+    let mut now = lock(shared);
+    change(&mut now);
+    if now.waiting > 0 {
+        drop(now);
+        news.notify_all();
+    }
 }

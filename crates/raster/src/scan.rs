@@ -99,7 +99,7 @@ impl<'a> Scanning<'a> {
     pub fn scan(
         &mut self,
         threads: usize,
-        mut take: impl FnMut(&Line) -> bool,
+        mut take: impl FnMut(&Line) -> bool + Send,
     ) -> Result<(), RasterError> {
         self.scan_with(threads, |_, _| (), |line, ()| take(line))
     }
@@ -113,7 +113,7 @@ impl<'a> Scanning<'a> {
         &mut self,
         threads: usize,
         of_line: impl Fn(usize, &Line) -> T + Sync,
-        mut take: impl FnMut(&Line, T) -> bool,
+        mut take: impl FnMut(&Line, T) -> bool + Send,
     ) -> Result<(), RasterError> {
         let threads = match threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),

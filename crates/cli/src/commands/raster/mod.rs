@@ -48,18 +48,21 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
     )?
     .on_threads(threads);
     let interrupt = Interrupt::listen(session)?;
-    let (lines, finished) = scan::scan(session, &plan, &question, job.file(), &interrupt, threads)?;
-    let document = on_threads(threads, || question.document(&plan, &lines, &times))?;
-    let document = document.in_units(scales.as_ref());
-    if let Some(unit) = in_metres {
-        let map = document.height_map().map_err(Failure::run)?;
-        let bytes = field(&document.parameters, &map, unit);
-        job.finish_bytes(&bytes, document)?;
-    } else {
-        job.finish(document)?;
-    }
-    finished.remove();
-    Ok(())
+    // All of it on one of these threads: a thread that sleeps meanwhile may wake on the processor of another.
+    on_threads(threads, || {
+        let (lines, finished) =
+            scan::scan(session, &plan, &question, job.file(), &interrupt, threads)?;
+        let document = question.document(&plan, &lines, &times).in_units(scales.as_ref());
+        if let Some(unit) = in_metres {
+            let map = document.height_map().map_err(Failure::run)?;
+            let bytes = field(&document.parameters, &map, unit);
+            job.finish_bytes(&bytes, document)?;
+        } else {
+            job.finish(document)?;
+        }
+        finished.remove();
+        Ok(())
+    })?
 }
 
 /// The input files of a raster.

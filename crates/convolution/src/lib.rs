@@ -61,4 +61,5 @@ pub use plan::{Plan, Taper};
 pub use rows::Rows;
 pub use spectra::Spectra;
 pub use sum::{Sum, direct_sum, sum};
+pub use transforms::Transform;
 pub use window::Window;

@@ -4,6 +4,32 @@ use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+/// The Fourier transform of complex sequences of one length N: `F_k = Σ_n f_n e^{-2πikn/N}`.
+#[derive(Clone)]
+pub struct Transform(Arc<dyn Fft<f64>>);
+
+impl Transform {
+    /// The transform of this length.
+    pub fn new(length: usize) -> Self {
+        Self(FftPlanner::new().plan_fft_forward(length))
+    }
+
+    /// The length N.
+    pub fn length(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Replaces a sequence by its transform.
+    ///
+    /// # Panics
+    /// The sequence has another length.
+    pub fn of(&self, sequence: &mut [Complex<f64>]) {
+        assert_eq!(sequence.len(), self.length(), "length of a transform");
+        self.0.process(sequence);
+    }
+}
 
 /// Transforms of one length, with the room that they need.
 #[derive(Clone)]

@@ -5,6 +5,7 @@ use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
+use stickslip_convolution::Transform;
 use stickslip_tip::sorting::ends;
 
 /// Heights on evenly spaced points of evenly spaced lines, minus the mean and slope of each line or minus a plane.
@@ -171,6 +172,18 @@ impl Sheet {
             phase *= turn;
         }
         sum.norm_sqr()
+    }
+
+    /// The powers at κ = 2πj/(pitch N), for j from -N/2 on, where N is the even length of the transform, at least the
+    /// number of lines.
+    pub(super) fn powers(&self, q: f64, transform: &Transform) -> Vec<f64> {
+        let along = self.along(q);
+        let mut sums: Vec<Complex64> =
+            along.iter().zip(&self.windows.1).map(|(value, window)| value * window).collect();
+        sums.resize(transform.length(), Complex64::default());
+        transform.of(&mut sums);
+        sums.rotate_right(transform.length() / 2);
+        sums.iter().map(Complex64::norm_sqr).collect()
     }
 
     /// The power |Σ window u e^{-i(qx + κy)}|².

@@ -7,6 +7,7 @@ use super::vector::Vector;
 use super::wave::Wave;
 use ndarray::Array2;
 use std::f64::consts::{PI, TAU};
+use stickslip_convolution::Transform;
 
 /// Uniform random numbers in [0, 1): a 64-bit linear congruential generator (Knuth's MMIX), so that patterns are the
 /// same in every test.
@@ -205,5 +206,23 @@ fn crests_in_antiphase_have_no_angle() {
         let mut doubts = vec![];
         assert_eq!(vector.crest_angle(&mut doubts), None, "{part}");
         assert_eq!(doubts, [Doubt::Antiphase], "{part}");
+    }
+}
+
+/// By a transform, and by sums over all points.
+#[test]
+fn powers_are_those_of_sums() {
+    let mut random = Random(3);
+    let sheet = Made::random(&mut random).sheet(&mut random);
+    let count = 2 * sheet.u.nrows();
+    let transform = Transform::new(count);
+    for q in [0.0, 0.7, 1.9] {
+        let powers = sheet.powers(q, &transform);
+        assert_eq!(powers.len(), count);
+        let highest = powers.iter().copied().fold(0.0, f64::max);
+        for (j, power) in powers.iter().enumerate() {
+            let kappa = TAU * (j as f64 - 0.5 * count as f64) / (count as f64 * sheet.pitch);
+            assert!((power - sheet.power(q, kappa)).abs() < 1e-10 * highest, "{q} {kappa}");
+        }
     }
 }

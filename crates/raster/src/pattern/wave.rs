@@ -3,6 +3,7 @@
 use super::sheet::{Sheet, halves_of};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use stickslip_convolution::Transform;
 use stickslip_tip::sorting::sort_by_number;
 
 /// A maximum of the power |Σ window u e^{-i(qx + κy)}|².
@@ -121,11 +122,9 @@ impl Wave {
         let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
         let half = (PI / sheet.pitch / step_k).round() as i64;
         let last = (LOOKED_AT * sheet.band / step_q) as i64;
+        let transform = Transform::new(2 * half as usize);
         // One more at either end, which is looked at and not taken.
-        let row = |i: i64| -> Vec<f64> {
-            let along = sheet.along(step_q * i as f64);
-            (-half..half).map(|j| sheet.across(&along, step_k * j as f64)).collect()
-        };
+        let row = |i: i64| sheet.powers(step_q * i as f64, &transform);
         let power: Vec<Vec<f64>> = (first - 1..=last + 1).into_par_iter().map(row).collect();
         let columns = 2 * half as usize;
         let mut peaks = vec![];

@@ -42,6 +42,16 @@ impl Density {
         }
     }
 
+    /// Makes room for sources between two positions, before the first source.
+    pub fn reserve(&mut self, (from, to): (f64, f64)) {
+        if self.sums.is_empty() && from <= to {
+            self.first = self.lattice.locate(from).0 - BELOW;
+            let cells = self.lattice.locate(to).0 - BELOW + WIDTH as i64 - self.first;
+            self.sums = vec![0.0; cells as usize];
+            self.excess = vec![0.0; cells as usize];
+        }
+    }
+
     /// The distance between cells.
     pub fn spacing(&self) -> f64 {
         self.lattice.spacing
@@ -134,8 +144,10 @@ impl Density {
     fn touch(&mut self, start: i64) {
         let end = start + WIDTH as i64;
         if self.touched.is_empty() {
-            self.first = start;
             self.touched = start..end;
+        }
+        if self.sums.is_empty() {
+            self.first = start;
         }
         self.touched = self.touched.start.min(start)..self.touched.end.max(end);
         let doubled = 2 * self.sums.len();

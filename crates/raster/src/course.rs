@@ -10,10 +10,10 @@ use crate::grooves::{ahead, same};
 use crate::line::Line;
 use crate::plan::Plan;
 use crate::trace::{Trace, Ways, Writer};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use stickslip_tip::{InitialSurface, Relief, Running, Step, Support, stop};
+use stickslip_tip::{InitialSurface, Layer, Relief, Running, Step, Support, stop};
 
 /// The trace of all lines at one y.
 #[derive(Clone)]
@@ -26,7 +26,7 @@ struct Row {
 
 /// The rows within reach of later lines, in the order of their last lines.
 #[derive(Clone, Default)]
-pub(crate) struct Rows(Vec<Row>);
+pub(crate) struct Rows(Arc<Vec<Row>>);
 
 /// The scan of all lines of a plan.
 pub(crate) struct Course<'a> {
@@ -34,6 +34,9 @@ pub(crate) struct Course<'a> {
     expanders: Arc<Expanders>,
     /// Range of y of the remaining lines after each line.
     ahead: Vec<(f64, f64)>,
+    /// The largest number of steps of a line so far, for which the next one has room at once: a list that grows step by
+    /// step makes threads wait for memory.
+    most_steps: AtomicUsize,
 }
 
 struct Job {
@@ -82,7 +85,8 @@ const PATIENCE: Duration = Duration::from_millis(20);
 impl<'a> Course<'a> {
     /// `None` for footprints for which transforms of whole lines cost less.
     pub(crate) fn new(plan: &'a Plan) -> Option<Self> {
-        Some(Self { plan, expanders: Expanders::new(plan)?, ahead: ahead(plan) })
+        let most_steps = AtomicUsize::new(0);
+        Some(Self { plan, expanders: Expanders::new(plan)?, ahead: ahead(plan), most_steps })
     }
 
     /// Scans line n after these rows. The tip begins at this distance ahead of the support, with this velocity. `None` if
@@ -256,33 +260,32 @@ impl<'a> Course<'a> {
         let y = self.plan.track(n).y;
         let healed = self.plan.law.model.wider().left_after(self.plan.duration(n));
         let earlier = rows.0.iter().filter(|row| !same(row.y, y));
-        let mut rows: Vec<Row> =
-            earlier.map(|row| Row { left: healed * row.left, ..row.clone() }).collect();
+        let mut after = Vec::with_capacity(rows.0.len() + 1);
+        after.extend(earlier.map(|row| Row { left: healed * row.left, ..row.clone() }));
         if let Some((low, high)) = self.ahead.get(n + 1) {
             let reach = self.plan.reach_across();
-            rows.retain(|row| row.y >= low - reach && row.y <= high + reach);
+            after.retain(|row| row.y >= low - reach && row.y <= high + reach);
         }
-        rows.push(Row { y, left: 1.0, trace: Arc::default() });
-        Rows(rows)
+        after.push(Row { y, left: 1.0, trace: Arc::default() });
+        Rows(Arc::new(after))
     }
 
     fn surface_of(&self, job: &Job) -> InitialSurface {
         let (track, reach) = (self.plan.track(job.n), self.plan.reach_across());
         let alpha = self.plan.law.model.alpha();
-        let within = job.rows.0.iter().filter(|row| (row.y - track.y).abs() <= reach);
         let layers = self.plan.footprint.layers();
-        let factor = |row: &Row| {
-            let of = |layer: &stickslip_tip::Layer| {
-                -alpha * row.left * layer.across.value(track.y - row.y)
-            };
-            (layers.iter().map(of).collect(), Arc::clone(&row.trace))
-        };
-        let rows: Vec<(Vec<f64>, Arc<Trace>)> = within.map(factor).collect();
-        if rows.is_empty() {
+        let mut traces = Vec::with_capacity(job.rows.0.len());
+        let mut factors = Vec::with_capacity(job.rows.0.len() * layers.len());
+        for row in job.rows.0.iter().filter(|row| (row.y - track.y).abs() <= reach) {
+            traces.push(Arc::clone(&row.trace));
+            let of = |layer: &Layer| -alpha * row.left * layer.across.value(track.y - row.y);
+            factors.extend(layers.iter().map(of));
+        }
+        if traces.is_empty() {
             return InitialSurface::flat();
         }
         let (expanders, given_up) = (Arc::clone(&self.expanders), Arc::clone(&job.given_up));
-        let earlier = Arc::new(Earlier::new(expanders, rows, given_up));
+        let earlier = Arc::new(Earlier::new(expanders, (traces, factors), given_up));
         let along = (track.start, track.backward);
         InitialSurface::flat().with(Relief::expanded(earlier, along))
     }
@@ -300,7 +303,7 @@ impl<'a> Course<'a> {
         let failed = |error| RasterError::Line { line: job.n + 1, error };
         let is_given_up = || job.given_up.load(Ordering::Relaxed) || stop::is_requested();
         let mut running = Running::new(&scenario, &surface).map_err(failed)?;
-        let mut steps: Vec<Step> = vec![];
+        let mut steps: Vec<Step> = Vec::with_capacity(self.most_steps.load(Ordering::Relaxed));
         loop {
             let step = running.step();
             if is_given_up() {
@@ -310,6 +313,10 @@ impl<'a> Course<'a> {
             let is_ahead = writer.add(&step);
             steps.push(step);
             made(&mut writer, is_ahead);
+        }
+        self.most_steps.fetch_max(steps.len(), Ordering::Relaxed);
+        if 2 * steps.len() < steps.capacity() {
+            steps.shrink_to_fit();
         }
         let line = Line::new(self.plan.track(job.n), &scenario.model, steps, running.work());
         Ok(Some((line, writer)))

@@ -52,13 +52,14 @@ impl Expanders {
 pub(crate) struct Earlier {
     expanders: Arc<Expanders>,
     rows: Vec<Row>,
+    /// Factors of the traces of all rows in each layer, one row after the other.
+    factors: Vec<f64>,
     given_up: Arc<AtomicBool>,
     kept: Mutex<Kept>,
 }
 
-/// A trace with its factor in each layer.
+/// An earlier line.
 struct Row {
-    factors: Vec<f64>,
     trace: Arc<Trace>,
     /// The pieces of the trace, if all were known when the line began: to lock it for each would make threads wait.
     whole: Option<Arc<Pieces>>,
@@ -66,26 +67,26 @@ struct Row {
 
 impl Row {
     /// Adds a piece of the trace times the factors to the sums of all layers; false if the line is given up.
-    fn add(&self, n: i64, sums: &mut [f64], given_up: &AtomicBool) -> bool {
+    fn add(&self, n: i64, factors: &[f64], sums: &mut [f64], given_up: &AtomicBool) -> bool {
         let mut add = |piece: &Piece| {
-            for (factor, sums) in self.factors.iter().zip(sums.chunks_mut(PIECE)) {
+            for (factor, sums) in factors.iter().zip(sums.chunks_mut(PIECE)) {
                 sums.iter_mut().zip(piece).for_each(|(sum, rho)| *sum += factor * rho);
             }
         };
-        if let Some(pieces) = &self.whole {
-            pieces.get(&n).into_iter().for_each(|piece| add(piece));
-            return true;
+        let mut read = |pieces: &Pieces| pieces.get(n).into_iter().for_each(&mut add);
+        match &self.whole {
+            Some(pieces) => read(pieces),
+            None => return self.trace.read(n + 1, given_up, read).is_some(),
         }
-        let Some(pieces) = self.trace.pieces((n, n + 1), given_up) else { return false };
-        pieces.iter().for_each(|(_, piece)| add(piece));
         true
     }
 }
 
 /// The latest pieces and series, each with its number, stored at this number modulo [`KEPT`].
 struct Kept {
-    /// Σ_m h_l(y - y_m) ρ_m of each layer.
-    pieces: Vec<Option<(i64, Vec<f64>)>>,
+    pieces: [Option<i64>; KEPT],
+    /// Σ_m h_l(y - y_m) ρ_m of each layer, one piece after the other.
+    sums: Vec<f64>,
     series: Vec<Option<(i64, PowerSeries)>>,
     cells: Vec<f64>,
 }
@@ -97,24 +98,30 @@ impl fmt::Debug for Earlier {
 }
 
 impl Earlier {
+    /// The grooves of these traces, with their factors in each layer, one trace after the other.
     pub(crate) fn new(
         expanders: Arc<Expanders>,
-        rows: Vec<(Vec<f64>, Arc<Trace>)>,
+        (traces, factors): (Vec<Arc<Trace>>, Vec<f64>),
         given_up: Arc<AtomicBool>,
     ) -> Self {
-        let row = |(factors, trace): (_, Arc<Trace>)| Row { factors, whole: trace.whole(), trace };
-        let rows = rows.into_iter().map(row).collect();
-        let kept = Kept { pieces: vec![None; KEPT], series: vec![None; KEPT], cells: vec![] };
-        Self { expanders, rows, given_up, kept: Mutex::new(kept) }
+        let row = |trace: Arc<Trace>| Row { whole: trace.whole(), trace };
+        let rows = traces.into_iter().map(row).collect();
+        let kept = Kept {
+            pieces: [None; KEPT],
+            sums: vec![0.0; KEPT * PIECE * expanders.0.len()],
+            series: vec![None; KEPT],
+            cells: vec![],
+        };
+        Self { expanders, rows, factors, given_up, kept: Mutex::new(kept) }
     }
 
-    /// Σ_m h_l(y - y_m) ρ_m of all layers on one piece; incomplete if the line is given up.
-    fn piece(&self, n: i64) -> Vec<f64> {
-        let mut sums = vec![0.0; PIECE * self.expanders.0.len()];
-        if !self.rows.iter().all(|row| row.add(n, &mut sums, &self.given_up)) {
+    /// Sets the sums of all layers on one piece; they are incomplete if the line is given up.
+    fn sum(&self, n: i64, sums: &mut [f64]) {
+        sums.fill(0.0);
+        let mut rows = self.rows.iter().zip(self.factors.chunks(self.expanders.0.len()));
+        if !rows.all(|(row, factors)| row.add(n, factors, sums, &self.given_up)) {
             self.given_up.store(true, Ordering::Relaxed);
         }
-        sums
     }
 
     fn series(&self, point: i64, kept: &mut Kept) -> PowerSeries {
@@ -124,11 +131,12 @@ impl Earlier {
             let last = point + expander.reach() as i64;
             kept.cells.clear();
             for n in first.div_euclid(size)..=last.div_euclid(size) {
-                let piece = &mut kept.pieces[slot(n)];
-                if piece.as_ref().is_none_or(|(kept, _)| *kept != n) {
-                    *piece = Some((n, self.piece(n)));
+                let room = PIECE * self.expanders.0.len();
+                let sums = &mut kept.sums[room * slot(n)..][..room];
+                if kept.pieces[slot(n)] != Some(n) {
+                    self.sum(n, sums);
+                    kept.pieces[slot(n)] = Some(n);
                 }
-                let Some((_, sums)) = piece else { continue };
                 let from = (first - n * size).max(0) as usize;
                 let to = (last - n * size + 1).min(size) as usize;
                 kept.cells.extend(&sums[PIECE * layer..][from..to]);

@@ -1,7 +1,7 @@
 //! The residence density of a line, which becomes known piece by piece while the tip moves along it.
 
 use crate::path::Track;
-use std::collections::BTreeMap;
+use std::mem;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -12,8 +12,8 @@ use stickslip_tip::{Step, Support, Wider, stop};
 /// Number of cells of a piece.
 pub(crate) const PIECE: usize = 32;
 pub(crate) type Piece = [f64; PIECE];
-/// Pieces by their number; missing ones are 0.
-pub(crate) type Pieces = BTreeMap<i64, Arc<Piece>>;
+/// Number of pieces for which a stretch has room at first: a hundred widths of a Gaussian.
+const ROOM: usize = 16;
 
 /// Number of cells below its own that a source changes.
 const BELOW: i64 = 8;
@@ -26,6 +26,38 @@ const AWAKE: Duration = Duration::from_micros(200);
 /// Longest time until a waiting line notices that the work is cancelled.
 const PATIENCE: Duration = Duration::from_millis(20);
 
+/// Pieces by their number, in stretches, each with the number of its first; missing ones are 0. A stretch is one piece of
+/// memory: a thread also frees what other threads have allocated, and makes them wait each time.
+#[derive(Debug, Default)]
+pub(crate) struct Pieces(Vec<(i64, Vec<Piece>)>);
+
+impl Pieces {
+    pub(crate) fn get(&self, n: i64) -> Option<&Piece> {
+        let stretches = self.0.partition_point(|(first, _)| *first <= n);
+        let (first, pieces) = self.0[..stretches].last()?;
+        pieces.get(usize::try_from(n - first).ok()?)
+    }
+
+    /// Adds a piece after all others.
+    fn push(&mut self, n: i64, piece: Piece) {
+        if let Some((first, pieces)) = self.0.last_mut()
+            && *first + pieces.len() as i64 == n
+        {
+            pieces.push(piece);
+            return;
+        }
+        let mut pieces = Vec::with_capacity(ROOM);
+        pieces.push(piece);
+        self.0.push((n, pieces));
+    }
+
+    /// The pieces `from`..`to` that are not missing.
+    fn within(&self, (from, to): (i64, i64)) -> impl Iterator<Item = (i64, &Piece)> {
+        let all = self.0.iter().flat_map(|(first, pieces)| (*first..).zip(pieces));
+        all.skip_while(move |(n, _)| *n < from).take_while(move |(n, _)| *n < to)
+    }
+}
+
 /// ρ of all lines so far at one y, at the end of the last of them. Lines that follow may read a piece as soon as the tip
 /// has left it behind, and wait for it until then.
 #[derive(Debug, Default)]
@@ -36,10 +68,11 @@ pub(crate) struct Trace {
 
 #[derive(Debug, Default)]
 struct Known {
-    /// Shared once all of them are known.
-    pieces: Arc<Pieces>,
+    pieces: Pieces,
     /// All pieces below this one are known; `None` if none is known, and the largest number after the end of the line.
     to: Option<i64>,
+    /// All pieces, once they are known: `pieces` has none then.
+    whole: Option<Arc<Pieces>>,
     /// The piece up to which the trace must be known before waiting lines continue.
     wanted: Option<i64>,
 }
@@ -52,12 +85,13 @@ impl Known {
 }
 
 impl Trace {
-    /// The pieces `from`..`to`, once all of them are known; `None` if the line that needs them is given up before.
-    pub(crate) fn pieces(
+    /// What `read` finds in the pieces, once all below `to` are known; `None` if the line that needs them is given up before.
+    pub(crate) fn read<T>(
         &self,
-        (from, to): (i64, i64),
+        to: i64,
         given_up: &AtomicBool,
-    ) -> Option<Vec<(i64, Arc<Piece>)>> {
+        read: impl FnOnce(&Pieces) -> T,
+    ) -> Option<T> {
         let mut known = self.lock();
         if !known.reaches(to) {
             known = self.awake(known, to);
@@ -72,7 +106,7 @@ impl Trace {
             let waited = self.news.wait_timeout(known, PATIENCE);
             known = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
-        Some(known.pieces.range(from..to).map(|(n, piece)| (*n, Arc::clone(piece))).collect())
+        Some(read(known.whole.as_deref().unwrap_or(&known.pieces)))
     }
 
     /// Waits a while, without sleep, until all pieces below this one are known.
@@ -88,14 +122,16 @@ impl Trace {
 
     /// All pieces, if they are known.
     pub(crate) fn whole(&self) -> Option<Arc<Pieces>> {
-        let known = self.lock();
-        (known.to == Some(i64::MAX)).then(|| Arc::clone(&known.pieces))
+        self.lock().whole.clone()
     }
 
-    fn publish(&self, pieces: Pieces, to: i64) {
+    fn publish(&self, pieces: impl Iterator<Item = (i64, Piece)>, to: i64) {
         let mut known = self.lock();
-        Arc::make_mut(&mut known.pieces).extend(pieces);
+        pieces.for_each(|(n, piece)| known.pieces.push(n, piece));
         known.to = Some(to);
+        if to == i64::MAX {
+            known.whole = Some(Arc::new(mem::take(&mut known.pieces)));
+        }
         if known.wanted.is_some_and(|wanted| wanted <= to) {
             known.wanted = None;
             drop(known);
@@ -137,7 +173,10 @@ impl Writer {
         given_up: Arc<AtomicBool>,
     ) -> Self {
         let (farthest, to) = (i64::MIN, i64::MIN);
-        Self { ways, trace, density: Density::new(spacing), given_up, farthest, to }
+        let mut density = Density::new(spacing);
+        let (start, end) = (ways.track.x(0.0), ways.track.x(ways.track.length));
+        density.reserve((start.min(end), start.max(end)));
+        Self { ways, trace, density, given_up, farthest, to }
     }
 
     /// Adds a step; false if it leads back to pieces that are published already.
@@ -175,21 +214,29 @@ impl Writer {
     }
 
     fn publish_to(&mut self, to: i64) {
-        let (size, cells) = (PIECE as i64, self.density.range());
-        let mut pieces: BTreeMap<i64, Piece> = BTreeMap::new();
-        if let Some((before, left)) = &self.ways.before {
-            let Some(before) = before.pieces((self.to, to), &self.given_up) else { return };
-            pieces.extend(before.iter().map(|(n, piece)| (*n, piece.map(|rho| left * rho))));
+        let (size, cells, from) = (PIECE as i64, self.density.range(), self.to);
+        let mut before: Vec<(i64, Piece)> = vec![];
+        if let Some((trace, left)) = &self.ways.before {
+            let read = |pieces: &Pieces| {
+                let faded = |(n, piece): (_, &Piece)| (n, piece.map(|rho| left * rho));
+                pieces.within((from, to)).map(faded).collect()
+            };
+            let Some(known) = trace.read(to, &self.given_up, read) else { return };
+            before = known;
         }
-        let first = cells.start.div_euclid(size).max(self.to);
-        let last = (cells.end + size - 1).div_euclid(size).min(to);
-        for n in first..last {
-            let mut own = [0.0; PIECE];
-            self.density.copy_window(n * size, &mut own);
-            let all = pieces.entry(n).or_insert([0.0; PIECE]);
-            all.iter_mut().zip(own).for_each(|(all, own)| *all += own);
-        }
-        self.trace.publish(pieces.into_iter().map(|(n, piece)| (n, Arc::new(piece))).collect(), to);
+        let first = cells.start.div_euclid(size).max(from);
+        let last = (cells.end + size - 1).div_euclid(size).min(to).max(first);
+        let own = (first..last).map(|n| {
+            let mut piece = [0.0; PIECE];
+            self.density.copy_window(n * size, &mut piece);
+            if let Ok(at) = before.binary_search_by_key(&n, |(n, _)| *n) {
+                piece.iter_mut().zip(before[at].1).for_each(|(own, before)| *own += before);
+            }
+            (n, piece)
+        });
+        let below = before.iter().copied().take_while(|(n, _)| *n < first);
+        let above = before.iter().copied().skip_while(|(n, _)| *n < last);
+        self.trace.publish(below.chain(own).chain(above), to);
         self.to = to;
     }
 }

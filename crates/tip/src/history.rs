@@ -365,7 +365,8 @@ impl Trajectory {
     /// Where the tip was until time t, and for how long: positions and weights such that ∫_{start}^t w(t')
     /// e^{-(t-t')/T} g(x0(t'))dt' = Σ `w_j` g(`x_j`), with w and T of the extended model.
     pub fn residence(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
-        let (mut positions, mut weights) = (vec![], vec![]);
+        let room = STAGES * self.steps.len();
+        let (mut positions, mut weights) = (Vec::with_capacity(room), Vec::with_capacity(room));
         for step in self.steps.iter().take_while(|step| step.t < t) {
             let origin = self.support.position(step.t) - step.extension;
             step.each_moment(&self.wider, t, |moment| {

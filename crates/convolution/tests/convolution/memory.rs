@@ -119,6 +119,20 @@ fn windows_beyond_the_density_are_zero() {
     assert!(magnitude(&cells) < 1e-300);
 }
 
+/// About all sources, about a few of them, and beyond them.
+#[test]
+fn room_for_sources_changes_nothing() {
+    let sources = path();
+    let without = filled(0.25, &sources);
+    for room in [(-20.0, 480.0), (100.0, 130.0), (900.0, 910.0), (2.0, 1.0)] {
+        let mut density = Density::new(0.25);
+        density.reserve(room);
+        assert!(density.range().is_empty());
+        sources.iter().for_each(|&y| density.add(y, 0.25));
+        assert!(density.parts() == without.parts(), "{room:?}");
+    }
+}
+
 #[test]
 fn a_moved_origin_changes_nothing() {
     let value = TRIPLE_SLOPE.value();

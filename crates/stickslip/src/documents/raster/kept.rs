@@ -5,7 +5,7 @@ use crate::Unusable;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use stickslip_raster::{Line, Plan};
-use stickslip_tip::{Step, Work, nodes_and_weights, planar};
+use stickslip_tip::{STEP_NUMBERS, Step, Work, nodes_and_weights, planar};
 
 /// A finished line of an unfinished raster.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,18 +20,18 @@ pub struct KeptLine {
     pub steps: Vec<f64>,
 }
 
-/// Size of a number in bytes.
-const SIZE: usize = 8;
-
 impl KeptLine {
     /// The line with this index, from 0.
     pub fn of(index: usize, line: &Line) -> Self {
         let Work { steps, rejected, newton_iterations, series, switches } = line.work();
         let work = [steps, rejected, newton_iterations, series, switches];
+        let count = line.trajectory().steps().len();
         let mut numbers = vec![];
         if line.is_free() {
+            numbers.reserve_exact(count * planar::STEP_NUMBERS);
             line.planar_steps().for_each(|step| numbers.extend_from_slice(&step.numbers()));
         } else {
+            numbers.reserve_exact(count * STEP_NUMBERS);
             let steps = line.trajectory().steps().iter();
             steps.for_each(|step| numbers.extend_from_slice(&step.numbers()));
         }
@@ -41,11 +41,11 @@ impl KeptLine {
     /// The index, the work and the bits of all numbers, the lowest byte first, in base64: a tenth of the work of
     /// decimals.
     pub fn to_text(&self) -> String {
-        let mut bytes = Vec::with_capacity(SIZE * (1 + self.work.len() + self.steps.len()));
-        bytes.extend_from_slice(&(self.index as u64).to_le_bytes());
-        self.work.iter().for_each(|work| bytes.extend_from_slice(&work.to_le_bytes()));
-        self.steps.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
-        STANDARD.encode(bytes)
+        let head = [self.index as u64].into_iter().chain(self.work).map(u64::to_le_bytes);
+        let mut numbers = Vec::with_capacity(1 + self.work.len() + self.steps.len());
+        numbers.extend(head);
+        numbers.extend(self.steps.iter().map(|number| number.to_le_bytes()));
+        STANDARD.encode(numbers.as_flattened())
     }
 
     /// The line whose text this is; `None` if it is that of no line.

@@ -11,6 +11,7 @@ use crate::arguments::{
     AnswerArguments, Length, Range, RasterSweepArguments, SweepArguments, SweepThen, TipArguments,
     WorkArguments,
 };
+use crate::arithmetic;
 use crate::commands::in_units::scales;
 use crate::commands::model::tip;
 use crate::failure::Failure;
@@ -50,6 +51,7 @@ impl Part for RasterSweepPoint {
 }
 
 pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(), Failure> {
+    arithmetic::prepare();
     match &arguments.then {
         Some(SweepThen::Merge(merged)) => return merge::merge(session, merged),
         Some(SweepThen::Raster(rasters)) => return raster(session, rasters),

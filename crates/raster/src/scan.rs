@@ -88,8 +88,8 @@ impl<'a> Scanning<'a> {
     }
 
     /// Scans all remaining lines with this number of threads (0: one per core), and passes them to `take` in their
-    /// order, until `take` returns false or the work is [cancelled](stop). The number of threads does not affect the
-    /// lines.
+    /// order, until `take` returns false or the work is [cancelled](stop). Any of the threads calls `take`, one at a
+    /// time. The number of threads does not affect the lines.
     ///
     /// Lines of a zigzag are scanned one after the other, because the tip begins a line where it has ended the one
     /// before. So are lines of a tip that is free to move across them, and of footprints with many layers.

@@ -1,10 +1,9 @@
 //! Questions whose answer is a list of points, each computed independently of the others.
 
 use crate::{Context, Failure, Question, ShardDocument};
-use rayon::iter::{IndexedParallelIterator, ParallelIterator};
-use rayon::slice::ParallelSlice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use stickslip_tip::sorting::sort_by_number;
 
@@ -73,25 +72,28 @@ pub fn each_point<Q: Points>(
     let pool = pool(threads)?;
     let groups = GROUPS_PER_THREAD * pool.current_num_threads();
     let size = indices.len().div_ceil(groups).clamp(1, question.together());
+    let groups = Mutex::new(indices.chunks(size));
+    let next = || groups.lock().unwrap_or_else(PoisonError::into_inner).next();
     let keep = Mutex::new(keep);
-    let group = |indices: &[usize]| -> Option<()> {
-        let mut is_kept = true;
-        let mut take = |point| {
-            // A cancelled computation makes no point.
-            if is_kept && !context.is_cancelled() {
-                is_kept = keep.lock().unwrap_or_else(PoisonError::into_inner)(point);
-            }
-        };
-        if !context.is_cancelled() {
-            let mut work = || {
-                safely(question, indices, &mut take);
-                Ok(())
-            };
-            context.keeping(&mut work).ok();
+    let is_kept = AtomicBool::new(true);
+    let goes_on = || is_kept.load(Ordering::Relaxed) && !context.is_cancelled();
+    let take = |point| {
+        // A cancelled computation makes no point.
+        if goes_on() && !keep.lock().unwrap_or_else(PoisonError::into_inner)(point) {
+            is_kept.store(false, Ordering::Relaxed);
         }
-        (is_kept && !context.is_cancelled()).then_some(())
     };
-    pool.install(|| indices.par_chunks(size).with_max_len(1).try_for_each(group));
+    // This thread wakes all others: one that another of them wakes may wait until the scheduler moves it to a processor
+    // of its own.
+    pool.broadcast(|_| {
+        let work = || {
+            while let Some(group) = next().filter(|_| goes_on()) {
+                safely(question, group, &mut |point| take(point));
+            }
+            Ok(())
+        };
+        context.keeping(work).ok();
+    });
     if context.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
 }
 

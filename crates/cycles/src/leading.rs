@@ -10,7 +10,7 @@ use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::along;
 use super::orbit::Orbit;
-use super::past::{Numbers, Past};
+use super::past::Past;
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
 use super::step::{Factors, LinearStep};
@@ -97,7 +97,7 @@ impl<'a> PeriodMap<'a> {
     }
 
     fn past(&self) -> Option<Past<'_>> {
-        Past::of(&self.equation.short, self.orbit, &self.carved, Numbers::default())
+        Past::of(&self.equation.short, self.orbit, &self.carved)
     }
 
     fn len(&self) -> usize {

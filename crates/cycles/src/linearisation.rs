@@ -9,7 +9,7 @@ use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
 use super::orbit::Orbit;
-use super::past::{Numbers, Past};
+use super::past::Past;
 use super::sensitivity::Sensitivity;
 use super::step::{Factors, LinearStep, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
@@ -40,13 +40,6 @@ struct Phase {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singular;
 
-/// The numbers of both histories of a linearisation, whose memory the next linearisation uses again.
-#[derive(Default)]
-pub(super) struct Room {
-    past: Numbers,
-    solved: Numbers,
-}
-
 impl Linearisation {
     /// The linearisation in the short sum, about an orbit that should solve the equations in the sum `solved`.
     pub(super) fn new(
@@ -54,16 +47,11 @@ impl Linearisation {
         orbit: &Orbit,
         free: Parameter,
         solved: &Fit,
-        room: &mut Room,
     ) -> Result<Self, Singular> {
         let carved = orbit.carved(&equation.wider);
-        let numbers = std::mem::take(&mut room.past);
-        let past = Past::of(&equation.short, orbit, &carved, numbers).ok_or(Singular)?;
-        let other = (solved != &*equation.short).then(|| {
-            let numbers = std::mem::take(&mut room.solved);
-            Past::of(solved, orbit, &carved, numbers).ok_or(Singular)
-        });
-        let other = other.transpose()?;
+        let past = |sum| Past::of(sum, orbit, &carved).ok_or(Singular);
+        let other = (solved != &*equation.short).then(|| past(solved)).transpose()?;
+        let past = past(&equation.short)?;
         let solved = other.as_ref().unwrap_or(&past);
         let mut end = Sensitivity::identity(equation.state_len());
         let (mut stages, mut heights, mut of_steps) = (vec![], vec![], vec![]);
@@ -76,10 +64,6 @@ impl Linearisation {
             Some(())
         })?;
         let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
-        if let Some(other) = other {
-            room.solved = other.into_numbers();
-        }
-        room.past = past.into_numbers();
         Ok(Self { gap, end, stages, heights, phase, of_steps })
     }
 

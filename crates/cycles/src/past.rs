@@ -3,6 +3,7 @@
 use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
+use std::cell::Cell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::with_inverses;
@@ -18,10 +19,9 @@ pub(super) struct Past<'a> {
     left: Vec<Stages>,
 }
 
-/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation. Their memory is kept for
-/// the next one, because a new allocation takes longer than writing them.
+/// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation.
 #[derive(Default)]
-pub(super) struct Numbers {
+struct Numbers {
     /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `e^{-s_j d_i}`
@@ -32,20 +32,28 @@ pub(super) struct Numbers {
     zeta: Vec<Complex<f64>>,
 }
 
+thread_local! {
+    /// The memory of two earlier histories, for the next ones: a new allocation takes longer than writing to it. Two, as a
+    /// linearisation may need the history in two sums.
+    static EARLIER: Cell<[Numbers; 2]> = Cell::default();
+}
+
 /// Number of steps whose exponentials are computed together.
 const TOGETHER: usize = 16;
 
 impl Numbers {
     /// Empty, with room for this number of steps and terms.
-    fn emptied(mut self, count: usize) -> Self {
-        self.exponentials.clear();
-        self.inverses.clear();
-        self.spent.clear();
-        self.zeta.clear();
-        self.exponentials.reserve(count);
-        self.inverses.reserve(count);
-        self.spent.reserve(count);
-        self
+    fn with_room(count: usize) -> Self {
+        let [mut numbers, other] = EARLIER.take();
+        EARLIER.set([other, Self::default()]);
+        numbers.exponentials.clear();
+        numbers.inverses.clear();
+        numbers.spent.clear();
+        numbers.zeta.clear();
+        numbers.exponentials.reserve(count);
+        numbers.inverses.reserve(count);
+        numbers.spent.reserve(count);
+        numbers
     }
 }
 
@@ -67,19 +75,14 @@ pub(super) struct PastOfStep<'a> {
 
 impl<'a> Past<'a> {
     /// The history of a periodic orbit; `None` after a request to stop. `carved` contains the weights and the decay of each
-    /// step; `numbers` are those of an earlier history, whose memory is used again.
+    /// step.
     ///
     /// Over a step of length h ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`, with the healing time T; after a
     /// period it must be the same again.
-    pub(super) fn of(
-        fit: &'a Fit,
-        orbit: &Orbit,
-        carved: &[Carved],
-        numbers: Numbers,
-    ) -> Option<Self> {
+    pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
-        let mut numbers = numbers.emptied(count);
+        let mut numbers = Numbers::with_room(count);
         let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
         for (steps, carved) in orbit.stages.chunks(TOGETHER).zip(carved.chunks(TOGETHER)) {
             if stop::is_requested() {
@@ -118,11 +121,6 @@ impl<'a> Past<'a> {
         Some(past)
     }
 
-    /// The numbers, for another history.
-    pub(super) fn into_numbers(self) -> Numbers {
-        self.numbers
-    }
-
     /// ζ at the ends of all steps, from ζ at the start of the period.
     fn follow(&mut self) {
         let count = self.terms.len();
@@ -158,6 +156,13 @@ fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
         sum[1] += e.im * b;
     }
     Complex::new(sum[0], sum[1])
+}
+
+impl Drop for Past<'_> {
+    fn drop(&mut self) {
+        let [earlier, _] = EARLIER.take();
+        EARLIER.set([std::mem::take(&mut self.numbers), earlier]);
+    }
 }
 
 impl PastOfStep<'_> {

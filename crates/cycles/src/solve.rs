@@ -3,7 +3,7 @@
 use super::CycleError;
 use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
-use super::linearisation::{Linearisation, Room};
+use super::linearisation::Linearisation;
 use super::mesh::{Aim, MOST_STEPS, MOST_STEPS_OF_GUESS, adapted, residuals};
 use super::orbit::Orbit;
 use nalgebra::DMatrix;
@@ -143,7 +143,6 @@ fn close_in_sums(
     let (mut iterations, mut work, mut reached) = (0, 0.0, 0.0);
     let meshes = if equation.wider.is_basic() { MOST_MESHES } else { MOST_MESHES_OF_WIDER };
     let (mut short_of_it, mut is_near) = (0, false);
-    let mut room = Room::default();
     for round in 0..meshes {
         let passes = [(first, ENOUGH_FOR_A_MESH), (&fine, ENOUGH)];
         for (solved, enough) in passes.into_iter().skip(usize::from(is_near)) {
@@ -153,8 +152,7 @@ fn close_in_sums(
                 equation.short = Arc::clone(&short);
             }
             let (e, o) = (&mut equation, &mut orbit);
-            let mut newton =
-                Newton { equation: e, orbit: o, condition, precise: &short, room: &mut room };
+            let mut newton = Newton { equation: e, orbit: o, condition, precise: &short };
             let Converged { linearisation, count, size } = newton.solve(solved, enough)?;
             iterations += count;
             work += equation.work((count * orbit.stages.len()) as f64);
@@ -195,8 +193,7 @@ fn close_in_sums(
                     linearisation
                 } else {
                     iterations += 1;
-                    let again =
-                        Linearisation::new(&equation, &orbit, condition.free, &fine, &mut room);
+                    let again = Linearisation::new(&equation, &orbit, condition.free, &fine);
                     again.map_err(|_| NotClosed::Lost)?
                 };
                 let linearisation = Arc::new(linearisation);
@@ -226,7 +223,6 @@ struct Newton<'a> {
     condition: Condition,
     /// The alternative sum, if the rough one leads to no solution.
     precise: &'a Arc<Fit>,
-    room: &'a mut Room,
 }
 
 /// The end of an iteration of Newton's method.
@@ -245,8 +241,7 @@ impl Newton<'_> {
         let free = self.condition.free;
         let (mut last, mut far) = (f64::INFINITY, 0);
         for count in 1..=MOST_ITERATIONS {
-            let linearisation =
-                Linearisation::new(self.equation, self.orbit, free, solved, self.room);
+            let linearisation = Linearisation::new(self.equation, self.orbit, free, solved);
             let linearisation = linearisation.map_err(|_| NotClosed::Lost)?;
             let change = linearisation.correction(&self.condition.fixed).ok_or(NotClosed::Lost)?;
             self.apply(&change)?;
@@ -310,13 +305,7 @@ impl Closed {
     pub(super) fn monodromy_in(&self, sum: &Arc<Fit>) -> Option<DMatrix<f64>> {
         let Self { equation, orbit, .. } = self;
         let precise = Embedding { short: Arc::clone(sum), ..equation.clone() };
-        let again = Linearisation::new(
-            &precise,
-            orbit,
-            Parameter::Alpha,
-            &equation.fine,
-            &mut Room::default(),
-        );
+        let again = Linearisation::new(&precise, orbit, Parameter::Alpha, &equation.fine);
         again.ok().map(|linearisation| linearisation.monodromy())
     }
 }

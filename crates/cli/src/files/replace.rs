@@ -1,7 +1,7 @@
 //! Atomic replacement of a file: at any time its name refers to the complete old or the complete new content.
 
 use super::paths::folder_of;
-use super::temporary::{Unfinished, beside, remove_left_behind, through};
+use super::temporary::{beside, remove_left_behind, through};
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::Path;
@@ -49,8 +49,7 @@ pub(super) fn replace(
     permissions: &Permissions,
     write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let file = beside(path, folder_of(path))?;
-    let _unfinished = Unfinished::at(file.path());
+    let (file, _unfinished) = beside(path, folder_of(path))?;
     permissions.give_to(file.as_file())?;
     thread::scope(|scope| {
         let mut synced = Synced { file: file.as_file(), scope, since: 0, syncing: None };

@@ -30,10 +30,13 @@ pub(crate) fn remove_unfinished() {
 pub(super) struct Unfinished(PathBuf);
 
 impl Unfinished {
-    /// Registers an unfinished file.
-    pub(super) fn at(path: &Path) -> Self {
-        locked(&UNFINISHED).push(path.into());
-        Self(path.into())
+    /// A new file in a folder, registered before a signal can end the program.
+    fn new(prefix: &str, folder: &Path) -> io::Result<(NamedTempFile, Self)> {
+        let mut unfinished = locked(&UNFINISHED);
+        let file = new(prefix, folder)?;
+        unfinished.push(file.path().into());
+        let made = Self(file.path().into());
+        Ok((file, made))
     }
 }
 
@@ -44,14 +47,14 @@ impl Drop for Unfinished {
 }
 
 /// A new locked file in the folder of a target.
-pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<NamedTempFile> {
+pub(super) fn beside(target: &Path, folder: &Path) -> io::Result<(NamedTempFile, Unfinished)> {
     loop {
-        let file = new(&prefix(target), folder)?;
+        let (file, unfinished) = Unfinished::new(&prefix(target), folder)?;
         // Some file systems have no locks; without them no program treats the file as abandoned.
         file.as_file().lock().ok();
         // Between its birth and its lock, it may have been.
         if file.path().exists() {
-            return Ok(file);
+            return Ok((file, unfinished));
         }
     }
 }
@@ -132,7 +135,7 @@ mod tests {
 
     /// A temporary file without its lock, as a kill leaves it.
     fn left_behind(target: &Path, folder: &Path) -> PathBuf {
-        let (file, path) = beside(target, folder).unwrap().keep().unwrap();
+        let (file, path) = beside(target, folder).unwrap().0.keep().unwrap();
         drop(file);
         path
     }
@@ -143,7 +146,7 @@ mod tests {
         let folder = folder.path();
         let (target, other) = (folder.join("run.json"), folder.join("other.json"));
         let dead = [left_behind(&target, folder), left_behind(&target, folder)];
-        let living = beside(&target, folder).unwrap();
+        let (living, _unfinished) = beside(&target, folder).unwrap();
         let others = left_behind(&other, folder);
         let foreign = folder.join(".stickslip-a");
         fs::write(&foreign, "").unwrap();

@@ -35,9 +35,12 @@ impl Convolver {
     }
 
     /// Prepares the kernel with a given plan, which determines the accuracy.
+    ///
+    /// # Panics
+    /// The length of the plan is not an even product of 2, 3 and 5.
     pub fn with_plan(kernel: &Kernel, plan: Plan) -> Self {
         let mut transforms = Transforms::new(plan.length);
-        transforms.forward(&mut periodic_samples(kernel, &plan));
+        transforms.forward(&periodic_samples(kernel, &plan));
         let multiplier = deconvolved(&transforms.modes, plan.length);
         Self { plan, multiplier, transforms }
     }
@@ -77,7 +80,7 @@ impl Convolver {
         for (mode, factor) in self.transforms.modes.iter_mut().zip(&self.multiplier) {
             *mode *= factor;
         }
-        self.transforms.backward(self.multiplier.len(), cells);
+        self.transforms.backward(cells);
     }
 }
 

@@ -106,7 +106,7 @@ pub(crate) fn fast_length(least: usize) -> usize {
     length
 }
 
-fn is_smooth(mut n: usize) -> bool {
+pub(crate) fn is_smooth(mut n: usize) -> bool {
     for prime in [2, 3, 5] {
         while n.is_multiple_of(prime) {
             n /= prime;

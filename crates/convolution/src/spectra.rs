@@ -105,7 +105,7 @@ impl Spectra {
     }
 
     fn transformed(&mut self) -> Vec<Complex<f64>> {
-        self.transforms.forward(&mut self.cells);
+        self.transforms.forward(&self.cells);
         self.transforms.modes.iter().zip(&self.window).map(|(mode, window)| mode * window).collect()
     }
 
@@ -137,6 +137,6 @@ impl Spectra {
         for ((mode, given), window) in modes.zip(spectrum).zip(&self.window) {
             *mode = given * (window * scale);
         }
-        self.transforms.backward(spectrum.len(), cells);
+        self.transforms.backward(cells);
     }
 }

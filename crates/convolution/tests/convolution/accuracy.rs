@@ -139,7 +139,8 @@ fn a_coarser_lattice_or_a_shorter_window_is_noticed() {
     accept("as planned", error(good, &targets), TOLERANCE);
     let coarse = Plan { spacing: 2.0 * good.spacing, ..good };
     assert!(error(coarse, &targets) > 1e-6);
-    let wrapped = Plan { length: (32.0 / good.spacing) as usize, ..good };
+    let wrapped = Plan { length: 180, ..good };
+    assert!((30.0..33.0).contains(&(180.0 * good.spacing)));
     assert!(error(wrapped, &targets) > 1e-6);
 }
 

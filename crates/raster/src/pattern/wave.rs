@@ -118,11 +118,11 @@ impl Wave {
 
     /// All local maxima of the power from the sample `first` of q on.
     fn peaks(sheet: &Sheet, first: i64) -> Vec<Self> {
-        let (dq, dk) = sheet.resolution();
-        let (step_q, step_k) = (dq / PER_PEAK, dk / PER_PEAK);
-        let half = (PI / sheet.pitch / step_k).round() as i64;
+        let (dq, _) = sheet.resolution();
+        let transform = Transform::at_least((PER_PEAK * sheet.u.nrows() as f64) as usize);
+        let half = transform.length() as i64 / 2;
+        let (step_q, step_k) = (dq / PER_PEAK, PI / sheet.pitch / half as f64);
         let last = (LOOKED_AT * sheet.band / step_q) as i64;
-        let transform = Transform::new(2 * half as usize);
         // One more at either end, which is looked at and not taken.
         let row = |i: i64| sheet.powers(step_q * i as f64, &transform);
         let power: Vec<Vec<f64>> = (first - 1..=last + 1).into_par_iter().map(row).collect();

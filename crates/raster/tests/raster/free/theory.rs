@@ -18,7 +18,7 @@ use stickslip_stability::{Raster, RasterPath};
 use stickslip_tip::{Force, Model, Pulse, Wider};
 
 /// Of the pulses.
-const WEAK: f64 = 3e-4;
+const WEAK: f64 = 1e-3;
 
 struct Case {
     beta: f64,

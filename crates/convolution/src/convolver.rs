@@ -105,5 +105,5 @@ fn deconvolved(spectrum: &[Complex<f64>], length: usize) -> Vec<Complex<f64>> {
         let phi = window.transform(TAU * mode as f64 / length as f64);
         k / (length as f64 * phi * phi)
     };
-    spectrum[..=length / 4].iter().enumerate().map(divided).collect()
+    spectrum.iter().enumerate().map(divided).collect()
 }

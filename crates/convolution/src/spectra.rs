@@ -45,15 +45,16 @@ impl Spectra {
         let first = (from / spacing).floor() as i64 - WIDTH as i64;
         let last = (to / spacing).ceil() as i64 + WIDTH as i64;
         let length = fast_length((last - first) as usize + 1);
+        let transforms = Transforms::new(length);
         let of_mode =
             |mode: usize| 1.0 / Window::shared().transform(TAU * mode as f64 / length as f64);
         Self {
             spacing,
             first,
             length,
-            window: (0..=length / 4).map(of_mode).collect(),
+            window: (0..transforms.modes.len()).map(of_mode).collect(),
             cells: vec![0.0; length],
-            transforms: Transforms::new(length),
+            transforms,
         }
     }
 

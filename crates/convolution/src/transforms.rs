@@ -42,8 +42,14 @@ impl Transform {
 /// sets of instructions, takes four times as long to compile as the rest of this crate; this one has the same bits on
 /// every processor.
 fn planned(length: usize, direction: FftDirection) -> Arc<dyn Fft<f64>> {
-    let powers = |factor: u32| {
-        (0..).take_while(|k| length.is_multiple_of((factor as usize).pow(k + 1))).count() as u32
+    // Takes factors out of the length until the rest is no longer than a butterfly that is at hand: their number, and the
+    // transform of the rest.
+    let without = |factor: usize, longest: usize| {
+        let (mut count, mut rest) = (0, length);
+        while rest > longest && rest.is_multiple_of(factor) {
+            (count, rest) = (count + 1, rest / factor);
+        }
+        (count, planned(rest, direction))
     };
     match length {
         1 => Arc::new(Butterfly1::new(direction)),
@@ -59,18 +65,13 @@ fn planned(length: usize, direction: FftDirection) -> Arc<dyn Fft<f64>> {
             let [five, rest] = [5, length / 5].map(|length| planned(length, direction));
             Arc::new(MixedRadixSmall::new(five, rest))
         }
-        // All but the last factors, which make one of the above.
         _ if length.is_multiple_of(4) => {
-            let all = powers(4);
-            let fours = all - [0, 2, 1, 1].get(length >> (2 * all)).unwrap_or(&0);
-            Arc::new(Radix4::new_with_base(fours, planned(length >> (2 * fours), direction)))
+            let (fours, rest) = without(4, 16);
+            Arc::new(Radix4::new_with_base(fours, rest))
         }
         _ => {
-            let threes = powers(3) - 1;
-            Arc::new(Radix3::new_with_base(
-                threes,
-                planned(length / 3_usize.pow(threes), direction),
-            ))
+            let (threes, rest) = without(3, 6);
+            Arc::new(Radix3::new_with_base(threes, rest))
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
-use std::cell::Cell;
+use std::cell::RefCell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::with_inverses;
@@ -33,9 +33,9 @@ struct Numbers {
 }
 
 thread_local! {
-    /// The memory of two earlier histories, for the next ones: a new allocation takes longer than writing to it. Two, as a
-    /// linearisation may need the history in two sums.
-    static EARLIER: Cell<[Numbers; 2]> = Cell::default();
+    /// The memory of earlier histories, for the next ones: a new allocation takes longer than writing to it. Of no more
+    /// than were there at once: two, if a linearisation needs the history in two sums.
+    static EARLIER: RefCell<Vec<Numbers>> = RefCell::default();
 }
 
 /// Number of steps whose exponentials are computed together.
@@ -44,8 +44,7 @@ const TOGETHER: usize = 16;
 impl Numbers {
     /// Empty, with room for this number of steps and terms.
     fn with_room(count: usize) -> Self {
-        let [mut numbers, other] = EARLIER.take();
-        EARLIER.set([other, Self::default()]);
+        let mut numbers = EARLIER.with_borrow_mut(Vec::pop).unwrap_or_default();
         numbers.exponentials.clear();
         numbers.inverses.clear();
         numbers.spent.clear();
@@ -160,8 +159,7 @@ fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
 
 impl Drop for Past<'_> {
     fn drop(&mut self) {
-        let [earlier, _] = EARLIER.take();
-        EARLIER.set([std::mem::take(&mut self.numbers), earlier]);
+        EARLIER.with_borrow_mut(|earlier| earlier.push(std::mem::take(&mut self.numbers)));
     }
 }
 

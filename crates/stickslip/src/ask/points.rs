@@ -3,7 +3,7 @@
 use crate::{Context, Failure, Question, ShardDocument};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use stickslip_tip::sorting::sort_by_number;
 
@@ -72,8 +72,8 @@ pub fn each_point<Q: Points>(
     let pool = pool(threads)?;
     let groups = GROUPS_PER_THREAD * pool.current_num_threads();
     let size = indices.len().div_ceil(groups).clamp(1, question.together());
-    let groups = Mutex::new(indices.chunks(size));
-    let next = || groups.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let begun = AtomicUsize::new(0);
+    let next = || indices.chunks(size).nth(begun.fetch_add(1, Ordering::Relaxed));
     let keep = Mutex::new(keep);
     let is_kept = AtomicBool::new(true);
     let goes_on = || is_kept.load(Ordering::Relaxed) && !context.is_cancelled();

@@ -17,12 +17,10 @@ pub(super) struct Heights {
 /// Weights and decay of one step.
 #[derive(Debug, Clone)]
 pub(super) struct Carved {
-    /// `b_ik` divided by `times`.
-    bare: Matrix,
-    /// h, or 1 if the surface heals.
+    /// `b_ik` and ∂`b_ik`/∂h if the surface heals; else they are h times, and once, those of a unit step.
+    healing: Option<Box<[Matrix; 2]>>,
+    /// h, or 1 if the surface heals: `b_ik` is in units of it.
     pub(super) times: f64,
-    /// ∂`b_ik`/∂h if the surface heals; else it is `bare`.
-    bare_rate: Option<Matrix>,
     /// Decay factors of earlier contributions at the nodes.
     pub(super) left: Stages,
     /// Logarithmic derivative of the decay with respect to h.
@@ -36,11 +34,8 @@ pub(super) struct Carved {
 impl Carved {
     /// The weights of a step of length h.
     pub(super) fn new(wider: &Wider, h: f64, heights: Option<&Heights>) -> Self {
-        let unit = carving(1.0);
-        let (bare, times, bare_rate) = match wider.healing_time {
-            None => (unit, h, None),
-            Some(time) => (healing(h, time), 1.0, Some(healing_rate(h, time))),
-        };
+        let of_time = |time| Box::new([healing(h, time), healing_rate(h, time)]);
+        let healing = wider.healing_time.map(of_time);
         let rate = wider.healing_rate();
         let depth = wider.depth_limit.zip(heights);
         let weigh = |(limit, heights): (f64, &Heights)| {
@@ -49,9 +44,8 @@ impl Carved {
         };
         let (weights, by_height) = depth.map_or(([1.0; STAGES], [0.0; STAGES]), weigh);
         Self {
-            bare,
-            times,
-            bare_rate,
+            times: if healing.is_some() { 1.0 } else { h },
+            healing,
             left: RADAU.c.map(|c| wider.left_after(h * c)),
             fading: RADAU.c.map(|c| 0.0 - rate * c),
             weights,
@@ -59,9 +53,14 @@ impl Carved {
         }
     }
 
+    /// `b_ik` divided by [`times`](Self::times).
+    fn bare(&self) -> Matrix {
+        self.healing.as_ref().map_or_else(|| carving(1.0), |healing| healing[0])
+    }
+
     /// `b_ik w_k` divided by [`times`](Self::times).
     pub(super) fn weighted(&self) -> Matrix {
-        by_columns(&self.bare, &self.weights)
+        by_columns(&self.bare(), &self.weights)
     }
 
     /// Weights of the stages k at the end of the step: of the contributions, of their derivatives with respect to h, and
@@ -70,20 +69,21 @@ impl Carved {
         let row = |matrix: &Matrix, factors: &Stages| -> Stages {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])
         };
-        let by_height = row(&self.bare, &self.by_height).map(|b| b * self.times);
-        let stays = row(&self.bare, &self.weights);
-        let rate = self.bare_rate.as_ref().map_or(stays, |rate| row(rate, &self.weights));
+        let bare = self.bare();
+        let by_height = row(&bare, &self.by_height).map(|b| b * self.times);
+        let stays = row(&bare, &self.weights);
+        let rate = self.healing.as_ref().map_or(stays, |healing| row(&healing[1], &self.weights));
         [stays, rate, by_height]
     }
 
     /// ∂`b_ik w_k`/∂h if the surface heals; else it is [`weighted`](Self::weighted).
     pub(super) fn rate(&self) -> Option<Matrix> {
-        self.bare_rate.as_ref().map(|rate| by_columns(rate, &self.weights))
+        self.healing.as_ref().map(|healing| by_columns(&healing[1], &self.weights))
     }
 
     /// ∂`b_ik w_k`/∂`η_k`
     pub(super) fn by_height(&self) -> Matrix {
-        by_columns(&self.bare, &self.by_height).map(|row| row.map(|b| b * self.times))
+        by_columns(&self.bare(), &self.by_height).map(|row| row.map(|b| b * self.times))
     }
 }
 

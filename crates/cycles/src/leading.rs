@@ -10,7 +10,7 @@ use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::along;
 use super::orbit::Orbit;
-use super::past::Past;
+use super::past::{Past, Use};
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
 use super::step::{Factors, LinearStep};
@@ -97,7 +97,7 @@ impl<'a> PeriodMap<'a> {
     }
 
     fn past(&self) -> Option<Past<'_>> {
-        Past::of(&self.equation.short, self.orbit, &self.carved)
+        Past::of(&self.equation.short, (self.orbit, &self.carved), Use::Linearisation)
     }
 
     fn len(&self) -> usize {

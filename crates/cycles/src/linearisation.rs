@@ -9,21 +9,28 @@ use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
 use super::orbit::Orbit;
-use super::past::Past;
+use super::past::{Past, Use};
 use super::sensitivity::Sensitivity;
 use super::step::{Factors, LinearStep, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
+use std::cell::Cell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::memory::Fit;
 use stickslip_tip::step::velocity_at_end;
 use stickslip_tip::stop;
 
+thread_local! {
+    /// The memory of the rows of an earlier linearisation, for the next one.
+    static EARLIER: Cell<Option<Sensitivity>> = Cell::default();
+}
+
 pub(super) struct Linearisation {
     /// rt - x0 at the end minus rt - x0 at the start.
     gap: f64,
     end: Sensitivity,
-    stages: Vec<Sensitivity>,
-    heights: Vec<Sensitivity>,
+    /// Of all steps, one row per stage.
+    stages: Sensitivity,
+    heights: Sensitivity,
     phase: Phase,
     /// Data for the choice of a mesh.
     pub(super) of_steps: Vec<OfStep>,
@@ -49,17 +56,21 @@ impl Linearisation {
         solved: &Fit,
     ) -> Result<Self, Singular> {
         let carved = orbit.carved(&equation.wider);
-        let past = |sum| Past::of(sum, orbit, &carved).ok_or(Singular);
-        let other = (solved != &*equation.short).then(|| past(solved)).transpose()?;
-        let past = past(&equation.short)?;
-        let solved = other.as_ref().unwrap_or(&past);
+        let past = |sum, used| Past::of(sum, (orbit, &carved), used).ok_or(Singular);
+        let linear = past(&equation.short, Use::Linearisation)?;
+        let is_other = solved != &*equation.short;
+        let other = is_other.then(|| past(solved, Use::Groove)).transpose()?;
+        let solved = other.as_ref().unwrap_or(&linear);
         let mut end = Sensitivity::identity(equation.state_len());
-        let (mut stages, mut heights, mut of_steps) = (vec![], vec![], vec![]);
+        let earlier = EARLIER.take().unwrap_or_default();
+        let mut stages = end.none_in(earlier, STAGES * orbit.stages.len());
+        let mut heights = end.none_in(Sensitivity::default(), STAGES * orbit.heights.len());
+        let mut of_steps = Vec::with_capacity(orbit.stages.len());
         let mut factors = Factors::default();
-        let gap = along(equation, (orbit, &carved), (&past, solved), |_, step, share| {
+        let gap = along(equation, (orbit, &carved), (&linear, solved), |_, step, share| {
             let (of_stages, of_heights) = step.carry(free, share, &mut end, &mut factors)?;
-            stages.push(of_stages);
-            heights.extend(of_heights);
+            stages.append(&of_stages);
+            of_heights.iter().for_each(|of_heights| heights.append(of_heights));
             of_steps.push(step.of_step());
             Some(())
         })?;
@@ -128,9 +139,9 @@ impl Linearisation {
     fn change(&self, found: &DVector<f64>, corrected: f64) -> Change {
         let n = self.len();
         let unknowns: Vec<f64> = found.iter().copied().chain([corrected]).collect();
-        let changes = |of: &[Sensitivity]| -> Vec<Stages> {
-            let change = |s: &Sensitivity| std::array::from_fn(|i| s.change(i, &unknowns));
-            of.iter().map(change).collect()
+        let changes = |of: &Sensitivity| -> Vec<Stages> {
+            let change = |n| std::array::from_fn(|i| of.change(STAGES * n + i, &unknowns));
+            (0..of.rows() / STAGES).map(change).collect()
         };
         Change {
             state: unknowns[..n].to_vec(),
@@ -139,6 +150,18 @@ impl Linearisation {
             stages: changes(&self.stages),
             heights: changes(&self.heights),
         }
+    }
+}
+
+impl Drop for Linearisation {
+    fn drop(&mut self) {
+        let stages = std::mem::take(&mut self.stages);
+        // Of a thread that ends, the memory may be gone already.
+        let keep = EARLIER.try_with(|earlier| {
+            let larger = earlier.take().filter(|earlier| earlier.room() >= stages.room());
+            earlier.set(Some(larger.unwrap_or(stages)));
+        });
+        keep.ok();
     }
 }
 

@@ -17,6 +17,7 @@ pub(super) struct Past<'a> {
     numbers: Numbers,
     /// Decay factors at the nodes of each step.
     left: Vec<Stages>,
+    used: Use,
 }
 
 /// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation.
@@ -24,7 +25,7 @@ pub(super) struct Past<'a> {
 struct Numbers {
     /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
-    /// `e^{-s_j d_i}`
+    /// `e^{-s_j d_i}`; if only the motion is solved, those of the last few steps.
     inverses: Vec<[Complex<f64>; STAGES]>,
     /// Contribution of the step to `ζ_j`.
     spent: Vec<Complex<f64>>,
@@ -34,24 +35,44 @@ struct Numbers {
 
 thread_local! {
     /// The memory of earlier histories, for the next ones: a new allocation takes longer than writing to it. Of no more
-    /// than were there at once: two, if a linearisation needs the history in two sums.
+    /// than were there at once: two, if a linearisation needs the history in two sums. The one created first is dropped
+    /// last, and the next first one has its memory again.
     static EARLIER: RefCell<Vec<Numbers>> = RefCell::default();
 }
 
 /// Number of steps whose exponentials are computed together.
 const TOGETHER: usize = 16;
 
+/// What a history is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// The groove of the history at the stages.
+    Groove,
+    /// The linearised equations too, which need the inverses of all exponentials.
+    Linearisation,
+}
+
+/// Room, in steps times terms, for nearly all cycles: memory that is never written costs nothing.
+const USUAL_ROOM: usize = 1 << 15;
+
 impl Numbers {
     /// Empty, with room for this number of steps and terms.
     fn with_room(count: usize) -> Self {
-        let mut numbers = EARLIER.with_borrow_mut(Vec::pop).unwrap_or_default();
+        let earlier = EARLIER.with_borrow_mut(Vec::pop);
+        let Some(mut numbers) = earlier.filter(|of| count <= of.exponentials.capacity()) else {
+            // A vector that grew would copy what is not needed any more.
+            let room = USUAL_ROOM.max(count.next_power_of_two());
+            return Self {
+                exponentials: Vec::with_capacity(room),
+                inverses: Vec::with_capacity(room),
+                spent: Vec::with_capacity(room),
+                zeta: Vec::with_capacity(room),
+            };
+        };
         numbers.exponentials.clear();
         numbers.inverses.clear();
         numbers.spent.clear();
         numbers.zeta.clear();
-        numbers.exponentials.reserve(count);
-        numbers.inverses.reserve(count);
-        numbers.spent.reserve(count);
         numbers
     }
 }
@@ -62,7 +83,7 @@ pub(super) struct PastOfStep<'a> {
     pub(super) terms: &'a [Term],
     /// `e^{s_j d_i}`
     pub(super) exponentials: &'a [[Complex<f64>; STAGES]],
-    /// `e^{-s_j d_i}`
+    /// `e^{-s_j d_i}`, for a [linearisation](Use::Linearisation).
     pub(super) inverses: &'a [[Complex<f64>; STAGES]],
     /// ζ at the start of the step.
     pub(super) zeta: &'a [Complex<f64>],
@@ -78,7 +99,11 @@ impl<'a> Past<'a> {
     ///
     /// Over a step of length h ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`, with the healing time T; after a
     /// period it must be the same again.
-    pub(super) fn of(fit: &'a Fit, orbit: &Orbit, carved: &[Carved]) -> Option<Self> {
+    pub(super) fn of(
+        fit: &'a Fit,
+        (orbit, carved): (&Orbit, &[Carved]),
+        used: Use,
+    ) -> Option<Self> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
         let mut numbers = Numbers::with_room(count);
@@ -91,13 +116,15 @@ impl<'a> Past<'a> {
             for d in steps {
                 exponentials.extend(terms.iter().map(|term| d.map(|d| term.exponent * d)));
             }
-            inverses.extend_from_slice(&exponentials[from..]);
-            with_inverses(
-                exponentials[from..].as_flattened_mut(),
-                inverses[from..].as_flattened_mut(),
-            );
-            for (carved, inverses) in carved.iter().zip(inverses[from..].chunks_exact(terms.len()))
-            {
+            let exponentials = &mut exponentials[from..];
+            if used == Use::Groove {
+                inverses.clear();
+            }
+            let from = inverses.len();
+            inverses.extend_from_slice(exponentials);
+            let inverses = &mut inverses[from..];
+            with_inverses(exponentials.as_flattened_mut(), inverses.as_flattened_mut());
+            for (carved, inverses) in carved.iter().zip(inverses.chunks_exact(terms.len())) {
                 let [stays, ..] = carved.at_end();
                 let of_term = |(term, inverse): (&Term, &[Complex<f64>; STAGES])| {
                     term.weight * spent_in(inverse, &stays) * carved.times
@@ -107,7 +134,7 @@ impl<'a> Past<'a> {
         }
         numbers.zeta.resize(count + terms.len(), Complex::ZERO);
         let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
-        let mut past = Self { terms, numbers, left };
+        let mut past = Self { terms, numbers, left, used };
         past.follow();
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
         let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
@@ -139,7 +166,7 @@ impl<'a> Past<'a> {
         PastOfStep {
             terms: self.terms,
             exponentials: &self.numbers.exponentials[of(n)],
-            inverses: &self.numbers.inverses[of(n)],
+            inverses: if self.used == Use::Groove { &[] } else { &self.numbers.inverses[of(n)] },
             zeta: &self.numbers.zeta[of(n)],
             after: &self.numbers.zeta[of(n + 1)],
             left: &self.left[n],

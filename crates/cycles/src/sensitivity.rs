@@ -7,7 +7,7 @@ use stickslip_tip::collocation::{STAGES, Stages};
 
 /// Rows of derivatives with respect to the state X at t = 0, the period and the free parameter, and last the change
 /// that solves the stage equations. They are stored row by row.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Sensitivity {
     columns: usize,
     entries: Vec<f64>,
@@ -21,6 +21,30 @@ const LANES: usize = 4;
 impl Sensitivity {
     fn zeros(rows: usize, columns: usize) -> Self {
         Self { columns, entries: vec![0.0; rows * columns.next_multiple_of(LANES)] }
+    }
+
+    /// No rows yet of as many columns as these, with room for this number: in the memory of others if it suffices.
+    pub(super) fn none_in(&self, others: Self, rows: usize) -> Self {
+        let (mut entries, count) = (others.entries, rows * self.stride());
+        entries.clear();
+        if entries.capacity() < count {
+            entries = Vec::with_capacity(count.next_power_of_two());
+        }
+        Self { columns: self.columns, entries }
+    }
+
+    /// Number of entries for which there is room.
+    pub(super) fn room(&self) -> usize {
+        self.entries.capacity()
+    }
+
+    /// Adds these rows after the last.
+    pub(super) fn append(&mut self, rows: &Self) {
+        self.entries.extend_from_slice(&rows.entries);
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.entries.len() / self.stride()
     }
 
     /// Derivatives of a state of this length with respect to itself.
@@ -47,8 +71,7 @@ impl Sensitivity {
 
     /// The columns of the derivatives.
     pub(super) fn columns(&self) -> DMatrix<f64> {
-        let rows = self.entries.len() / self.stride();
-        DMatrix::from_fn(rows, self.columns - CONSTANTS, |i, k| self.row(i)[k])
+        DMatrix::from_fn(self.rows(), self.columns - CONSTANTS, |i, k| self.row(i)[k])
     }
 
     /// Number of entries of a row in memory; the last of them are unused.

@@ -86,15 +86,13 @@ pub(super) fn from_run(
     let mut looks = LOOKS.map(|length| start + length * (born / USUAL_PERIOD).max(1.0)).into_iter();
     scenario.until = looks.next_back().unwrap_or(start);
     let mut look = looks.next().unwrap_or(f64::INFINITY);
-    let (mut steps, mut taken, mut offered) = (vec![], false, vec![]);
-    let run = run_observed(&scenario, |step| {
-        steps.push(*step);
-        if step.end() >= look {
+    let (mut taken, mut offered) = (false, vec![]);
+    let run = run_observed(&scenario, |so_far| {
+        if so_far.end() >= look {
             look = looks.next().unwrap_or(f64::INFINITY);
-            let so_far = Trajectory::under(*model.wider(), scenario.support(), steps.clone());
-            taken = offer(&so_far, &mut offered, &mut take);
+            taken = offer(so_far, &mut offered, &mut take);
         }
-        if taken || steps.len() == MOST_STEPS_OF_A_RUN {
+        if taken || so_far.steps().len() == MOST_STEPS_OF_A_RUN {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())

@@ -316,7 +316,7 @@ fn times(
 
 #[cfg(test)]
 mod tests {
-    use super::super::past::Past;
+    use super::super::past::{Past, Use};
     use super::*;
     use stickslip_tip::memory::{Groove, Policy};
     use stickslip_tip::step::{Equations, Law};
@@ -332,7 +332,7 @@ mod tests {
         let (equation, orbit) = (&found.closed.equation, &found.closed.orbit);
         let law = Law::of(&model);
         let carved = orbit.carved(&equation.wider);
-        let past = Past::of(&equation.fine, orbit, &carved).unwrap();
+        let past = Past::of(&equation.fine, (orbit, &carved), Use::Linearisation).unwrap();
         let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
         let steps = || orbit.lengths().zip(&orbit.stages);
         for _ in 0..8 {

@@ -286,6 +286,16 @@ impl<S: AsRef<Step>> Trajectory<S> {
         Self { support, wider, steps }
     }
 
+    /// A trajectory whose first step is still to be [added](Self::push).
+    pub(crate) fn begun(wider: Wider, support: Support) -> Self {
+        Self { support, wider, steps: vec![] }
+    }
+
+    /// Adds a step at the end.
+    pub(crate) fn push(&mut self, step: S) {
+        self.steps.push(step);
+    }
+
     /// The motion of the support.
     pub fn support(&self) -> &Support {
         &self.support

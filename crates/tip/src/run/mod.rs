@@ -57,23 +57,24 @@ pub fn run(scenario: &Scenario) -> Result<Run, RunError> {
     run_observed(scenario, |_| ControlFlow::Continue(()))
 }
 
-/// Integrates as [`run`], and passes each accepted step to an observer. The observer or [`stop`] may end the run
-/// there.
+/// Integrates as [`run`], and passes the history to an observer after each accepted step, which is its last. The observer
+/// or [`stop`] may end the run there.
 ///
 /// # Errors
 /// As [`run`].
 pub fn run_observed(
     scenario: &Scenario,
-    mut observe: impl FnMut(&Step) -> ControlFlow<()>,
+    mut observe: impl FnMut(&Trajectory) -> ControlFlow<()>,
 ) -> Result<Run, RunError> {
-    let take = |steps: &mut Vec<Step>, step: Step| {
-        if steps.len() == MOST_STEPS {
+    let take = |history: &mut Trajectory, step: Step| {
+        if history.steps().len() == MOST_STEPS {
             return Err(RunError::HistoryTooLong { t: step.t });
         }
-        steps.push(step);
-        Ok(observe(&step))
+        history.push(step);
+        Ok(observe(history))
     };
-    Ok(collected(scenario, vec![], take)?.into_run(scenario))
+    let begun = Trajectory::begun(*scenario.model.wider(), scenario.support());
+    collected(scenario, begun, take)
 }
 
 /// Runs a scenario alone: `take` adds each step to a collector, and may end the run there.

@@ -19,7 +19,7 @@ pub(super) fn run(comparison: &Comparison, scenario: &Scenario) -> Result<Closed
     let once = || {
         let mut watch = Watch::new(comparison.session, Unit::Time("--until"), span, *time_limit);
         watch = watch.of_short_steps();
-        let run = run_observed(scenario, |step| watch.reached(step.end()));
+        let run = run_observed(scenario, |so_far| watch.reached(so_far.end()));
         watch.ended(run.map_err(|error| question.refused(&error).into()))
     };
     let (run, seconds) = timed(once)?;

@@ -4,6 +4,7 @@ use crate::merged::merged;
 use num_complex::Complex64;
 use std::sync::Arc;
 use stickslip_tip::TipFunction;
+use stickslip_tip::elementary::{log10, pow};
 use stickslip_tip::exponential::with_inverses;
 use stickslip_tip::memory::{Fit, POINTS, Retreat, slopes_of};
 
@@ -31,7 +32,8 @@ impl<'a> Ahead<'a> {
     pub(crate) fn new(tip: &'a TipFunction, visits: Vec<(f64, f64)>, allowed: f64) -> Self {
         let lasted: f64 = visits.iter().map(|(_, weight)| weight).sum();
         let nearest = visits.iter().fold(0.0, |m: f64, (x, _)| m.min(*x));
-        let wanted = 10_f64.powf((allowed / lasted).log10().floor());
+        // A power of ten as in the table of fits that come with the program.
+        let wanted = pow(10.0, log10(allowed / lasted).floor());
         let fit =
             if wanted >= FINEST { Fit::cached(tip, wanted, Retreat::Small).ok() } else { None };
         let sum = fit.filter(|fit| nearest >= -fit.retreat()).map(|fit| Sum::new(fit, &visits));

@@ -9,8 +9,8 @@
 use num_complex::Complex;
 use std::f64::consts::LOG2_E;
 
-pub use libm::{cos, sincos as sin_cos};
-pub(crate) use libm::{exp2, hypot, log as ln, log2, log10, pow, sin};
+pub use libm::{cos, log10, pow, sincos as sin_cos};
+pub(crate) use libm::{exp2, hypot, log as ln, log2, sin};
 
 /// Largest |x| for which both e^x and e^{-x} are in the normal range of f64, with some margin.
 pub(crate) const LARGEST: f64 = 700.0;

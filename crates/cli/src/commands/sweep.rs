@@ -11,7 +11,7 @@ use crate::arguments::{
     AnswerArguments, Length, Range, RasterSweepArguments, SweepArguments, SweepThen, TipArguments,
     WorkArguments,
 };
-use crate::arithmetic;
+use crate::arithmetic::arithmetic;
 use crate::commands::in_units::scales;
 use crate::commands::model::tip;
 use crate::failure::Failure;
@@ -51,7 +51,6 @@ impl Part for RasterSweepPoint {
 }
 
 pub(crate) fn sweep(session: &Session, arguments: &SweepArguments) -> Result<(), Failure> {
-    arithmetic::prepare();
     match &arguments.then {
         Some(SweepThen::Merge(merged)) => return merge::merge(session, merged),
         Some(SweepThen::Raster(rasters)) => return raster(session, rasters),
@@ -176,6 +175,8 @@ where
     let mut kept: io::Result<()> = Ok(());
     let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
     let computed = each_point(grid, &missing, threads, &context, |point| {
+        // The document needs the name. It takes half a millisecond, in which other threads compute points.
+        arithmetic();
         kept = finished.add(point);
         let done = so_far.fetch_add(1, Ordering::Relaxed) + 1;
         progress.counted(done as f64, || format!("{done} of {count} points"));

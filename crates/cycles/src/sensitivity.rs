@@ -28,7 +28,9 @@ impl Sensitivity {
         let (mut entries, count) = (others.entries, rows * self.stride());
         entries.clear();
         if entries.capacity() < count {
-            entries = Vec::with_capacity(count.next_power_of_two());
+            // First without the old memory, which the new one may then begin with.
+            entries = vec![];
+            entries.reserve_exact(count.next_power_of_two());
         }
         Self { columns: self.columns, entries }
     }

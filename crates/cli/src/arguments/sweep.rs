@@ -76,9 +76,13 @@ impl Questions for Swept {
     }
 }
 
+/// Each with its line in the list of commands, as in [`Command`](super::Command).
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 pub(crate) enum SweepThen {
+    /// Combine the parts of a sweep: the result is byte for byte that of one sweep over all points.
     Merge(Box<MergeArguments>),
+    /// Compute the pattern of a raster over a grid of pitch and α.
     Raster(Box<RasterSweepArguments>),
 }
 

@@ -86,7 +86,7 @@ fn the_same_bytes_for_any_number_of_threads_and_of_parts() {
 #[test]
 fn a_sweep_killed_at_any_moment_goes_on_to_the_same_bytes() {
     let folder = Folder::new("sweep_killed");
-    let line = "sweep --r 0.8:1.2:4 --alpha 1:2:12 --threads 2 -o map.json";
+    let line = "sweep --r 0.8:1.2:8 --alpha 1:2:24 --threads 2 -o map.json";
     folder.prints(line);
     let alone = folder.read("map.json");
     std::fs::remove_file(folder.path("map.json")).unwrap();

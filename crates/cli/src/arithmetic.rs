@@ -12,9 +12,9 @@ use std::sync::OnceLock;
 use std::thread;
 
 /// Name of the arithmetic, such as `x86_64-1c291ca3`; equal names mean identical bits.
-pub(crate) fn arithmetic() -> String {
+pub(crate) fn arithmetic() -> &'static str {
     static NAME: OnceLock<String> = OnceLock::new();
-    NAME.get_or_init(|| format!("{ARCH}-{:08x}", functions())).clone()
+    NAME.get_or_init(|| format!("{ARCH}-{:08x}", functions()))
 }
 
 /// Lets another thread find the name, which takes half a millisecond, for a command that needs it soon.

@@ -17,7 +17,7 @@ pub(super) struct Heights {
 /// Weights and decay of one step.
 #[derive(Debug, Clone)]
 pub(super) struct Carved {
-    /// `b_ik` and ∂`b_ik`/∂h if the surface heals; else they are h times, and once, those of a unit step.
+    /// `b_ik` and ∂`b_ik`/∂h if the surface heals; else `b_ik` is h times the matrix of a unit step.
     healing: Option<Box<[Matrix; 2]>>,
     /// h, or 1 if the surface heals: `b_ik` is in units of it.
     pub(super) times: f64,

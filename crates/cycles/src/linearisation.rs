@@ -20,8 +20,8 @@ use stickslip_tip::step::velocity_at_end;
 use stickslip_tip::stop;
 
 thread_local! {
-    /// The memory of the rows of an earlier linearisation, for the next one.
-    static EARLIER: Cell<Option<Sensitivity>> = Cell::default();
+    /// The memory of the rows of earlier linearisations, the largest, for the next one.
+    static EARLIER: Cell<Sensitivity> = Cell::default();
 }
 
 pub(super) struct Linearisation {
@@ -62,8 +62,7 @@ impl Linearisation {
         let other = is_other.then(|| past(solved, Use::Groove)).transpose()?;
         let solved = other.as_ref().unwrap_or(&linear);
         let mut end = Sensitivity::identity(equation.state_len());
-        let earlier = EARLIER.take().unwrap_or_default();
-        let mut stages = end.none_in(earlier, STAGES * orbit.stages.len());
+        let mut stages = end.none_in(EARLIER.take(), STAGES * orbit.stages.len());
         let mut heights = end.none_in(Sensitivity::default(), STAGES * orbit.heights.len());
         let mut of_steps = Vec::with_capacity(orbit.stages.len());
         let mut factors = Factors::default();
@@ -158,8 +157,8 @@ impl Drop for Linearisation {
         let stages = std::mem::take(&mut self.stages);
         // Of a thread that ends, the memory may be gone already.
         let keep = EARLIER.try_with(|earlier| {
-            let larger = earlier.take().filter(|earlier| earlier.room() >= stages.room());
-            earlier.set(Some(larger.unwrap_or(stages)));
+            let kept = earlier.take();
+            earlier.set(if kept.room() >= stages.room() { kept } else { stages });
         });
         keep.ok();
     }

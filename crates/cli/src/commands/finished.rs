@@ -153,7 +153,7 @@ const MAGIC: &[u8] = b"{\"software\":{\"name\":\"stickslip\"";
 struct Head<'a, Q> {
     software: Software,
     /// Arithmetic of the machine; parts from other arithmetic cannot be resumed.
-    arithmetic: String,
+    arithmetic: &'static str,
     parameters: &'a Q,
 }
 

@@ -24,7 +24,6 @@ const LARGEST: u64 = 1 << 30;
 /// Times and file of the checkpoints.
 pub(super) struct Checkpoints {
     file: Target,
-    arithmetic: String,
     order: Order,
     start: f64,
     every: f64,
@@ -39,8 +38,7 @@ impl Checkpoints {
         let seen = |path: &PathBuf| seen_from(folder_of(file.path()), path);
         let (output, plot) = (seen(&order.output), order.plot.as_ref().map(seen));
         let order = Order { output, plot, ..order.clone() };
-        let mut checkpoints =
-            Self { file, arithmetic: arithmetic(), order, start, every, due: t, last: None };
+        let mut checkpoints = Self { file, order, start, every, due: t, last: None };
         checkpoints.plan(t);
         checkpoints
     }
@@ -68,7 +66,7 @@ impl Checkpoints {
                 format: CheckpointHead::FORMAT.into(),
                 format_version: FORMAT_VERSION,
                 software: Software::this(),
-                arithmetic: Some(self.arithmetic.clone()),
+                arithmetic: Some(arithmetic().into()),
                 order: self.order.clone(),
                 t: running.t(),
                 samples: record.taken,

@@ -114,7 +114,7 @@ impl Divided for SweepDocument {
     by_fields!(SweepPoint, SweepParameters, |points| SweepFound {
         points,
         ensembles: None,
-        arithmetic: Some(arithmetic()),
+        arithmetic: Some(arithmetic().into()),
         crc32: None
     });
 
@@ -131,7 +131,7 @@ impl Divided for SweepDocument {
 impl Divided for RasterSweepDocument {
     by_fields!(RasterSweepPoint, RasterSweep, |points| RasterSweepFound {
         points,
-        arithmetic: Some(arithmetic()),
+        arithmetic: Some(arithmetic().into()),
         crc32: None
     });
 }

@@ -89,31 +89,25 @@ impl LinearHeights {
         self.pull * (self.inverse * self.missed)
     }
 
-    /// The changes of the heights, from those of g with the state and those of the displacements.
+    /// Appends the changes of the heights, from those of g with the state and those of the displacements.
     pub(super) fn follow(
         &self,
         by_state: &[Vector],
         (free, share): (Parameter, f64),
         state: &Sensitivity,
-        stages: &Sensitivity,
-    ) -> Sensitivity {
+        (stages, heights): (&Sensitivity, &mut Sensitivity),
+    ) {
         let follows = |groove: &Vector| Stages::from(self.inverse * (groove * -self.alpha));
         let factors: Vec<Stages> = by_state.iter().map(follows).collect();
-        let mut heights = state.contracted(&factors);
         let by_parameter = match free {
             Parameter::Alpha => -(self.inverse * self.groove),
             Parameter::R => Vector::zeros(),
         };
         let by_length = self.inverse * (self.groove_rate * (-self.alpha * share));
         let constants = [by_length, by_parameter, -(self.inverse * self.missed)];
-        for i in 0..STAGES {
-            for (column, constant) in heights.constants(i).iter_mut().zip(&constants) {
-                *column += constant[i];
-            }
-        }
+        heights.append_contracted(state, &factors, &constants);
         let less: [Stages; STAGES] =
             std::array::from_fn(|i| std::array::from_fn(|k| -self.by_displacement[(i, k)]));
-        heights.add_expanded(&less, stages);
-        heights
+        heights.add_to_last(&less, stages);
     }
 }

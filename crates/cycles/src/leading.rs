@@ -13,7 +13,7 @@ use super::orbit::Orbit;
 use super::past::{Past, Use};
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
-use super::step::{Factors, LinearStep};
+use super::step::{Factors, LinearStep, OfStages};
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use std::sync::Arc;
@@ -106,10 +106,8 @@ impl<'a> PeriodMap<'a> {
 
     /// The deviations after a period, one per column.
     fn of(&self, past: &Past, block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        let (mut state, mut room) = (Sensitivity::of(block), Factors::default());
-        let carry = |_, step: &LinearStep, share: f64| {
-            step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
-        };
+        let (mut state, mut passing) = (Sensitivity::of(block), Passing::default());
+        let carry = |_, step: &LinearStep, share: f64| passing.carry(step, share, &mut state);
         along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
         Some(state.columns())
     }
@@ -118,15 +116,30 @@ impl<'a> PeriodMap<'a> {
     fn kicks(&self, past: &Past) -> Option<DMatrix<f64>> {
         let steps = self.orbit.stages.len();
         let mut state = Sensitivity::of(&DMatrix::zeros(self.len(), BLOCK));
-        let mut room = Factors::default();
+        let mut passing = Passing::default();
         let carry = |n, step: &LinearStep, share: f64| {
             for kick in (0..BLOCK).filter(|kick| kick * steps / BLOCK == n) {
                 state.set_column(kick, past.of_step(n).moved_on());
             }
-            step.carry(Parameter::Alpha, share, &mut state, &mut room).map(drop)
+            passing.carry(step, share, &mut state)
         };
         along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
         Some(state.columns())
+    }
+}
+
+/// What a step needs only while the state is carried over it.
+#[derive(Default)]
+struct Passing {
+    stages: OfStages,
+    factors: Factors,
+}
+
+impl Passing {
+    fn carry(&mut self, step: &LinearStep, share: f64, state: &mut Sensitivity) -> Option<()> {
+        let Self { stages, factors } = self;
+        stages.clear();
+        step.carry((Parameter::Alpha, share), state, stages, factors)
     }
 }
 

@@ -11,7 +11,7 @@ use super::mesh::OfStep;
 use super::orbit::Orbit;
 use super::past::{Past, Use};
 use super::sensitivity::Sensitivity;
-use super::step::{Factors, LinearStep, Solved};
+use super::step::{Factors, LinearStep, OfStages, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use std::cell::Cell;
 use stickslip_tip::collocation::{STAGES, Stages};
@@ -21,16 +21,14 @@ use stickslip_tip::stop;
 
 thread_local! {
     /// The memory of the rows of earlier linearisations, the largest, for the next one.
-    static EARLIER: Cell<Sensitivity> = Cell::default();
+    static EARLIER: Cell<OfStages> = Cell::default();
 }
 
 pub(super) struct Linearisation {
     /// rt - x0 at the end minus rt - x0 at the start.
     gap: f64,
     end: Sensitivity,
-    /// Of all steps, one row per stage.
-    stages: Sensitivity,
-    heights: Sensitivity,
+    stages: OfStages,
     phase: Phase,
     /// Data for the choice of a mesh.
     pub(super) of_steps: Vec<OfStep>,
@@ -62,19 +60,20 @@ impl Linearisation {
         let other = is_other.then(|| past(solved, Use::Groove)).transpose()?;
         let solved = other.as_ref().unwrap_or(&linear);
         let mut end = Sensitivity::identity(equation.state_len());
-        let mut stages = end.none_in(EARLIER.take(), STAGES * orbit.stages.len());
-        let mut heights = end.none_in(Sensitivity::default(), STAGES * orbit.heights.len());
+        let earlier = EARLIER.take();
+        let mut stages = OfStages {
+            displacements: end.none_in(earlier.displacements, STAGES * orbit.stages.len()),
+            heights: end.none_in(earlier.heights, STAGES * orbit.heights.len()),
+        };
         let mut of_steps = Vec::with_capacity(orbit.stages.len());
         let mut factors = Factors::default();
         let gap = along(equation, (orbit, &carved), (&linear, solved), |_, step, share| {
-            let (of_stages, of_heights) = step.carry(free, share, &mut end, &mut factors)?;
-            stages.append(&of_stages);
-            of_heights.iter().for_each(|of_heights| heights.append(of_heights));
+            step.carry((free, share), &mut end, &mut stages, &mut factors)?;
             of_steps.push(step.of_step());
             Some(())
         })?;
         let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
-        Ok(Self { gap, end, stages, heights, phase, of_steps })
+        Ok(Self { gap, end, stages, phase, of_steps })
     }
 
     fn len(&self) -> usize {
@@ -146,8 +145,8 @@ impl Linearisation {
             state: unknowns[..n].to_vec(),
             period: unknowns[n],
             parameter: unknowns[n + 1],
-            stages: changes(&self.stages),
-            heights: changes(&self.heights),
+            stages: changes(&self.stages.displacements),
+            heights: changes(&self.stages.heights),
         }
     }
 }
@@ -158,7 +157,8 @@ impl Drop for Linearisation {
         // Of a thread that ends, the memory may be gone already.
         let keep = EARLIER.try_with(|earlier| {
             let kept = earlier.take();
-            earlier.set(if kept.room() >= stages.room() { kept } else { stages });
+            let (least, room) = (kept.displacements.room(), stages.displacements.room());
+            earlier.set(if least >= room { kept } else { stages });
         });
         keep.ok();
     }

@@ -27,9 +27,8 @@ struct Numbers {
     exponentials: Vec<[Complex<f64>; STAGES]>,
     /// `e^{-s_j d_i}`; if only the motion is solved, those of the last few steps.
     inverses: Vec<[Complex<f64>; STAGES]>,
-    /// Contribution of the step to `ζ_j`.
-    spent: Vec<Complex<f64>>,
-    /// `ζ_j` at the starts of the steps and at the end of the last one.
+    /// `ζ_j` at the starts of the steps and at the end of the last one; before it is known, `Δζ_j` of each step in place of
+    /// its end.
     zeta: Vec<Complex<f64>>,
 }
 
@@ -65,13 +64,11 @@ impl Numbers {
             return Self {
                 exponentials: Vec::with_capacity(room),
                 inverses: Vec::with_capacity(room),
-                spent: Vec::with_capacity(room),
                 zeta: Vec::with_capacity(room),
             };
         };
         numbers.exponentials.clear();
         numbers.inverses.clear();
-        numbers.spent.clear();
         numbers.zeta.clear();
         numbers
     }
@@ -107,7 +104,8 @@ impl<'a> Past<'a> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
         let mut numbers = Numbers::with_room(count);
-        let Numbers { exponentials, inverses, spent, .. } = &mut numbers;
+        let Numbers { exponentials, inverses, zeta } = &mut numbers;
+        zeta.resize(terms.len(), Complex::ZERO);
         for (steps, carved) in orbit.stages.chunks(TOGETHER).zip(carved.chunks(TOGETHER)) {
             if stop::is_requested() {
                 return None;
@@ -129,34 +127,47 @@ impl<'a> Past<'a> {
                 let of_term = |(term, inverse): (&Term, &[Complex<f64>; STAGES])| {
                     term.weight * spent_in(inverse, &stays) * carved.times
                 };
-                spent.extend(terms.iter().zip(inverses).map(of_term));
+                zeta.extend(terms.iter().zip(inverses).map(of_term));
             }
         }
-        numbers.zeta.resize(count + terms.len(), Complex::ZERO);
         let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
         let mut past = Self { terms, numbers, left, used };
-        past.follow();
+        let added = past.of_one_period();
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
         let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
-        let (start, others) = past.numbers.zeta.split_at_mut(terms.len());
-        let added = if count == 0 { &[] } else { &others[count - terms.len()..] };
-        for ((start, added), term) in start.iter_mut().zip(added).zip(terms) {
+        for ((start, added), term) in past.numbers.zeta.iter_mut().zip(added).zip(terms) {
             *start = added / (1.0 - complex_exp(term.exponent * moved) * kept);
         }
         past.follow();
         Some(past)
     }
 
-    /// ζ at the ends of all steps, from ζ at the start of the period.
+    /// ζ at the end of a period without a history.
+    fn of_one_period(&self) -> Vec<Complex<f64>> {
+        let count = self.terms.len();
+        let mut zeta = vec![Complex::ZERO; count];
+        let Numbers { exponentials, zeta: spent, .. } = &self.numbers;
+        let steps = exponentials.chunks_exact(count).zip(spent[count..].chunks_exact(count));
+        for ((exponentials, spent), left) in steps.zip(&self.left) {
+            let left = left[STAGES - 1];
+            for ((zeta, e), spent) in zeta.iter_mut().zip(exponentials).zip(spent) {
+                *zeta = e[STAGES - 1] * (*zeta * left + spent);
+            }
+        }
+        zeta
+    }
+
+    /// Replaces the contributions of the steps by ζ at their ends, from ζ at the start of the period.
     fn follow(&mut self) {
         let count = self.terms.len();
-        let Numbers { exponentials, spent, zeta, .. } = &mut self.numbers;
-        let steps = exponentials.chunks_exact(count).zip(spent.chunks_exact(count));
-        for (n, ((exponentials, spent), left)) in steps.zip(&self.left).enumerate() {
+        let Numbers { exponentials, zeta, .. } = &mut self.numbers;
+        for (n, (exponentials, left)) in
+            exponentials.chunks_exact(count).zip(&self.left).enumerate()
+        {
             let (before, after) = zeta[n * count..].split_at_mut(count);
             let left = left[STAGES - 1];
-            for (j, after) in after[..count].iter_mut().enumerate() {
-                *after = exponentials[j][STAGES - 1] * (before[j] * left + spent[j]);
+            for ((after, before), e) in after.iter_mut().zip(before).zip(exponentials) {
+                *after = e[STAGES - 1] * (*before * left + *after);
             }
         }
     }

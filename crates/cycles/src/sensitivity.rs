@@ -1,5 +1,6 @@
 //! Derivatives of quantities along the orbit with respect to its unknowns, as rows.
 
+use super::blocks::Vector;
 use multiversion::multiversion;
 use nalgebra::DMatrix;
 use num_complex::Complex;
@@ -15,6 +16,8 @@ pub(super) struct Sensitivity {
 
 /// Columns beyond those of the state: period, free parameter, correction.
 const CONSTANTS: usize = 3;
+/// Room, in entries, for nearly all cycles: memory that is never written costs nothing.
+const USUAL_ROOM: usize = 1 << 18;
 /// Number of columns in a block, which stays in registers.
 const LANES: usize = 4;
 
@@ -30,19 +33,19 @@ impl Sensitivity {
         if entries.capacity() < count {
             // First without the old memory, which the new one may then begin with.
             entries = vec![];
-            entries.reserve_exact(count.next_power_of_two());
+            entries.reserve_exact(count.next_power_of_two().max(USUAL_ROOM));
         }
         Self { columns: self.columns, entries }
+    }
+
+    /// Drops all rows, and keeps their memory.
+    pub(super) fn clear(&mut self) {
+        self.entries.clear();
     }
 
     /// Number of entries for which there is room.
     pub(super) fn room(&self) -> usize {
         self.entries.capacity()
-    }
-
-    /// Adds these rows after the last.
-    pub(super) fn append(&mut self, rows: &Self) {
-        self.entries.extend_from_slice(&rows.entries);
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -90,7 +93,7 @@ impl Sensitivity {
         &mut self.entries[i * stride..][..columns]
     }
 
-    pub(super) fn clear(&mut self, i: usize) {
+    pub(super) fn clear_row(&mut self, i: usize) {
         self.row_mut(i).fill(0.0);
     }
 
@@ -100,17 +103,41 @@ impl Sensitivity {
         &mut self.row_mut(i)[from..]
     }
 
-    /// One row per stage: `Σ_j factors[j][k]` times row j of these.
-    pub(super) fn contracted(&self, factors: &[Stages]) -> Self {
-        let mut stages = Self::zeros(STAGES, self.columns);
-        contract(&self.entries, self.stride(), factors, &mut stages.entries);
-        stages
+    /// Appends one row per stage: `Σ_j factors[j][k]` times row j of the state, and these constants.
+    pub(super) fn append_contracted(
+        &mut self,
+        state: &Self,
+        factors: &[Stages],
+        constants: &[Vector; CONSTANTS],
+    ) {
+        self.columns = state.columns;
+        let (first, stride) = (self.entries.len(), self.stride());
+        self.entries.resize(first + STAGES * stride, 0.0);
+        contract(&state.entries, stride, factors, &mut self.entries[first..]);
+        let rows = self.entries[first..].chunks_exact_mut(stride);
+        for (i, row) in rows.enumerate() {
+            let columns = &mut row[state.columns - CONSTANTS..];
+            columns.iter_mut().zip(constants).for_each(|(column, constant)| *column += constant[i]);
+        }
     }
 
-    /// Adds `Σ_k factors[j][k]` times the row of stage k to each row j.
+    /// The rows of the stages appended last.
+    fn last_stages(&self) -> &[f64] {
+        &self.entries[self.entries.len() - STAGES * self.stride()..]
+    }
+
+    /// Adds `Σ_k factors[j][k]` times the row of stage k, of those appended last to `stages`, to each row j.
     pub(super) fn add_expanded(&mut self, factors: &[Stages], stages: &Self) {
         let stride = self.stride();
-        expand(&stages.entries, stride, factors, &mut self.entries);
+        expand(stages.last_stages(), stride, factors, &mut self.entries);
+    }
+
+    /// Adds `Σ_k factors[i][k]` times the row of stage k, of those appended last to `stages`, to each row i of those
+    /// appended last to these.
+    pub(super) fn add_to_last(&mut self, factors: &[Stages; STAGES], stages: &Self) {
+        let stride = self.stride();
+        let first = self.entries.len() - STAGES * stride;
+        expand(stages.last_stages(), stride, factors, &mut self.entries[first..]);
     }
 
     /// Multiplies complex quantities by these factors. Their real parts are the rows from row `from` on, and their

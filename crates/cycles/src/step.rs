@@ -46,6 +46,22 @@ pub(super) struct LinearStep<'a> {
     missed: f64,
 }
 
+/// Changes of displacements and heights: one row per stage of the steps so far.
+#[derive(Default)]
+pub(super) struct OfStages {
+    pub(super) displacements: Sensitivity,
+    /// Empty without a depth limit.
+    pub(super) heights: Sensitivity,
+}
+
+impl OfStages {
+    /// Drops all rows, and keeps their memory.
+    pub(super) fn clear(&mut self) {
+        self.displacements.clear();
+        self.heights.clear();
+    }
+}
+
 /// Buffers for the factors of the rows, reused from step to step.
 #[derive(Default)]
 pub(super) struct Factors {
@@ -133,32 +149,27 @@ impl<'a> LinearStep<'a> {
         OfStep { stiffness, missed: self.missed }
     }
 
-    /// Carries the sensitivities of the state over the step, which is the fraction `share` of the period,
-    /// and returns those of its displacements and heights. `None` if the stage equations are singular.
+    /// Carries the sensitivities of the state over the step, which is the fraction `share` of the period, and appends
+    /// those of its displacements and heights. `None` if the stage equations are singular.
     pub(super) fn carry(
         &self,
-        free: Parameter,
-        share: f64,
+        (free, share): (Parameter, f64),
         state: &mut Sensitivity,
+        stages: &mut OfStages,
         room: &mut Factors,
-    ) -> Option<(Sensitivity, Option<Sensitivity>)> {
+    ) -> Option<()> {
         // With H = by_force and V = ∂v/∂d, δd = (1 - HV)⁻¹ H δv = (H⁻¹ - V)⁻¹ δv.
         let gain = inverted(self.carrying.to_force - self.velocity_slope)?;
         let by_state = self.heights_by_state();
         self.stages_by_state(&by_state, &gain, &mut room.of_stages);
-        let mut stages = state.contracted(&room.of_stages);
         let constants = self.constants(free, share, &gain);
-        for i in 0..STAGES {
-            for (column, constant) in stages.constants(i).iter_mut().zip(&constants) {
-                *column += constant[i];
-            }
+        let OfStages { displacements, heights } = &mut *stages;
+        displacements.append_contracted(state, &room.of_stages, &constants);
+        if let Some(linear) = &self.heights {
+            linear.follow(&by_state, (free, share), state, (displacements, heights));
         }
-        let heights = self
-            .heights
-            .as_ref()
-            .map(|heights| heights.follow(&by_state, (free, share), state, &stages));
-        self.carry_state((free, share), (&stages, heights.as_ref()), state, room);
-        Some((stages, heights))
+        self.carry_state((free, share), stages, state, room);
+        Some(())
     }
 
     /// Changes of the displacements with the period and with the free parameter, and those that solve the equations.
@@ -221,7 +232,7 @@ impl<'a> LinearStep<'a> {
     fn carry_state(
         &self,
         (free, share): (Parameter, f64),
-        (stages, heights): (&Sensitivity, Option<&Sensitivity>),
+        stages: &OfStages,
         state: &mut Sensitivity,
         room: &mut Factors,
     ) {
@@ -231,7 +242,7 @@ impl<'a> LinearStep<'a> {
         by_stages.clear();
         by_stages.resize(rows, [0.0; STAGES]);
         by_heights.clear();
-        by_heights.resize(if heights.is_some() { rows } else { 0 }, [0.0; STAGES]);
+        by_heights.resize(if self.heights.is_some() { rows } else { 0 }, [0.0; STAGES]);
         by_stages[0][STAGES - 1] = -1.0;
         let left = self.carved.left[STAGES - 1];
         turns.clear();
@@ -252,7 +263,7 @@ impl<'a> LinearStep<'a> {
             let last = term.exponent * self.past.after[j];
             by_stages[re][STAGES - 1] += last.re;
             by_stages[im][STAGES - 1] += last.im;
-            if heights.is_some() {
+            if self.heights.is_some() {
                 (by_heights[re], by_heights[im]) = times(inverses, &by_height, weight);
             }
             let spent: Complex<f64> = inverses.iter().zip(&rate).map(|(e, b)| e * b).sum();
@@ -266,12 +277,12 @@ impl<'a> LinearStep<'a> {
             let slope = &RADAU.derivative[STAGES - 1];
             by_stages[rows - 1] = slope.map(|w| w / self.h);
             let velocity: f64 = slope.iter().zip(self.d).map(|(w, d)| w * d).sum::<f64>() / self.h;
-            state.clear(rows - 1);
+            state.clear_row(rows - 1);
             state.constants(rows - 1)[0] -= velocity / self.h * share;
         }
-        state.add_expanded(by_stages, stages);
-        if let Some(heights) = heights {
-            state.add_expanded(by_heights, heights);
+        state.add_expanded(by_stages, &stages.displacements);
+        if self.heights.is_some() {
+            state.add_expanded(by_heights, &stages.heights);
         }
     }
 }

@@ -5,6 +5,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use stickslip_tip::sorting::sort_by_number;
 
 /// Groups of points per thread: some take longer than others.
@@ -12,7 +13,7 @@ const GROUPS_PER_THREAD: usize = 4;
 
 /// A question about a grid of parameters. A point depends on its own parameters alone: points may be computed in any
 /// order, in any groups and on any machine.
-pub trait Points: Question {
+pub trait Points: Question + Sync {
     /// The answer at one point.
     type Point: Send;
 
@@ -33,6 +34,11 @@ pub trait Points: Question {
     /// Largest number of points that gain from being computed together.
     fn together(&self) -> usize {
         1
+    }
+
+    /// Whether a point has parallel parts itself, which threads without a point of their own share.
+    fn has_parallel_parts(&self) -> bool {
+        false
     }
 
     /// Computes these points, and passes each to `take` as soon as it is complete.
@@ -59,7 +65,7 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> R
 /// until `keep` returns false.
 ///
 /// # Errors
-/// The work is cancelled, or no threads can be started.
+/// The work is cancelled; or no threads can be started, of points with parallel parts.
 pub fn each_point<Q: Points>(
     question: &Q,
     indices: &[usize],
@@ -68,9 +74,12 @@ pub fn each_point<Q: Points>(
     keep: impl FnMut(Q::Point) -> bool + Send,
 ) -> Result<(), Failure> {
     // More threads than points would have nothing to do.
-    let threads = threads.min(indices.len().max(1));
-    let pool = pool(threads)?;
-    let groups = GROUPS_PER_THREAD * pool.current_num_threads();
+    let threads = match threads {
+        0 => thread::available_parallelism().map_or(1, usize::from),
+        given => given,
+    };
+    let threads = threads.clamp(1, indices.len().max(1));
+    let groups = GROUPS_PER_THREAD * threads;
     let size = indices.len().div_ceil(groups).clamp(1, question.together());
     let begun = AtomicUsize::new(0);
     let next = || indices.chunks(size).nth(begun.fetch_add(1, Ordering::Relaxed));
@@ -83,9 +92,7 @@ pub fn each_point<Q: Points>(
             is_kept.store(false, Ordering::Relaxed);
         }
     };
-    // This thread wakes all others: one that another of them wakes may wait until the scheduler moves it to a processor
-    // of its own.
-    pool.broadcast(|_| {
+    let work = || {
         let work = || {
             while let Some(group) = next().filter(|_| goes_on()) {
                 safely(question, group, &mut |point| take(point));
@@ -93,8 +100,26 @@ pub fn each_point<Q: Points>(
             Ok(())
         };
         context.keeping(work).ok();
-    });
+    };
+    if question.has_parallel_parts() {
+        // This thread wakes all others: one that another of them wakes may wait until the scheduler moves it to a
+        // processor of its own.
+        pool(threads)?.broadcast(|_| work());
+    } else {
+        side_by_side(threads, work);
+    }
     if context.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
+}
+
+/// Does the work on this number of threads, of which this is one: its memory is there already.
+fn side_by_side(threads: usize, work: impl Fn() + Sync) {
+    thread::scope(|scope| {
+        for _ in 1..threads {
+            // What a thread that cannot be started would have done is left to the others.
+            thread::Builder::new().spawn_scoped(scope, &work).ok();
+        }
+        work();
+    });
 }
 
 /// Computes these points. If a library panics, the missing points are computed one by one, and a point at which it

@@ -128,6 +128,10 @@ impl Points for RasterSweep {
         point.index
     }
 
+    fn has_parallel_parts(&self) -> bool {
+        true
+    }
+
     fn compute(&self, indices: &[usize], take: &mut dyn FnMut(RasterSweepPoint)) {
         indices.iter().for_each(|index| take(self.point(*index)));
     }

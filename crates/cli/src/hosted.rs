@@ -118,7 +118,7 @@ fn parse<'a>(
         Refusal::Input(said.trim_start_matches("error: ").trim_end().to_owned())
     };
     let words = words.into_iter().map(OsString::from).collect();
-    let line = translated(&session, words, &mut parser)?;
+    let line = translated(&session, words, || &mut *parser)?;
     let matches = parser.try_get_matches_from_mut(&line.words).map_err(refused)?;
     let cli = Cli::from_arg_matches(&matches).map_err(refused)?;
     Ok((session.with_quantities(line.typed), cli))

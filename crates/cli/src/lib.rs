@@ -39,11 +39,11 @@ pub fn arguments() -> clap::Command {
 
 /// Runs the program, as called from a shell.
 pub fn main() -> ExitCode {
-    let line =
-        match translated(&Session::default(), std::env::args_os().collect(), &mut Cli::command()) {
-            Ok(line) => line,
-            Err(failure) => return failed(&failure),
-        };
+    let words = std::env::args_os().collect();
+    let line = match translated(&Session::default(), words, Cli::command) {
+        Ok(line) => line,
+        Err(failure) => return failed(&failure),
+    };
     let cli = match Cli::read(&line.words) {
         Ok(cli) => cli,
         Err(mut error) => {

@@ -10,6 +10,7 @@ use crate::files::input::open;
 use crate::session::{Session, TypedQuantity};
 use clap::{Arg, ArgAction, Command};
 use serde_json::Value;
+use std::borrow::BorrowMut;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use stickslip::{Dimension, KnownScales};
@@ -59,15 +60,21 @@ fn needs(unit: &str) -> &'static str {
     }
 }
 
-/// The command line with numbers in place of quantities.
-pub(crate) fn translated(
+/// The command line with numbers in place of quantities. The parser is built only for a line that may have some: that
+/// takes a tenth of the time of a short command.
+pub(crate) fn translated<P: BorrowMut<Command>>(
     session: &Session,
     words: Vec<OsString>,
-    parser: &mut Command,
+    parser: impl FnOnce() -> P,
 ) -> Result<Translated, Failure> {
     let line =
         Line { words: words.iter().map(|word| word.to_string_lossy().into_owned()).collect() };
     let mut translated = Translated { words, typed: vec![] };
+    if !line.options().any(|(_, value, ..)| is_quantity(value)) {
+        return Ok(translated);
+    }
+    let mut parser = parser();
+    let parser = parser.borrow_mut();
     let Some((at, command)) = line.command(parser) else { return Ok(translated) };
     let quantities: Vec<Quantity> = line.quantities(&command).collect();
     if quantities.is_empty() {
@@ -162,6 +169,11 @@ fn converted(
     })
 }
 
+/// Whether a part of the value of an option has a unit.
+fn is_quantity(value: &str) -> bool {
+    value.split([':', ',']).any(has_unit)
+}
+
 /// Whether a text is a number followed by something else.
 fn has_unit(part: &str) -> bool {
     let part = part.trim();
@@ -218,8 +230,7 @@ impl Line {
                 _ => option,
             };
             let units = units_of(name, option_meant)?;
-            let is_quantity = value.split([':', ',']).any(has_unit);
-            is_quantity.then(|| Quantity {
+            is_quantity(value).then(|| Quantity {
                 option: format!("--{option}"),
                 value: value.into(),
                 units,

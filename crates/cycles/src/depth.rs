@@ -35,7 +35,7 @@ impl LinearHeights {
     /// α. `None` if the equations are singular.
     pub(super) fn new(
         equation: &Embedding,
-        history: Stages,
+        history: &Stages,
         (slope, own): (&Vector, &OwnGroove),
         (d, heights, carved): (&Stages, &Heights, &Carved),
     ) -> Option<Self> {

@@ -10,7 +10,7 @@ use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::along;
 use super::orbit::Orbit;
-use super::past::{Past, Use};
+use super::past::{Grooves, Past, Use};
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
 use super::step::{Factors, LinearStep, OfStages};
@@ -39,12 +39,14 @@ pub(super) fn leading(closed: &Closed, least: f64) -> Option<Vec<Complex<f64>>> 
     let Closed { equation, orbit, .. } = closed;
     let map = PeriodMap::new(equation, orbit);
     let past = map.past()?;
+    let grooves = past.grooves(!orbit.heights.is_empty());
+    let history = (&past, &grooves);
     let mut space = DMatrix::zeros(map.len(), 0);
     let mut images = space.clone();
-    let mut block = outside(&space, map.kicks(&past)?);
+    let mut block = outside(&space, map.kicks(history)?);
     let (mut before, mut looked_at) = (vec![], 0.0);
     loop {
-        let image = map.of(&past, &block)?;
+        let image = map.of(history, &block)?;
         (space, images) = (beside(&space, &block), beside(&images, &image));
         block = outside(&space, image);
         let (is_closed, is_full) = (block.ncols() == 0, space.ncols() + BLOCK > MOST_DIMENSIONS);
@@ -105,25 +107,25 @@ impl<'a> PeriodMap<'a> {
     }
 
     /// The deviations after a period, one per column.
-    fn of(&self, past: &Past, block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    fn of(&self, history: (&Past, &Grooves), block: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         let (mut state, mut passing) = (Sensitivity::of(block), Passing::default());
         let carry = |_, step: &LinearStep, share: f64| passing.carry(step, share, &mut state);
-        along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
+        along(&self.equation, (self.orbit, &self.carved), history, carry).ok()?;
         Some(state.columns())
     }
 
     /// Deviations at the end of a period after a shift of the tip by 1 at evenly spaced steps.
-    fn kicks(&self, past: &Past) -> Option<DMatrix<f64>> {
+    fn kicks(&self, history: (&Past, &Grooves)) -> Option<DMatrix<f64>> {
         let steps = self.orbit.stages.len();
         let mut state = Sensitivity::of(&DMatrix::zeros(self.len(), BLOCK));
         let mut passing = Passing::default();
         let carry = |n, step: &LinearStep, share: f64| {
             for kick in (0..BLOCK).filter(|kick| kick * steps / BLOCK == n) {
-                state.set_column(kick, past.of_step(n).moved_on());
+                state.set_column(kick, history.0.of_step(n).moved_on());
             }
             passing.carry(step, share, &mut state)
         };
-        along(&self.equation, (self.orbit, &self.carved), (past, past), carry).ok()?;
+        along(&self.equation, (self.orbit, &self.carved), history, carry).ok()?;
         Some(state.columns())
     }
 }

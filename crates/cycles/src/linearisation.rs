@@ -9,7 +9,7 @@ use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
 use super::orbit::Orbit;
-use super::past::{Past, Use};
+use super::past::{Grooves, Past, Use};
 use super::sensitivity::Sensitivity;
 use super::step::{Factors, LinearStep, OfStages, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
@@ -55,10 +55,15 @@ impl Linearisation {
     ) -> Result<Self, Singular> {
         let carved = orbit.carved(&equation.wider);
         let past = |sum, used| Past::of(sum, (orbit, &carved), used).ok_or(Singular);
+        let has_heights = !orbit.heights.is_empty();
+        // Its memory is there for the history of the linearised equations.
+        let grooves = if solved == &*equation.short {
+            None
+        } else {
+            Some(past(solved, Use::Groove)?.grooves(has_heights))
+        };
         let linear = past(&equation.short, Use::Linearisation)?;
-        let is_other = solved != &*equation.short;
-        let other = is_other.then(|| past(solved, Use::Groove)).transpose()?;
-        let solved = other.as_ref().unwrap_or(&linear);
+        let grooves = grooves.unwrap_or_else(|| linear.grooves(has_heights));
         let mut end = Sensitivity::identity(equation.state_len());
         let earlier = EARLIER.take();
         let mut stages = OfStages {
@@ -67,12 +72,12 @@ impl Linearisation {
         };
         let mut of_steps = Vec::with_capacity(orbit.stages.len());
         let mut factors = Factors::default();
-        let gap = along(equation, (orbit, &carved), (&linear, solved), |_, step, share| {
+        let gap = along(equation, (orbit, &carved), (&linear, &grooves), |_, step, share| {
             step.carry((free, share), &mut end, &mut stages, &mut factors)?;
             of_steps.push(step.of_step());
             Some(())
         })?;
-        let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), solved, free);
+        let phase = Phase::new(equation, (orbit.extension, orbit.velocity()), &grooves, free);
         Ok(Self { gap, end, stages, phase, of_steps })
     }
 
@@ -169,7 +174,7 @@ impl Drop for Linearisation {
 pub(super) fn along(
     equation: &Embedding,
     (orbit, carved): (&Orbit, &[Carved]),
-    (past, solved): (&Past, &Past),
+    (past, grooves): (&Past, &Grooves),
     mut each: impl FnMut(usize, &LinearStep, f64) -> Option<()>,
 ) -> Result<f64, Singular> {
     let (mut extension, mut velocity) = (orbit.extension, orbit.velocity());
@@ -180,7 +185,7 @@ pub(super) fn along(
         }
         let (carved, heights) = (&carved[n], orbit.heights.get(n));
         let step = Solved { extension, velocity, h, d, heights, carved };
-        let step = LinearStep::new(equation, (past.of_step(n), solved.of_step(n)), step);
+        let step = LinearStep::new(equation, (past.of_step(n), grooves.of_step(n)), step);
         let step = step.ok_or(Singular)?;
         each(n, &step, ends[1] - ends[0]).ok_or(Singular)?;
         extension += equation.r * h - d[STAGES - 1];
@@ -194,10 +199,10 @@ impl Phase {
     fn new(
         equation: &Embedding,
         (extension, velocity): (f64, f64),
-        solved: &Past,
+        grooves: &Grooves,
         free: Parameter,
     ) -> Self {
-        let groove: f64 = solved.of_step(0).zeta.iter().map(|z| z.re).sum();
+        let groove = grooves.at_start;
         let modes = equation.short.terms().len();
         let mut by_state = vec![0.0; equation.state_len()];
         let by_r = f64::from(u8::from(free == Parameter::R));

@@ -3,7 +3,7 @@
 use super::carved::Carved;
 use super::orbit::Orbit;
 use num_complex::Complex;
-use std::cell::RefCell;
+use std::cell::Cell;
 use stickslip_tip::collocation::{STAGES, Stages};
 use stickslip_tip::elementary::complex_exp;
 use stickslip_tip::exponential::with_inverses;
@@ -33,10 +33,8 @@ struct Numbers {
 }
 
 thread_local! {
-    /// The memory of earlier histories, for the next ones: a new allocation takes longer than writing to it. Of no more
-    /// than were there at once: two, if a linearisation needs the history in two sums. The one created first is dropped
-    /// last, and the next first one has its memory again.
-    static EARLIER: RefCell<Vec<Numbers>> = RefCell::default();
+    /// The memory of the last history, for the next one: a new allocation takes longer than writing to it.
+    static EARLIER: Cell<Numbers> = Cell::default();
 }
 
 /// Number of steps whose exponentials are computed together.
@@ -57,21 +55,38 @@ const USUAL_ROOM: usize = 1 << 15;
 impl Numbers {
     /// Empty, with room for this number of steps and terms.
     fn with_room(count: usize) -> Self {
-        let earlier = EARLIER.with_borrow_mut(Vec::pop);
-        let Some(mut numbers) = earlier.filter(|of| count <= of.exponentials.capacity()) else {
+        let mut numbers = EARLIER.take();
+        if numbers.exponentials.capacity() < count {
             // A vector that grew would copy what is not needed any more.
             let room = USUAL_ROOM.max(count.next_power_of_two());
-            return Self {
+            numbers = Self {
                 exponentials: Vec::with_capacity(room),
                 inverses: Vec::with_capacity(room),
                 zeta: Vec::with_capacity(room),
             };
-        };
+        }
         numbers.exponentials.clear();
         numbers.inverses.clear();
         numbers.zeta.clear();
         numbers
     }
+}
+
+/// The groove of the history at the stages of all steps.
+pub(super) struct Grooves {
+    /// Its slope, divided by α.
+    slopes: Vec<Stages>,
+    /// Its height, divided by -α; empty without a depth limit.
+    heights: Vec<Stages>,
+    /// Its slope at the start of the period, divided by α.
+    pub(super) at_start: f64,
+}
+
+/// The groove of the history at the stages of one step, as in [`Grooves`].
+#[derive(Clone, Copy)]
+pub(super) struct GrooveOfStep<'a> {
+    pub(super) slope: &'a Stages,
+    pub(super) height: Option<&'a Stages>,
 }
 
 /// The history in one step.
@@ -172,6 +187,16 @@ impl<'a> Past<'a> {
         }
     }
 
+    /// The groove at all stages, with heights if wanted.
+    pub(super) fn grooves(&self, with_heights: bool) -> Grooves {
+        let steps = || (0..self.left.len()).map(|n| self.of_step(n));
+        Grooves {
+            slopes: steps().map(|step| step.slope()).collect(),
+            heights: steps().filter(|_| with_heights).map(|step| step.height()).collect(),
+            at_start: self.numbers.zeta[..self.terms.len()].iter().map(|z| z.re).sum(),
+        }
+    }
+
     pub(super) fn of_step(&self, n: usize) -> PastOfStep<'_> {
         let of = |n: usize| n * self.terms.len()..(n + 1) * self.terms.len();
         PastOfStep {
@@ -182,6 +207,12 @@ impl<'a> Past<'a> {
             after: &self.numbers.zeta[of(n + 1)],
             left: &self.left[n],
         }
+    }
+}
+
+impl Grooves {
+    pub(super) fn of_step(&self, n: usize) -> GrooveOfStep<'_> {
+        GrooveOfStep { slope: &self.slopes[n], height: self.heights.get(n) }
     }
 }
 
@@ -197,7 +228,7 @@ fn spent_in(inverse: &[Complex<f64>; STAGES], b: &Stages) -> Complex<f64> {
 
 impl Drop for Past<'_> {
     fn drop(&mut self) {
-        EARLIER.with_borrow_mut(|earlier| earlier.push(std::mem::take(&mut self.numbers)));
+        EARLIER.set(std::mem::take(&mut self.numbers));
     }
 }
 

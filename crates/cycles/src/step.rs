@@ -18,7 +18,7 @@ use super::carved::{Carved, Heights};
 use super::depth::LinearHeights;
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
-use super::past::PastOfStep;
+use super::past::{GrooveOfStep, PastOfStep};
 use super::quadrature::missed;
 use super::sensitivity::Sensitivity;
 use multiversion::multiversion;
@@ -88,17 +88,18 @@ pub(super) struct Solved<'a> {
 }
 
 impl<'a> LinearStep<'a> {
-    /// `solved` is the history in which the equations are solved, `past` the one in which they are linearised. `None` if
-    /// the equations are singular.
+    /// `groove` is that of the history in which the equations are solved, `past` the history in which they are linearised.
+    /// `None` if the equations are singular.
     pub(super) fn new(
         equation: &'a Embedding,
-        (past, solved): (PastOfStep<'a>, PastOfStep<'_>),
+        (past, groove): (PastOfStep<'a>, GrooveOfStep<'_>),
         step: Solved<'a>,
     ) -> Option<Self> {
         let Solved { extension, h, d, carved, .. } = step;
+        let GrooveOfStep { slope: past_slope, height: past_height } = groove;
         let law = equation.law();
         let between = OwnGroove::new(&equation.tip, d);
-        let (weighted, past_slope) = (carved.weighted(), solved.slope());
+        let weighted = carved.weighted();
         // What is carved in a unit step: of one of length h it is h times as much, unless it heals.
         let (mut own, mut own_slope) = ([0.0; STAGES], [[0.0; STAGES]; STAGES]);
         between.add_slope(&weighted, &mut own);
@@ -110,18 +111,18 @@ impl<'a> LinearStep<'a> {
             between.add_slope(&weights, &mut rate);
             rate
         });
-        for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading.iter().zip(&past_slope)) {
+        for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading.iter().zip(past_slope)) {
             *rate += fading * slope;
         }
-        let groove = Vector::from(past_slope) + own * carved.times;
+        let groove = Vector::from(*past_slope) + own * carved.times;
         let velocity = Vector::from_fn(|i, _| law.velocity(pull[i], d[i], 0.0, groove[i]));
         let curvature = past.curvature();
         let mut velocity_slope = Square::from_fn(|i, k| match own_slope[i][k] * carved.times {
             own if i == k => law.velocity_slope(0.0, curvature[i] + own),
             own => law.alpha * own,
         });
-        let heights = step.heights.and_then(|heights| {
-            LinearHeights::new(equation, solved.height(), (&groove, &between), (d, heights, carved))
+        let heights = step.heights.zip(past_height).and_then(|(heights, history)| {
+            LinearHeights::new(equation, history, (&groove, &between), (d, heights, carved))
         });
         if let Some(heights) = &heights {
             velocity_slope -= heights.stiffness();
@@ -344,6 +345,7 @@ mod tests {
         let law = Law::of(&model);
         let carved = orbit.carved(&equation.wider);
         let past = Past::of(&equation.fine, (orbit, &carved), Use::Linearisation).unwrap();
+        let grooves = past.grooves(false);
         let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
         let steps = || orbit.lengths().zip(&orbit.stages);
         for _ in 0..8 {
@@ -352,11 +354,11 @@ mod tests {
         let mut extension = orbit.extension;
         let zero = [0.0; STAGES];
         for (n, (h, d)) in steps().enumerate() {
-            let slope = past.of_step(n).slope();
+            let slope = grooves.of_step(n).slope;
             let (velocity, carved) = (0.0, &carved[n]);
             let solved = Solved { extension, velocity, h, d, heights: None, carved };
-            let step =
-                LinearStep::new(equation, (past.of_step(n), past.of_step(n)), solved).unwrap();
+            let history = (past.of_step(n), grooves.of_step(n));
+            let step = LinearStep::new(equation, history, solved).unwrap();
             let (mut told, mut curvature) = (zero, zero);
             memory.groove(d, &mut Groove::new(&mut told, &mut curvature));
             let near = |a: f64, b: f64, allowed: f64, what: &str| {

@@ -17,50 +17,76 @@ pub(super) struct Heights {
 /// Weights and decay of one step.
 #[derive(Debug, Clone)]
 pub(super) struct Carved {
-    /// `b_ik` and ∂`b_ik`/∂h if the surface heals; else `b_ik` is h times the matrix of a unit step.
-    healing: Option<Box<[Matrix; 2]>>,
     /// h, or 1 if the surface heals: `b_ik` is in units of it.
     pub(super) times: f64,
-    /// Decay factors of earlier contributions at the nodes.
-    pub(super) left: Stages,
-    /// Logarithmic derivative of the decay with respect to h.
-    pub(super) fading: Stages,
+    /// `None` for those of a surface that neither heals nor has a depth limit: most cycles have hundreds of such steps.
+    wide: Option<Box<Wide>>,
+}
+
+/// Weights and decay in the extended model.
+#[derive(Debug, Clone)]
+struct Wide {
+    /// `b_ik` and ∂`b_ik`/∂h if the surface heals; else `b_ik` is h times the matrix of a unit step.
+    healing: Option<[Matrix; 2]>,
+    left: Stages,
+    fading: Stages,
     /// w
     weights: Stages,
     /// ∂w/∂η
     by_height: Stages,
 }
 
+static PLAIN: Wide = Wide {
+    healing: None,
+    left: [1.0; STAGES],
+    fading: [0.0; STAGES],
+    weights: [1.0; STAGES],
+    by_height: [0.0; STAGES],
+};
+
 impl Carved {
     /// The weights of a step of length h.
     pub(super) fn new(wider: &Wider, h: f64, heights: Option<&Heights>) -> Self {
-        let of_time = |time| Box::new([healing(h, time), healing_rate(h, time)]);
-        let healing = wider.healing_time.map(of_time);
+        let healing = wider.healing_time.map(|time| [healing(h, time), healing_rate(h, time)]);
         let rate = wider.healing_rate();
         let depth = wider.depth_limit.zip(heights);
+        if healing.is_none() && depth.is_none() {
+            return Self { times: h, wide: None };
+        }
         let weigh = |(limit, heights): (f64, &Heights)| {
             let weights = Depth { limit, side: heights.side }.weights(&heights.nodes);
             (weights, weights.map(|w| -heights.side * w / limit))
         };
         let (weights, by_height) = depth.map_or(([1.0; STAGES], [0.0; STAGES]), weigh);
-        Self {
-            times: if healing.is_some() { 1.0 } else { h },
-            healing,
-            left: RADAU.c.map(|c| wider.left_after(h * c)),
-            fading: RADAU.c.map(|c| 0.0 - rate * c),
-            weights,
-            by_height,
-        }
+        let times = if healing.is_some() { 1.0 } else { h };
+        let left = RADAU.c.map(|c| wider.left_after(h * c));
+        let fading = RADAU.c.map(|c| 0.0 - rate * c);
+        let wide = Wide { healing, left, fading, weights, by_height };
+        Self { times, wide: Some(Box::new(wide)) }
+    }
+
+    fn wide(&self) -> &Wide {
+        self.wide.as_deref().unwrap_or(&PLAIN)
+    }
+
+    /// Decay factors of earlier contributions at the nodes.
+    pub(super) fn left(&self) -> &Stages {
+        &self.wide().left
+    }
+
+    /// Logarithmic derivative of the decay with respect to h.
+    pub(super) fn fading(&self) -> &Stages {
+        &self.wide().fading
     }
 
     /// `b_ik` divided by [`times`](Self::times).
     fn bare(&self) -> Matrix {
-        self.healing.as_ref().map_or_else(|| carving(1.0), |healing| healing[0])
+        self.wide().healing.as_ref().map_or_else(|| carving(1.0), |healing| healing[0])
     }
 
     /// `b_ik w_k` divided by [`times`](Self::times).
     pub(super) fn weighted(&self) -> Matrix {
-        by_columns(&self.bare(), &self.weights)
+        by_columns(&self.bare(), &self.wide().weights)
     }
 
     /// Weights of the stages k at the end of the step: of the contributions, of their derivatives with respect to h, and
@@ -70,20 +96,24 @@ impl Carved {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])
         };
         let bare = self.bare();
-        let by_height = row(&bare, &self.by_height).map(|b| b * self.times);
-        let stays = row(&bare, &self.weights);
-        let rate = self.healing.as_ref().map_or(stays, |healing| row(&healing[1], &self.weights));
+        let by_height = row(&bare, &self.wide().by_height).map(|b| b * self.times);
+        let stays = row(&bare, &self.wide().weights);
+        let rate = self
+            .wide()
+            .healing
+            .as_ref()
+            .map_or(stays, |healing| row(&healing[1], &self.wide().weights));
         [stays, rate, by_height]
     }
 
     /// ∂`b_ik w_k`/∂h if the surface heals; else it is [`weighted`](Self::weighted).
     pub(super) fn rate(&self) -> Option<Matrix> {
-        self.healing.as_ref().map(|healing| by_columns(&healing[1], &self.weights))
+        self.wide().healing.as_ref().map(|healing| by_columns(&healing[1], &self.wide().weights))
     }
 
     /// ∂`b_ik w_k`/∂`η_k`
     pub(super) fn by_height(&self) -> Matrix {
-        by_columns(&self.bare(), &self.by_height).map(|row| row.map(|b| b * self.times))
+        by_columns(&self.bare(), &self.wide().by_height).map(|row| row.map(|b| b * self.times))
     }
 }
 

@@ -47,7 +47,7 @@ impl LinearHeights {
         own_height.add(&weighted, &mut groove);
         own_height.add(carved.rate().as_ref().unwrap_or(&weighted), &mut rate);
         let groove = Vector::from_fn(|i, _| history[i] + groove[i] * times);
-        let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading[i] * history[i]);
+        let groove_rate = Vector::from_fn(|i, _| rate[i] + carved.fading()[i] * history[i]);
         let q = Square::from_fn(|i, k| alpha * changing[i][k] * values[i][k]) + Square::identity();
         let inverse = q.lu().try_inverse()?;
         // A stage that moves on sees the slope where it is, and the others see it move.

@@ -15,8 +15,8 @@ pub(super) struct Past<'a> {
     terms: &'a [Term],
     /// By step and term.
     numbers: Numbers,
-    /// Decay factors at the nodes of each step.
-    left: Vec<Stages>,
+    /// Weights and decay by step.
+    carved: &'a [Carved],
     used: Use,
 }
 
@@ -113,7 +113,7 @@ impl<'a> Past<'a> {
     /// period it must be the same again.
     pub(super) fn of(
         fit: &'a Fit,
-        (orbit, carved): (&Orbit, &[Carved]),
+        (orbit, carved): (&Orbit, &'a [Carved]),
         used: Use,
     ) -> Option<Self> {
         let terms = fit.terms();
@@ -145,11 +145,10 @@ impl<'a> Past<'a> {
                 zeta.extend(terms.iter().zip(inverses).map(of_term));
             }
         }
-        let left: Vec<Stages> = carved.iter().map(|carved| carved.left).collect();
-        let mut past = Self { terms, numbers, left, used };
+        let mut past = Self { terms, numbers, carved, used };
         let added = past.of_one_period();
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
-        let kept: f64 = past.left.iter().map(|left| left[STAGES - 1]).product();
+        let kept: f64 = carved.iter().map(|carved| carved.left()[STAGES - 1]).product();
         for ((start, added), term) in past.numbers.zeta.iter_mut().zip(added).zip(terms) {
             *start = added / (1.0 - complex_exp(term.exponent * moved) * kept);
         }
@@ -163,8 +162,8 @@ impl<'a> Past<'a> {
         let mut zeta = vec![Complex::ZERO; count];
         let Numbers { exponentials, zeta: spent, .. } = &self.numbers;
         let steps = exponentials.chunks_exact(count).zip(spent[count..].chunks_exact(count));
-        for ((exponentials, spent), left) in steps.zip(&self.left) {
-            let left = left[STAGES - 1];
+        for ((exponentials, spent), carved) in steps.zip(self.carved) {
+            let left = carved.left()[STAGES - 1];
             for ((zeta, e), spent) in zeta.iter_mut().zip(exponentials).zip(spent) {
                 *zeta = e[STAGES - 1] * (*zeta * left + spent);
             }
@@ -176,11 +175,10 @@ impl<'a> Past<'a> {
     fn follow(&mut self) {
         let count = self.terms.len();
         let Numbers { exponentials, zeta, .. } = &mut self.numbers;
-        for (n, (exponentials, left)) in
-            exponentials.chunks_exact(count).zip(&self.left).enumerate()
-        {
+        let steps = exponentials.chunks_exact(count).zip(self.carved);
+        for (n, (exponentials, carved)) in steps.enumerate() {
             let (before, after) = zeta[n * count..].split_at_mut(count);
-            let left = left[STAGES - 1];
+            let left = carved.left()[STAGES - 1];
             for ((after, before), e) in after.iter_mut().zip(before).zip(exponentials) {
                 *after = e[STAGES - 1] * (*before * left + *after);
             }
@@ -189,7 +187,7 @@ impl<'a> Past<'a> {
 
     /// The groove at all stages, with heights if wanted.
     pub(super) fn grooves(&self, with_heights: bool) -> Grooves {
-        let steps = || (0..self.left.len()).map(|n| self.of_step(n));
+        let steps = || (0..self.carved.len()).map(|n| self.of_step(n));
         Grooves {
             slopes: steps().map(|step| step.slope()).collect(),
             heights: steps().filter(|_| with_heights).map(|step| step.height()).collect(),
@@ -205,7 +203,7 @@ impl<'a> Past<'a> {
             inverses: if self.used == Use::Groove { &[] } else { &self.numbers.inverses[of(n)] },
             zeta: &self.numbers.zeta[of(n)],
             after: &self.numbers.zeta[of(n + 1)],
-            left: &self.left[n],
+            left: self.carved[n].left(),
         }
     }
 }

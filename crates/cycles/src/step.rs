@@ -111,7 +111,7 @@ impl<'a> LinearStep<'a> {
             between.add_slope(&weights, &mut rate);
             rate
         });
-        for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading.iter().zip(past_slope)) {
+        for (rate, (fading, slope)) in rate.iter_mut().zip(carved.fading().iter().zip(past_slope)) {
             *rate += fading * slope;
         }
         let groove = Vector::from(*past_slope) + own * carved.times;
@@ -201,7 +201,7 @@ impl<'a> LinearStep<'a> {
         into.clear();
         into.resize(1 + 2 * modes, [0.0; STAGES]);
         into[0] = Stages::from(gain * Vector::from([1.0; STAGES]));
-        let left = self.carved.left.map(|left| self.equation.alpha * left);
+        let left = self.carved.left().map(|left| self.equation.alpha * left);
         let by_past = Square::from_fn(|i, k| gain[(i, k)] * left[k]);
         let (re, im) = into[1..].split_at_mut(modes);
         products(&by_past, self.past.exponentials, re, im);
@@ -219,7 +219,7 @@ impl<'a> LinearStep<'a> {
         if self.heights.is_none() {
             return vec![];
         }
-        let left = &self.carved.left;
+        let left = self.carved.left();
         let scaled = self.past.exponentials.iter().zip(self.past.terms);
         let scaled = scaled.map(|(e, term)| e.map(|e| e / term.exponent));
         let scaled: Vec<[Complex<f64>; STAGES]> = scaled.collect();
@@ -245,7 +245,7 @@ impl<'a> LinearStep<'a> {
         by_heights.clear();
         by_heights.resize(if self.heights.is_some() { rows } else { 0 }, [0.0; STAGES]);
         by_stages[0][STAGES - 1] = -1.0;
-        let left = self.carved.left[STAGES - 1];
+        let left = self.carved.left()[STAGES - 1];
         turns.clear();
         turns.extend(self.past.exponentials.iter().map(|e| e[STAGES - 1] * left));
         state.multiply_pairs(1, turns);
@@ -254,7 +254,7 @@ impl<'a> LinearStep<'a> {
             state.constants(0)[1] += self.h;
         }
         let [stays, rate, by_height] = self.carved.at_end();
-        let fading = self.carved.fading[STAGES - 1];
+        let fading = self.carved.fading()[STAGES - 1];
         for (j, term) in self.past.terms.iter().enumerate() {
             let e = self.past.exponentials[j][STAGES - 1];
             let (re, im) = (1 + j, 1 + modes + j);

@@ -11,7 +11,6 @@ use crate::arguments::{
     AnswerArguments, Length, Range, RasterSweepArguments, SweepArguments, SweepThen, TipArguments,
     WorkArguments,
 };
-use crate::arithmetic::arithmetic;
 use crate::commands::in_units::scales;
 use crate::commands::model::tip;
 use crate::failure::Failure;
@@ -175,8 +174,6 @@ where
     let mut kept: io::Result<()> = Ok(());
     let context = Context::cancelled_by(Arc::clone(interrupt.flag()));
     let computed = each_point(grid, &missing, threads, &context, |point| {
-        // The document needs the name. It takes half a millisecond, in which other threads compute points.
-        arithmetic();
         kept = finished.add(point);
         let done = so_far.fetch_add(1, Ordering::Relaxed) + 1;
         progress.counted(done as f64, || format!("{done} of {count} points"));

@@ -19,7 +19,7 @@ pub struct CheckpointHead {
     pub format_version: u32,
     /// The program that wrote the checkpoint.
     pub software: Software,
-    /// Floating-point arithmetic of the machine that made the checkpoint, such as "x86_64-1c291ca3":
+    /// Floating-point arithmetic of the machine that made the checkpoint, such as "x86_64-30e62884":
     /// only a machine with the same arithmetic continues with identical bits.
     #[serde(default)]
     pub arithmetic: Option<String>,

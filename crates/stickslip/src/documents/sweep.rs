@@ -26,7 +26,7 @@ pub struct SweepFound {
     /// vary and all parts are included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensembles: Option<Vec<EnsembleDocument>>,
-    /// Floating-point arithmetic of the machine that computed the points, such as "x86_64-1c291ca3":
+    /// Floating-point arithmetic of the machine that computed the points, such as "x86_64-30e62884":
     /// other arithmetic changes the last digits. Null if parts come from machines with different arithmetic.
     #[serde(default)]
     pub arithmetic: Option<String>,

@@ -7,7 +7,6 @@ use super::job::{Job, format};
 use super::run::disturbance::{parse_pulses, warn_of_pulses_outside};
 use super::sweep::threads;
 use crate::arguments::{AreaArguments, Format, Options, Questions, RasterArguments};
-use crate::arithmetic;
 use crate::commands::in_units::in_metres;
 use crate::failure::Failure;
 use crate::files::columns::read_area;
@@ -15,7 +14,6 @@ use crate::files::distinct::{Named, distinct};
 use crate::interrupt::Interrupt;
 use crate::session::Session;
 use serde_json::{Map, Value};
-use std::path::Path;
 use stickslip::{
     AreaDocument, Ask, HeightMap, KnownScales, Physical, Raster, RasterDocument, on_threads,
     parameter,
@@ -29,9 +27,6 @@ pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         given => given,
     };
-    if output != Path::new("-") {
-        arithmetic::prepare();
-    }
     let read = files_read(options, area);
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()

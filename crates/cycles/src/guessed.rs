@@ -3,7 +3,7 @@
 use super::carved::Heights;
 use super::embedding::Embedding;
 use super::orbit::Orbit;
-use super::past::{Past, Use};
+use super::past::Past;
 use stickslip_tip::collocation::STAGES;
 use stickslip_tip::step::OwnHeight;
 
@@ -30,7 +30,7 @@ impl Orbit {
     /// One relaxed step towards the heights that follow from the weights of the present heights.
     fn improve_heights(&mut self, equation: &Embedding) -> Option<()> {
         let carved = self.carved(&equation.wider);
-        let past = Past::of(&equation.short, (self, &carved), Use::Groove)?;
+        let past = Past::of(&equation.short, (self, &carved))?;
         let steps = self.stages.iter().zip(&carved).enumerate();
         let new = steps.map(|(n, (d, carved))| {
             let mut own = [0.0; STAGES];

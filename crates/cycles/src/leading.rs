@@ -10,7 +10,7 @@ use super::carved::Carved;
 use super::embedding::{Embedding, Parameter};
 use super::linearisation::along;
 use super::orbit::Orbit;
-use super::past::{Grooves, Past, Use};
+use super::past::{Grooves, Past};
 use super::sensitivity::Sensitivity;
 use super::solve::Closed;
 use super::step::{Factors, LinearStep, OfStages};
@@ -99,7 +99,7 @@ impl<'a> PeriodMap<'a> {
     }
 
     fn past(&self) -> Option<Past<'_>> {
-        Past::of(&self.equation.short, (self.orbit, &self.carved), Use::Linearisation)
+        Past::of(&self.equation.short, (self.orbit, &self.carved))
     }
 
     fn len(&self) -> usize {

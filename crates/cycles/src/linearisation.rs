@@ -9,7 +9,7 @@ use super::change::{Change, Direction};
 use super::embedding::{Embedding, Parameter};
 use super::mesh::OfStep;
 use super::orbit::Orbit;
-use super::past::{Grooves, Past, Use};
+use super::past::{Grooves, Past};
 use super::sensitivity::Sensitivity;
 use super::step::{Factors, LinearStep, OfStages, Solved};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
@@ -54,15 +54,15 @@ impl Linearisation {
         solved: &Fit,
     ) -> Result<Self, Singular> {
         let carved = orbit.carved(&equation.wider);
-        let past = |sum, used| Past::of(sum, (orbit, &carved), used).ok_or(Singular);
+        let past = |sum| Past::of(sum, (orbit, &carved)).ok_or(Singular);
         let has_heights = !orbit.heights.is_empty();
         // Its memory is there for the history of the linearised equations.
         let grooves = if solved == &*equation.short {
             None
         } else {
-            Some(past(solved, Use::Groove)?.grooves(has_heights))
+            Some(past(solved)?.grooves(has_heights))
         };
-        let linear = past(&equation.short, Use::Linearisation)?;
+        let linear = past(&equation.short)?;
         let grooves = grooves.unwrap_or_else(|| linear.grooves(has_heights));
         let mut end = Sensitivity::identity(equation.state_len());
         let earlier = EARLIER.take();

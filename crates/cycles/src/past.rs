@@ -17,7 +17,6 @@ pub(super) struct Past<'a> {
     numbers: Numbers,
     /// Weights and decay by step.
     carved: &'a [Carved],
-    used: Use,
 }
 
 /// Exponentials for all steps and terms: some hundred kilobytes, written at every linearisation.
@@ -25,7 +24,7 @@ pub(super) struct Past<'a> {
 struct Numbers {
     /// `e^{s_j d_i}`
     exponentials: Vec<[Complex<f64>; STAGES]>,
-    /// `e^{-s_j d_i}`; if only the motion is solved, those of the last few steps.
+    /// `e^{-s_j d_i}` of the last few steps.
     inverses: Vec<[Complex<f64>; STAGES]>,
     /// `ζ_j` at the starts of the steps and at the end of the last one; before it is known, `Δζ_j` of each step in place of
     /// its end.
@@ -40,15 +39,6 @@ thread_local! {
 /// Number of steps whose exponentials are computed together.
 const TOGETHER: usize = 16;
 
-/// What a history is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Use {
-    /// The groove of the history at the stages.
-    Groove,
-    /// The linearised equations too, which need the inverses of all exponentials.
-    Linearisation,
-}
-
 /// Room, in steps times terms, for nearly all cycles: memory that is never written costs nothing.
 const USUAL_ROOM: usize = 1 << 15;
 
@@ -61,12 +51,11 @@ impl Numbers {
             let room = USUAL_ROOM.max(count.next_power_of_two());
             numbers = Self {
                 exponentials: Vec::with_capacity(room),
-                inverses: Vec::with_capacity(room),
+                inverses: numbers.inverses,
                 zeta: Vec::with_capacity(room),
             };
         }
         numbers.exponentials.clear();
-        numbers.inverses.clear();
         numbers.zeta.clear();
         numbers
     }
@@ -95,8 +84,6 @@ pub(super) struct PastOfStep<'a> {
     pub(super) terms: &'a [Term],
     /// `e^{s_j d_i}`
     pub(super) exponentials: &'a [[Complex<f64>; STAGES]],
-    /// `e^{-s_j d_i}`, for a [linearisation](Use::Linearisation).
-    pub(super) inverses: &'a [[Complex<f64>; STAGES]],
     /// ζ at the start of the step.
     pub(super) zeta: &'a [Complex<f64>],
     /// ζ at the end of the step.
@@ -111,11 +98,7 @@ impl<'a> Past<'a> {
     ///
     /// Over a step of length h ζ becomes `e^{s d_s} (ζ e^{-h/T} + w Σ_k b_k e^{-s d_k})`, with the healing time T; after a
     /// period it must be the same again.
-    pub(super) fn of(
-        fit: &'a Fit,
-        (orbit, carved): (&Orbit, &'a [Carved]),
-        used: Use,
-    ) -> Option<Self> {
+    pub(super) fn of(fit: &'a Fit, (orbit, carved): (&Orbit, &'a [Carved])) -> Option<Self> {
         let terms = fit.terms();
         let count = orbit.stages.len() * terms.len();
         let mut numbers = Numbers::with_room(count);
@@ -130,12 +113,8 @@ impl<'a> Past<'a> {
                 exponentials.extend(terms.iter().map(|term| d.map(|d| term.exponent * d)));
             }
             let exponentials = &mut exponentials[from..];
-            if used == Use::Groove {
-                inverses.clear();
-            }
-            let from = inverses.len();
+            inverses.clear();
             inverses.extend_from_slice(exponentials);
-            let inverses = &mut inverses[from..];
             with_inverses(exponentials.as_flattened_mut(), inverses.as_flattened_mut());
             for (carved, inverses) in carved.iter().zip(inverses.chunks_exact(terms.len())) {
                 let [stays, ..] = carved.at_end();
@@ -145,7 +124,7 @@ impl<'a> Past<'a> {
                 zeta.extend(terms.iter().zip(inverses).map(of_term));
             }
         }
-        let mut past = Self { terms, numbers, carved, used };
+        let mut past = Self { terms, numbers, carved };
         let added = past.of_one_period();
         let moved: f64 = orbit.stages.iter().map(|d| d[STAGES - 1]).sum();
         let kept: f64 = carved.iter().map(|carved| carved.left()[STAGES - 1]).product();
@@ -200,7 +179,6 @@ impl<'a> Past<'a> {
         PastOfStep {
             terms: self.terms,
             exponentials: &self.numbers.exponentials[of(n)],
-            inverses: if self.used == Use::Groove { &[] } else { &self.numbers.inverses[of(n)] },
             zeta: &self.numbers.zeta[of(n)],
             after: &self.numbers.zeta[of(n + 1)],
             left: self.carved[n].left(),

@@ -72,6 +72,8 @@ pub(super) struct Factors {
     by_heights: Vec<Stages>,
     /// The factor of each ζ.
     turns: Vec<Complex<f64>>,
+    /// `e^{-s_j d_i}`
+    inverses: Vec<[Complex<f64>; STAGES]>,
 }
 
 /// The data of a step: its state at the start, its length, its solution.
@@ -239,7 +241,7 @@ impl<'a> LinearStep<'a> {
     ) {
         let modes = self.past.terms.len();
         let rows = self.equation.state_len();
-        let Factors { by_stages, by_heights, turns, .. } = room;
+        let Factors { by_stages, by_heights, turns, inverses, .. } = room;
         by_stages.clear();
         by_stages.resize(rows, [0.0; STAGES]);
         by_heights.clear();
@@ -249,6 +251,9 @@ impl<'a> LinearStep<'a> {
         turns.clear();
         turns.extend(self.past.exponentials.iter().map(|e| e[STAGES - 1] * left));
         state.multiply_pairs(1, turns);
+        inverses.clear();
+        inverses.extend_from_slice(self.past.exponentials);
+        invert(inverses.as_flattened_mut());
         state.constants(0)[0] += self.equation.r * share;
         if free == Parameter::R {
             state.constants(0)[1] += self.h;
@@ -258,7 +263,7 @@ impl<'a> LinearStep<'a> {
         for (j, term) in self.past.terms.iter().enumerate() {
             let e = self.past.exponentials[j][STAGES - 1];
             let (re, im) = (1 + j, 1 + modes + j);
-            let (weight, inverses) = (term.weight * e, &self.past.inverses[j]);
+            let (weight, inverses) = (term.weight * e, &inverses[j]);
             let moved = -term.exponent * weight * self.carved.times;
             (by_stages[re], by_stages[im]) = times(inverses, &stays, moved);
             let last = term.exponent * self.past.after[j];
@@ -311,6 +316,17 @@ fn products(
     }
 }
 
+/// Replaces each of these numbers by its inverse.
+///
+/// Compiled for wider vectors too: lanes are independent of each other.
+#[multiversion(targets("x86_64+avx2"))]
+fn invert(numbers: &mut [Complex<f64>]) {
+    for number in numbers {
+        let scale = 1.0 / (number.re * number.re + number.im * number.im);
+        *number = Complex::new(number.re * scale, -number.im * scale);
+    }
+}
+
 /// Real and imaginary parts of these numbers, each multiplied by its factor and by the common factor `of_all`.
 #[inline]
 fn times(
@@ -328,11 +344,26 @@ fn times(
 
 #[cfg(test)]
 mod tests {
-    use super::super::past::{Past, Use};
+    use super::super::past::Past;
     use super::*;
+    use stickslip_tip::elementary::complex_exp;
     use stickslip_tip::memory::{Groove, Policy};
     use stickslip_tip::step::{Equations, Law};
     use stickslip_tip::{Model, TipFunction};
+
+    /// The inverses of e^z are e^{-z}, of sizes that a step from a bad guess has too.
+    #[test]
+    fn inverses_are_inverses() {
+        for re in [-150.0, -3.0, 0.0, 0.7, 150.0] {
+            let exponents = [-2.0, 0.0, 1.0, 40.0].map(|im| Complex::new(re, im));
+            let mut inverses = exponents.map(complex_exp);
+            invert(&mut inverses);
+            for (inverse, exponent) in inverses.into_iter().zip(exponents) {
+                assert!((inverse * complex_exp(exponent) - 1.0).norm() < 1e-15, "{exponent}");
+                assert!((inverse / complex_exp(-exponent) - 1.0).norm() < 1e-13, "{exponent}");
+            }
+        }
+    }
 
     /// Comparison with the equations of the integrator and its memory, on the steps of a cycle: the history agrees,
     /// and all derived quantities.
@@ -344,7 +375,7 @@ mod tests {
         let (equation, orbit) = (&found.closed.equation, &found.closed.orbit);
         let law = Law::of(&model);
         let carved = orbit.carved(&equation.wider);
-        let past = Past::of(&equation.fine, (orbit, &carved), Use::Linearisation).unwrap();
+        let past = Past::of(&equation.fine, (orbit, &carved)).unwrap();
         let grooves = past.grooves(false);
         let mut memory = Policy::with_fit(tip.clone(), equation.fine.clone()).unwrap();
         let steps = || orbit.lengths().zip(&orbit.stages);

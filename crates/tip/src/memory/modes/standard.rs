@@ -8,8 +8,11 @@ use crate::elementary::{log10, pow};
 use crate::tip_function::{Gaussian, TipFunction};
 use num_complex::Complex;
 
-/// Sums and their certificates; the first lines of the file explain its format.
-const TABLE: &str = include_str!("standard/table.txt");
+/// A sum and its certificate; the first lines of the file say what is where.
+type Sum = (&'static str, [u32; 2], [f64; 3], &'static [[f64; 4]]);
+
+#[expect(clippy::unreadable_literal, reason = "written by a test")]
+static TABLE: &[Sum] = include!("standard/table.rs");
 
 const fn gaussian(amplitude: f64, center: f64) -> Gaussian {
     Gaussian { amplitude, center, width: 1.0 }
@@ -23,31 +26,21 @@ const GAUSSIAN: [Gaussian; 1] = [gaussian(1.0, 0.0)];
 pub(super) fn known(tip: &TipFunction, wanted: f64) -> Option<(Vec<Term>, FitCertificate)> {
     let TipFunction::Gaussians(sum) = tip else { return None };
     let name = match sum.terms() {
-        terms if terms == TRIPLE_GAUSSIAN => "triple-gaussian ",
-        terms if terms == GAUSSIAN => "gaussian ",
+        terms if terms == TRIPLE_GAUSSIAN => "triple-gaussian",
+        terms if terms == GAUSSIAN => "gaussian",
         _ => return None,
     };
     let exact = |quarters: &u32| accuracy(*quarters).to_bits() == wanted.to_bits();
-    let quarters = f64::from(nearest_quarter(wanted).filter(exact)?);
-    TABLE.split("\n\n").find_map(|sum| {
-        let (head, terms) = sum.strip_prefix(name)?.split_once('\n')?;
-        let [from, to, slope, curvature, area] = numbers(head)?;
-        if !(from..=to).contains(&quarters) {
-            return None;
-        }
-        let terms: Option<Vec<Term>> = terms.lines().map(term).collect();
-        Some((terms?, FitCertificate { slope, curvature, area }))
-    })
-}
-
-fn term(line: &str) -> Option<Term> {
-    let [s, si, w, wi] = numbers(line)?;
-    Some(Term { exponent: Complex::new(s, si), weight: Complex::new(w, wi) })
-}
-
-fn numbers<const N: usize>(line: &str) -> Option<[f64; N]> {
-    let numbers: Result<Vec<f64>, _> = line.split(' ').map(str::parse).collect();
-    numbers.ok()?.try_into().ok()
+    let quarters = nearest_quarter(wanted).filter(exact)?;
+    let is_wanted = |(footprint, [from, to], ..): &&Sum| {
+        *footprint == name && (*from..=*to).contains(&quarters)
+    };
+    let (_, _, [slope, curvature, area], terms) = *TABLE.iter().find(is_wanted)?;
+    let term = |[s, si, w, wi]: &[f64; 4]| Term {
+        exponent: Complex::new(*s, *si),
+        weight: Complex::new(*w, *wi),
+    };
+    Some((terms.iter().map(term).collect(), FitCertificate { slope, curvature, area }))
 }
 
 /// 10^(-quarters/4), computed as in [`accuracy_needed`](super::accuracy_needed).
@@ -79,15 +72,17 @@ mod tests {
     /// names the file to put in its place.
     #[test]
     fn the_table_is_what_is_found() {
-        let head = TABLE.split("\n\n").next().unwrap();
-        let mut text = format!("{head}\n");
+        const WRITTEN: &str = include_str!("standard/table.rs");
+        let (head, _) = WRITTEN.split_once("&[").unwrap();
+        let mut text = format!("{head}&[\n");
         for (name, tip) in tips() {
             text += &tabulated(name, &tip);
         }
-        if text != TABLE {
-            let file = std::env::temp_dir().join("table.txt");
+        text += "]\n";
+        if text != WRITTEN {
+            let file = std::env::temp_dir().join("table.rs");
             std::fs::write(&file, text).unwrap();
-            panic!("standard/table.txt is not what is found: that is in {}", file.display());
+            panic!("standard/table.rs is not what is found: that is in {}", file.display());
         }
     }
 
@@ -100,10 +95,12 @@ mod tests {
             let (from, to) = (alike[0].0, alike[alike.len() - 1].0);
             let (fit, certificate) = (&alike[0].1, alike[0].1.certificate());
             let FitCertificate { slope, curvature, area } = certificate;
-            writeln!(text, "\n{name} {from} {to} {slope:?} {curvature:?} {area:?}").unwrap();
+            let errors = [slope, curvature, area];
+            writeln!(text, "(\"{name}\", [{from}, {to}], {errors:?}, &[").unwrap();
             for Term { exponent: s, weight: w } in fit.terms() {
-                writeln!(text, "{:?} {:?} {:?} {:?}", s.re, s.im, w.re, w.im).unwrap();
+                writeln!(text, "{:?},", [s.re, s.im, w.re, w.im]).unwrap();
             }
+            text += "]),\n";
         }
         text
     }

@@ -71,8 +71,8 @@ def from_midpoint(value):
 def variant(tunables):
     environment = {**os.environ, "GLIBC_TUNABLES": tunables}
     command = [sys.executable, __file__, "values"]
-    told = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, text=True)
-    return [line.split() for line in told.stdout.splitlines()]
+    printed = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, text=True)
+    return [line.split() for line in printed.stdout.splitlines()]
 
 
 def table():

@@ -95,20 +95,17 @@ impl Carved {
         let row = |matrix: &Matrix, factors: &Stages| -> Stages {
             std::array::from_fn(|k| matrix[STAGES - 1][k] * factors[k])
         };
-        let bare = self.bare();
-        let by_height = row(&bare, &self.wide().by_height).map(|b| b * self.times);
-        let stays = row(&bare, &self.wide().weights);
-        let rate = self
-            .wide()
-            .healing
-            .as_ref()
-            .map_or(stays, |healing| row(&healing[1], &self.wide().weights));
+        let (bare, Wide { healing, weights, by_height, .. }) = (self.bare(), self.wide());
+        let by_height = row(&bare, by_height).map(|b| b * self.times);
+        let stays = row(&bare, weights);
+        let rate = healing.as_ref().map_or(stays, |healing| row(&healing[1], weights));
         [stays, rate, by_height]
     }
 
     /// ∂`b_ik w_k`/∂h if the surface heals; else it is [`weighted`](Self::weighted).
     pub(super) fn rate(&self) -> Option<Matrix> {
-        self.wide().healing.as_ref().map(|healing| by_columns(&healing[1], &self.wide().weights))
+        let Wide { healing, weights, .. } = self.wide();
+        healing.as_ref().map(|healing| by_columns(&healing[1], weights))
     }
 
     /// ∂`b_ik w_k`/∂`η_k`

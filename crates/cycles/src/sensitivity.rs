@@ -111,13 +111,13 @@ impl Sensitivity {
         constants: &[Vector; CONSTANTS],
     ) {
         self.columns = state.columns;
-        let (first, stride) = (self.entries.len(), self.stride());
-        self.entries.resize(first + STAGES * stride, 0.0);
-        contract(&state.entries, stride, factors, &mut self.entries[first..]);
-        let rows = self.entries[first..].chunks_exact_mut(stride);
-        for (i, row) in rows.enumerate() {
-            let columns = &mut row[state.columns - CONSTANTS..];
-            columns.iter_mut().zip(constants).for_each(|(column, constant)| *column += constant[i]);
+        let (first, stride) = (self.rows(), self.stride());
+        self.entries.resize((first + STAGES) * stride, 0.0);
+        contract(&state.entries, stride, factors, &mut self.entries[first * stride..]);
+        for i in 0..STAGES {
+            for (column, constant) in self.constants(first + i).iter_mut().zip(constants) {
+                *column += constant[i];
+            }
         }
     }
 

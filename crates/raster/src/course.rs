@@ -13,6 +13,7 @@ use crate::trace::{Trace, Ways, Writer};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use stickslip_tip::threads::side_by_side;
 use stickslip_tip::{InitialSurface, Layer, Relief, Running, Step, Support, stop};
 
 /// The trace of all lines at one y.
@@ -149,12 +150,7 @@ impl<'a> Course<'a> {
             let _on_panic = OnPanic(course);
             stop::with_flag(&flag, || self.work(course, most, &of_line));
         };
-        std::thread::scope(|scope| {
-            for _ in 1..threads {
-                scope.spawn(work);
-            }
-            work();
-        });
+        side_by_side(threads, work);
         let shared = shared.into_inner().unwrap_or_else(PoisonError::into_inner);
         shared.ended.unwrap_or(Ok(()))
     }

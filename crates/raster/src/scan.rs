@@ -8,7 +8,7 @@ use crate::line::Line;
 use crate::path::{Path, Track};
 use crate::plan::Plan;
 use stickslip_tip::planar::{self, EarlierGrooves, PlanarError, PlanarRunning, PlanarScenario};
-use stickslip_tip::{InitialSurface, Running, Step, Work, stop};
+use stickslip_tip::{InitialSurface, Running, Step, Work, stop, threads};
 
 /// A raster in progress.
 pub struct Scanning<'a> {
@@ -115,10 +115,7 @@ impl<'a> Scanning<'a> {
         of_line: impl Fn(usize, &Line) -> T + Sync,
         mut take: impl FnMut(&Line, T) -> bool + Send,
     ) -> Result<(), RasterError> {
-        let threads = match threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
-            given => given,
-        };
+        let threads = threads::count(threads);
         let Self { plan, past, lines } = self;
         if let (Past::Traces(course, rows), true) = (past, plan.path != Path::Zigzag && threads > 1)
         {

@@ -27,6 +27,7 @@ pub mod sorting;
 pub mod state;
 pub mod step;
 pub mod stop;
+pub mod threads;
 pub mod tip_function;
 pub mod walker;
 

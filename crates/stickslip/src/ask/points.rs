@@ -5,8 +5,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 use stickslip_tip::sorting::sort_by_number;
+use stickslip_tip::threads::{count, side_by_side};
 
 /// Groups of points per thread: some take longer than others.
 const GROUPS_PER_THREAD: usize = 4;
@@ -74,11 +74,7 @@ pub fn each_point<Q: Points>(
     keep: impl FnMut(Q::Point) -> bool + Send,
 ) -> Result<(), Failure> {
     // More threads than points would have nothing to do.
-    let threads = match threads {
-        0 => thread::available_parallelism().map_or(1, usize::from),
-        given => given,
-    };
-    let threads = threads.clamp(1, indices.len().max(1));
+    let threads = count(threads).min(indices.len().max(1));
     let groups = GROUPS_PER_THREAD * threads;
     let size = indices.len().div_ceil(groups).clamp(1, question.together());
     let begun = AtomicUsize::new(0);
@@ -93,13 +89,13 @@ pub fn each_point<Q: Points>(
         }
     };
     let work = || {
-        let work = || {
+        let groups = || {
             while let Some(group) = next().filter(|_| goes_on()) {
                 safely(question, group, &mut |point| take(point));
             }
             Ok(())
         };
-        context.keeping(work).ok();
+        context.keeping(groups).ok();
     };
     if question.has_parallel_parts() {
         // This thread wakes all others: one that another of them wakes may wait until the scheduler moves it to a
@@ -109,17 +105,6 @@ pub fn each_point<Q: Points>(
         side_by_side(threads, work);
     }
     if context.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
-}
-
-/// Does the work on this number of threads, of which this is one: its memory is there already.
-fn side_by_side(threads: usize, work: impl Fn() + Sync) {
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            // What a thread that cannot be started would have done is left to the others.
-            thread::Builder::new().spawn_scoped(scope, &work).ok();
-        }
-        work();
-    });
 }
 
 /// Computes these points. If a library panics, the missing points are computed one by one, and a point at which it

@@ -20,13 +20,11 @@ use stickslip::{
 };
 use stickslip_raster::Plan;
 use stickslip_tables::{Frame, gsf};
+use stickslip_tip::threads::count;
 
 pub(crate) fn raster(session: &Session, arguments: &RasterArguments) -> Result<(), Failure> {
     let RasterArguments { options, area, pulse, output, plot, .. } = arguments;
-    let threads = match threads(arguments.threads)? {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        given => given,
-    };
+    let threads = count(threads(arguments.threads)?);
     let read = files_read(options, area);
     distinct(&[("--output", Some(&**output)), ("--plot", plot.as_deref())], &read)?;
     let is_gsf = arguments.format.is_none()
